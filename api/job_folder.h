@@ -1,0 +1,44 @@
+/* The names of what a job folder holds: the whole contract between the daemon and a worker.
+ *
+ *   spec.json        canonical spec, written by the daemon before the worker starts
+ *   events.ndjson    append-only, one JSON object a line; every line ends in \n (a last line without it is not
+ *                    yet written). Each has "event" and, but for start, "step" and "time" (s since rotation
+ *                    began, negative before):
+ *       {"event":"start","attempt":2,"step":120000,"resumed":true,"particles":2500,"time_step":1e-5,"total_steps":520000}
+ *       {"event":"progress","phase":"settling","step":..,"time":..,"progress":37.5,"eta_seconds":41.0,
+ *        "particle_steps_per_second":2.1e7}                                    about once a second
+ *       {"event":"sample","number":0,"step":..,"time":..,"values":{"angle_deg":22.7, ...}}   NaN becomes null
+ *       {"event":"snapshot","number":0,"step":..,"time":..,"file":"000000.hdf","bytes":..,"particles":..}
+ *       {"event":"checkpoint","step":..,"time":..}
+ *       {"event":"failure","status":"overlap-too-large","message":"...","detail":{...}}
+ *     A later attempt goes on from the checkpoint and repeats what came after it with the same numbers: readers
+ *     key samples and snapshots by "number" and let the later line win.
+ *   snapshots/000000.hdf ...   written as .tmp, closed, fsynced, renamed; never changed after
+ *   snapshots.hdf.series       opens them in ParaView as one time series
+ *   checkpoint.hdf             newest full state
+ *   result.json                the document of GET /jobs/{id}/results; written last, by rename
+ *   log.txt                    the worker's stderr
+ */
+#ifndef JOB_FOLDER_H
+#define JOB_FOLDER_H
+
+#define JOB_SPEC_FILE "spec.json"
+#define JOB_EVENTS_FILE "events.ndjson"
+#define JOB_SNAPSHOT_FOLDER "snapshots"
+#define JOB_SNAPSHOT_FILE_FORMAT "%06lld.hdf"
+#define JOB_SERIES_FILE "snapshots.hdf.series"
+#define JOB_CHECKPOINT_FILE "checkpoint.hdf"
+#define JOB_RESULT_FILE "result.json"
+#define JOB_LOG_FILE "log.txt"
+
+/* How `repose run` ends. */
+enum worker_exit {
+    WORKER_DONE = 0,
+    WORKER_FAULT = 1,     /* our own bug or a missing file */
+    WORKER_BAD_SPEC = 2,
+    WORKER_STOPPED = 3,   /* SIGTERM: checkpoint written, to be continued (or dismissed: the daemon knows which) */
+    WORKER_NUMERICAL = 4, /* the failure event says what, where, when */
+    WORKER_DISK = 5
+};
+
+#endif

@@ -1,0 +1,47 @@
+/* A job's specification: the request {"inputs": {...}, "label": {...}} read, checked and filled in.
+ *
+ * The same code reads a user's request and the canonical spec.json of a job folder: canonical means SI, every
+ * default filled in, the seed chosen. Reading a canonical spec and writing it again gives the same bytes. */
+#ifndef JOB_SPEC_H
+#define JOB_SPEC_H
+
+#include <jansson.h>
+#include <stdbool.h>
+
+#include "dem_types.h"
+#include "problem.h"
+
+typedef struct job_spec {
+    char process[16];            /* "drum" */
+    dem_drum_definition drum;    /* complete: stiffness, time step and particle count derived */
+    double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
+    double duration;             /* s from the start of rotation */
+    double sample_interval;      /* s between frames of measurement */
+    double snapshot_interval;    /* s between snapshots; 0: only the last */
+    json_t *label;               /* object of strings, owned; never NULL */
+} job_spec;
+
+typedef struct job_estimate {
+    double particles, steps, wall_seconds, memory_bytes, snapshots, snapshot_bytes;
+} job_estimate;
+
+/* Reads {"process"?, "inputs", "label"?}. process: NULL takes the document's own "process" (default "drum").
+ * False when there are problems, all of them listed; the spec is then cleared.
+ * seed_if_missing: what to use where the request gives no seed. */
+bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing,
+                    job_spec *spec, problem_list *problems);
+void job_spec_clear(job_spec *spec);
+
+/* {"process", "inputs", "label"}: canonical. New reference. */
+json_t *job_spec_to_json(const job_spec *spec);
+
+/* particle_steps_per_second: of this machine on one thread; <= 0 takes a cautious built-in figure. */
+job_estimate job_spec_estimate(const job_spec *spec, double particle_steps_per_second);
+json_t *job_estimate_to_json(const job_estimate *estimate);
+
+/* OGC process description with every input's JSON Schema, unit, range and default, made from the same table
+ * of fields that the parser uses. NULL for an unknown process. New reference. */
+json_t *process_description(const char *process);
+json_t *process_summaries(void); /* array of summaries, for GET /processes */
+
+#endif

@@ -1,0 +1,60 @@
+/* The granular core's public face: make a scene, advance it, look at it, save it, measure it.
+ *
+ * The core is a library of the numbers alone: it opens no file, prints nothing, reads no clock and never exits.
+ * Every function that can fail returns a dem_status. */
+#ifndef DEM_H
+#define DEM_H
+
+#include "dem_types.h"
+
+typedef struct dem_scene dem_scene;
+
+/* A scene of the drum with its particles placed at random, at step 0 of DEM_PHASE_GROWING.
+ * definition: checked (DEM_BAD_PARAMETER); copied. *scene: freed with dem_scene_free; NULL on failure.
+ * Errors: DEM_NO_MEMORY, DEM_BAD_PARAMETER, DEM_DOES_NOT_FIT. */
+dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **scene);
+void dem_scene_free(dem_scene *scene);
+
+/* Advance by `steps` time steps, passing from growing to settling to rotating as each phase ends.
+ * Stops early with the failure described by dem_scene_failure. The same bits for any number of threads and
+ * for any way of dividing the steps into calls. */
+dem_status dem_scene_advance(dem_scene *scene, int64_t steps);
+const dem_failure *dem_scene_failure(const dem_scene *scene);
+
+dem_phase dem_scene_phase(const dem_scene *scene);
+int64_t dem_scene_step_count(const dem_scene *scene);      /* since creation */
+int64_t dem_scene_rotation_start(const dem_scene *scene);  /* step at which rotation began; -1 before */
+double dem_scene_time(const dem_scene *scene);             /* s since rotation began; negative before: less the time since creation */
+size_t dem_scene_particle_count(const dem_scene *scene);   /* mobile particles, without the lining */
+double dem_scene_maximum_overlap(const dem_scene *scene);  /* since rotation began, as a share of the smallest diameter */
+double dem_scene_kinetic_energy(const dem_scene *scene);   /* J, translation and rotation */
+
+/* Fill the arrays that are not NULL; each has dem_scene_particle_count rows, ordered by id. */
+void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arrays);
+
+/* Save and restore. A scene created from the same definition and restored continues bit for bit.
+ * Errors: DEM_NO_MEMORY; DEM_STATE_MISMATCH from restore. */
+dem_status dem_scene_save(const dem_scene *scene, dem_state *state);
+void dem_state_clear(dem_state *state);
+dem_status dem_scene_restore(dem_scene *scene, const dem_state *state);
+
+/* Measuring: the caller takes frames at regular intervals of simulated time while the drum rotates, keeps
+ * them as rows of a table (with the checkpoint, too), and asks for the results from the table at the end.
+ * A frame is dem_frame_width numbers; the first DEM_FRAME_SCALARS have the names that dem_frame_scalar_name
+ * gives ("time", "angle_deg", ...), the rest is the interface's height over x. */
+enum { DEM_FRAME_SCALARS = 16 };
+size_t dem_frame_width(const dem_scene *scene);
+const char *dem_frame_scalar_name(size_t index); /* NULL beyond the last */
+dem_status dem_frame_measure(dem_scene *scene, double *frame);
+
+/* frames: (count, dem_frame_width) in order of time. NaN where something could not be measured.
+ * Errors: DEM_TOO_FEW_FRAMES (fewer than 8), DEM_NO_MEMORY. */
+dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count,
+                                    dem_drum_results *results);
+
+const char *dem_status_text(dem_status status);
+const char *dem_phase_name(dem_phase phase);         /* "growing", "settling", "rotating" */
+const char *dem_regime_name(dem_regime regime);      /* "slipping", ... */
+const char *dem_angle_method_name(dem_angle_method method); /* "surface-fit", "center-of-mass", ... */
+
+#endif

@@ -1,0 +1,180 @@
+/* Plain structs of the granular core: what a scene is made of, and what is measured in it.
+ *
+ * SI throughout (m, s, kg, N, rad); fields that end in _deg are degrees, because the measures are asked for
+ * in degrees. The drum's axis is z, gravity points along -y, and a positive rotation rate turns the drum
+ * counter-clockwise in the x-y plane, so that the free surface rises towards +x. */
+#ifndef DEM_TYPES_H
+#define DEM_TYPES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { DEM_MAXIMUM_SPECIES = 16 };
+
+typedef enum dem_status {
+    DEM_OK = 0,
+    DEM_NO_MEMORY,
+    DEM_BAD_PARAMETER,       /* a definition breaks a rule that include/dem_rules.h states */
+    DEM_DOES_NOT_FIT,        /* the particles asked for can't be placed in the container */
+    DEM_NOT_A_NUMBER,        /* a position or velocity is no longer finite */
+    DEM_OVERLAP_TOO_LARGE,   /* an overlap beyond half of the smaller radius */
+    DEM_PARTICLE_ESCAPED,    /* a particle's centre is outside the container */
+    DEM_NEVER_SETTLED,       /* the bed did not come to rest before rotation */
+    DEM_TOO_FEW_FRAMES,      /* not enough frames for the measure asked for */
+    DEM_STATE_MISMATCH       /* a saved state does not belong to this definition */
+} dem_status;
+
+typedef struct dem_species {
+    double diameter; /* m */
+    double density;  /* kg/m3 */
+    double share;    /* of the particles by number; shares of all species sum to 1 */
+} dem_species;
+
+/* Walton-Braun latching spring and incremental friction (Walton & Braun 1993; equations in core/NUMERICS.md). */
+typedef struct dem_contact_parameters {
+    double stiffness;                  /* K1, N/m, loading branch */
+    double restitution;                /* e = sqrt(K1/K2) */
+    double friction;                   /* mu between particles */
+    double wall_friction;              /* mu_w, particle against wall or lining */
+    double tangential_stiffness_ratio; /* K_T0/K1 */
+} dem_contact_parameters;
+
+/* Spheres glued to the inner wall, turning with it. diameter 0: no lining, a smooth wall. */
+typedef struct dem_lining {
+    double diameter; /* m */
+    double pitch;    /* m between neighboring centres, around the wall and along the axis */
+} dem_lining;
+
+typedef struct dem_drum_definition {
+    double diameter;      /* m, inner diameter of the smooth wall */
+    double length;        /* m along the axis: the period */
+    double rotation_rate; /* rad/s */
+    double gravity;       /* m/s2 */
+    double fill_fraction; /* share of the cross-section below the free surface at a bed solid fraction of 0.6 */
+    size_t particle_count;
+    size_t species_count;
+    dem_species species[DEM_MAXIMUM_SPECIES];
+    dem_contact_parameters contact;
+    dem_lining lining;
+    double time_step; /* s */
+    uint64_t seed;
+    int threads;
+} dem_drum_definition;
+
+typedef enum dem_phase {
+    DEM_PHASE_GROWING,  /* spheres placed at random grow to full size, without gravity */
+    DEM_PHASE_SETTLING, /* the bed falls and comes to rest in the standing drum */
+    DEM_PHASE_ROTATING
+} dem_phase;
+
+/* Where and why a run went wrong; filled when dem_scene_advance does not return DEM_OK. */
+typedef struct dem_failure {
+    dem_status status;
+    int64_t step;
+    double time;           /* s since rotation began; negative before */
+    int64_t particle;      /* id, -1: none in particular */
+    int64_t other;         /* id of the other particle, -1: the wall or none */
+    double position[3];    /* m */
+    double value, limit;   /* what was seen and what is allowed, in the unit below */
+    const char *quantity;  /* "overlap", "distance from the axis", "velocity", ... */
+    const char *unit;
+    const char *likely_cause;
+} dem_failure;
+
+/* The particles' state, ordered by id, for snapshots. Arrays belong to the caller. */
+typedef struct dem_particle_arrays {
+    double *position;         /* (n,3) m, z within [-length/2, length/2) */
+    double *velocity;         /* (n,3) m/s, half a step before the positions */
+    double *angular_velocity; /* (n,3) rad/s, likewise */
+    double *radius;           /* (n) m */
+    int32_t *species;         /* (n) index into the definition's species */
+    int32_t *contacts;        /* (n) contacts with other particles, lining and wall */
+} dem_particle_arrays;
+
+/* Everything a scene needs to go on bit for bit: saved by dem_scene_save, owned by the caller.
+ * `table` names each array so that a file can hold them without knowing what they mean. */
+typedef enum dem_element { DEM_FLOAT64, DEM_INT64, DEM_INT32 } dem_element;
+
+typedef struct dem_state_array {
+    const char *name;
+    dem_element element;
+    size_t rows, columns;
+    void *data; /* rows x columns, row after row */
+} dem_state_array;
+
+enum { DEM_STATE_ARRAYS = 16 };
+
+typedef struct dem_state {
+    size_t array_count;
+    dem_state_array array[DEM_STATE_ARRAYS];
+} dem_state;
+
+typedef enum dem_regime {
+    DEM_SLIPPING, DEM_SLUMPING, DEM_AVALANCHING, DEM_ROLLING, DEM_CASCADING, DEM_CATARACTING,
+    DEM_RAINING, DEM_SLIDING, DEM_CENTRIFUGING
+} dem_regime;
+
+/* An angle with the uncertainty of its mean over the measuring window. NaN where it could not be measured. */
+typedef struct dem_angle {
+    double mean_deg, standard_error_deg, minimum_deg, maximum_deg;
+} dem_angle;
+
+typedef enum dem_angle_method {
+    DEM_SURFACE_FIT,    /* line through the half-density heights over the middle 60 % of the chord */
+    DEM_CENTER_OF_MASS, /* direction of the centre of mass from straight down */
+    DEM_CHORD,          /* slope of the time-averaged interface between +-D/10 (GranuDrum) */
+    DEM_THEIL_SEN,      /* Theil-Sen line through the tops of columns one diameter wide */
+    DEM_UPPER_CHORD,    /* upper half of the chord alone */
+    DEM_LOWER_CHORD,    /* lower half of the chord alone */
+    DEM_ANGLE_METHODS
+} dem_angle_method;
+
+typedef struct dem_repose_result {
+    dem_angle angle[DEM_ANGLE_METHODS];
+    bool steady;
+    double drift_deg_per_revolution;
+    double interface_fluctuation; /* m: mean over x of the standard deviation in time of the interface height */
+    double window_start, window_end; /* s since rotation began */
+    double correlation_time;         /* s, of the surface-fit angle */
+    size_t frames;                   /* in the window */
+} dem_repose_result;
+
+typedef struct dem_regime_result {
+    dem_regime regime;
+    double omega2_outer, omega2_inner;  /* omega^2 R/g at the wall and at the bed's inner surface */
+    /* predicted boundaries of Omega_i^2 for the measured angle of repose */
+    double predicted_stationary;        /* Eq 33: 1/sin(phi) */
+    double predicted_sliding_eq35;      /* Eq 35 */
+    double predicted_sliding_eq36;      /* Eqns 36-37 */
+    /* evidence */
+    double wall_slip;                   /* 1 - spin of the outermost layer / spin of the drum, mean */
+    double wall_slip_fluctuation;       /* its standard deviation in time */
+    double angle_fluctuation_deg;       /* standard deviation in time of the centre of mass's direction */
+    double flow_fluctuation;            /* standard deviation over mean of the surface flow's speed */
+    double airborne_fraction;           /* share of particles without any contact, mean */
+    double wall_coverage;               /* share of the wall's circumference that has particles against it */
+    double curvature_deg;               /* upper less lower half of the chord */
+    double fallen_fraction;             /* share of particles lately nearer the axis than R_i - 2d */
+    double surface_lag;                 /* rad a revolution by which the inner surface lags the drum */
+} dem_regime_result;
+
+typedef struct dem_segregation_result {
+    double radial_index; /* (mean radius of the largest species less that of the smallest) / drum radius; NaN: one species */
+    double axial_index;  /* NaN: one species */
+    double lacey_index;  /* 0 segregated, 1 randomly mixed; NaN: one species */
+} dem_segregation_result;
+
+typedef struct dem_packing_result {
+    double solid_fraction;      /* of the bed's core */
+    double coordination_number; /* mean contacts a particle */
+} dem_packing_result;
+
+typedef struct dem_drum_results {
+    dem_repose_result repose;
+    dem_regime_result regime;
+    dem_segregation_result segregation;
+    dem_packing_result packing;
+} dem_drum_results;
+
+#endif
