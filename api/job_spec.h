@@ -1,7 +1,9 @@
 /* A job's specification: the request {"inputs": {...}, "label": {...}} read, checked and filled in.
  *
  * The same code reads a user's request and the canonical spec.json of a job folder: canonical means SI, every
- * default filled in, the seed chosen. Reading a canonical spec and writing it again gives the same bytes. */
+ * default filled in, the seed chosen. Reading a canonical spec and writing it again gives the same bytes. What
+ * follows from the inputs (stiffness from maximum_overlap, time step, particle count from fill_fraction) is not
+ * written but derived anew by every reader, which gives the same numbers. */
 #ifndef JOB_SPEC_H
 #define JOB_SPEC_H
 
@@ -11,29 +13,53 @@
 #include "dem_types.h"
 #include "problem.h"
 
+/* The inputs as asked for, with defaults. All are doubles so that one table of fields can read, write and
+ * describe them; NaN: not given, because its alternative was (or, for the lining, because there is none). */
+typedef struct species_inputs {
+    double shape; /* index into the choices of the table */
+    double diameter, density, share;
+} species_inputs;
+
+typedef struct drum_inputs {
+    double drum_diameter, drum_length, drum_ends, rotation_rate;
+    size_t species_count;
+    species_inputs species[DEM_MAXIMUM_SPECIES];
+    double fill_fraction, particle_count;            /* one of the two */
+    double contact_law, friction, restitution, tangential_stiffness_ratio;
+    double maximum_overlap, stiffness;               /* one of the two */
+    double wall_friction, lining_diameter, lining_pitch;
+    double revolutions, seconds;                     /* one of the two */
+    double snapshot_interval, sample_interval;
+    double seed, threads, gravity;
+} drum_inputs;
+
 typedef struct job_spec {
     char process[16];            /* "drum" */
+    drum_inputs inputs;          /* as asked for */
     dem_drum_definition drum;    /* complete: stiffness, time step and particle count derived */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
     double duration;             /* s from the start of rotation */
     double sample_interval;      /* s between frames of measurement */
     double snapshot_interval;    /* s between snapshots; 0: only the last */
-    json_t *label;               /* object of strings, owned; never NULL */
+    json_t *label;               /* object of strings and numbers, owned; never NULL */
 } job_spec;
 
 typedef struct job_estimate {
     double particles, steps, wall_seconds, memory_bytes, snapshots, snapshot_bytes;
+    double simulated_seconds, time_step, stiffness; /* settling included; s; N/m */
 } job_estimate;
 
 /* Reads {"process"?, "inputs", "label"?}. process: NULL takes the document's own "process" (default "drum").
  * False when there are problems, all of them listed; the spec is then cleared.
- * seed_if_missing: what to use where the request gives no seed. */
+ * seed_if_missing: what to use where the request gives no seed (its low 53 bits). */
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing,
                     job_spec *spec, problem_list *problems);
 void job_spec_clear(job_spec *spec);
 
-/* {"process", "inputs", "label"}: canonical. New reference. */
+/* {"process", "inputs", "label"}: canonical. New reference; NULL: no memory. */
 json_t *job_spec_to_json(const job_spec *spec);
+/* The canonical text, as spec.json holds it. To be freed; NULL: no memory. */
+char *job_spec_to_text(const job_spec *spec);
 
 /* particle_steps_per_second: of this machine on one thread; <= 0 takes a cautious built-in figure. */
 job_estimate job_spec_estimate(const job_spec *spec, double particle_steps_per_second);

@@ -1,0 +1,109 @@
+/* A request as a whole: process, inputs, label. */
+#include "job_spec.h"
+
+#include <stdlib.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "spec_rules.h"
+#include "spec_text.h"
+
+enum { MOST_LABELS = 32, LONGEST_LABEL_NAME = 64, LONGEST_LABEL = 200 };
+
+static void read_process(const char *process, const json_t *request, problem_list *problems)
+{
+    const json_t *member = json_object_get(request, "process");
+    char seen[80];
+    json_value_text(member, seen, sizeof seen);
+    if (member && !json_is_string(member)) {
+        problem_list_add(problems, "/process", "is %s; must be the name of a process", seen);
+    } else if (member && process && strcmp(json_string_value(member), process) != 0) {
+        problem_list_add(problems, "/process", "is %s; was sent to the process \"%.40s\"", seen, process);
+    } else if (!process && member && strcmp(json_string_value(member), "drum") != 0) {
+        problem_list_add(problems, "/process", "is %s; available: \"drum\"", seen);
+    } else if (process && strcmp(process, "drum") != 0) {
+        problem_list_add(problems, "/process", "\"%.40s\" is not available; available: \"drum\"", process);
+    }
+}
+
+static bool label_is_short(const json_t *value)
+{
+    if (json_is_string(value)) return json_string_length(value) <= LONGEST_LABEL;
+    return json_is_number(value);
+}
+
+static json_t *read_label(const json_t *label, problem_list *problems)
+{
+    if (!label) return json_object();
+    if (!json_is_object(label)) {
+        char seen[80];
+        json_value_text(label, seen, sizeof seen);
+        problem_list_add(problems, "/label", "is %s; must be an object of texts and numbers", seen);
+        return NULL;
+    }
+    if (json_object_size(label) > MOST_LABELS)
+        problem_list_add(problems, "/label", "has %zu members; must have at most %d", json_object_size(label),
+                         MOST_LABELS);
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)label, name, value) {
+        if (strlen(name) == 0 || strlen(name) > LONGEST_LABEL_NAME)
+            problem_list_add(problems, "/label", "has a name of %zu bytes; must be 1 to %d", strlen(name),
+                             LONGEST_LABEL_NAME);
+        else if (!label_is_short(value))
+            problem_list_add(problems, "/label", "has at \"%s\" %s of %zu bytes; must be a number or a text of at "
+                             "most %d bytes", name, json_is_string(value) ? "a text" : "something else",
+                             json_string_length(value), LONGEST_LABEL);
+    }
+    return json_deep_copy(label);
+}
+
+bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing,
+                    job_spec *spec, problem_list *problems)
+{
+    static const char *const known[] = {"process", "inputs", "label", NULL};
+    memset(spec, 0, sizeof *spec);
+    if (!json_is_object(request)) {
+        problem_list_add(problems, "", "must be an object with \"inputs\" and, if wanted, \"label\"");
+        return false;
+    }
+    refuse_unknown_members(request, "", known, problems);
+    read_process(process, request, problems);
+    snprintf(spec->process, sizeof spec->process, "drum");
+
+    const json_t *inputs = json_object_get(request, "inputs");
+    if (inputs && !json_is_object(inputs))
+        problem_list_add(problems, "/inputs", "must be an object");
+    else if (!inputs)
+        problem_list_add(problems, "/inputs", "is missing; must be an object");
+    else
+        drum_inputs_read(inputs, &spec->inputs, problems);
+    if (json_is_object(inputs)) spec_rules_apply(spec, seed_if_missing, problems);
+
+    spec->label = read_label(json_object_get(request, "label"), problems);
+    if (problem_list_is_empty(problems) && !spec->label)
+        problem_list_add(problems, "/label", "could not be kept: out of memory");
+    if (problem_list_is_empty(problems)) return true;
+    job_spec_clear(spec);
+    return false;
+}
+
+void job_spec_clear(job_spec *spec)
+{
+    json_decref(spec->label);
+    memset(spec, 0, sizeof *spec);
+}
+
+json_t *job_spec_to_json(const job_spec *spec)
+{
+    return json_pack("{s:s, s:o, s:O}", "process", spec->process, "inputs", drum_inputs_write(&spec->inputs),
+                     "label", spec->label);
+}
+
+char *job_spec_to_text(const job_spec *spec)
+{
+    json_t *document = job_spec_to_json(spec);
+    char *text = document ? json_dumps(document, JSON_INDENT(2)) : NULL;
+    json_decref(document);
+    return text;
+}

@@ -1,0 +1,53 @@
+/* The table of a drum's inputs: name, place, unit, range, default and meaning of each. It alone drives reading a
+ * request, writing the canonical spec and describing the process, so the three can't disagree. */
+#ifndef SPEC_FIELDS_H
+#define SPEC_FIELDS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* The JSON object that a field is a member of. */
+typedef enum spec_group {
+    SPEC_INPUTS, SPEC_DRUM, SPEC_PARTICLES, SPEC_CONTACT, SPEC_WALL, SPEC_LINING, SPEC_DURATION, SPEC_SNAPSHOTS,
+    SPEC_SAMPLES
+} spec_group;
+
+typedef enum field_kind {
+    FIELD_REAL,
+    FIELD_INTEGER,
+    FIELD_CHOICE,         /* one of a few words; kept as its index */
+    FIELD_OBJECT,
+    FIELD_OBJECT_OR_NULL, /* null, the default: none */
+    FIELD_LIST            /* of objects */
+} field_kind;
+
+typedef struct spec_field {
+    spec_group group;
+    const char *name;
+    field_kind kind;
+    spec_group child;           /* objects and lists: whose members they hold */
+    bool required;
+    const char *unit;           /* "" for a pure number */
+    double minimum, maximum;    /* lists: of their length */
+    bool minimum_open;          /* the minimum itself is not allowed */
+    double fallback;            /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
+    const char *excludes;       /* the member that may be given instead */
+    const char *const *choices; /* ends with NULL */
+    size_t offset;              /* of the double: in species_inputs for SPEC_PARTICLES, else in drum_inputs */
+    const char *meaning;
+} spec_field;
+
+extern const spec_field spec_fields[];
+extern const size_t spec_field_count;
+
+/* NULL when the group has no such member. */
+const spec_field *spec_field_find(spec_group group, const char *name);
+
+/* A member that `name`, unknown in `group`, was probably meant to be: NULL when nothing is near. It may belong to
+ * another group. */
+const spec_field *spec_field_nearest(spec_group group, const char *name);
+
+/* Path of a field below the inputs, as "contact/friction". */
+void spec_field_path(const spec_field *field, char *path, size_t size);
+
+#endif

@@ -1,0 +1,245 @@
+/* Reading: from a request's inputs, whoever wrote them, to numbers within their ranges or a list of problems. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "spec_fields.h"
+#include "spec_text.h"
+
+enum { LONGEST_POINTER = 256, LONGEST_MEMBER_NAME = 64, LONGEST_VALUE = 60 };
+
+void json_value_text(const json_t *value, char *text, size_t size)
+{
+    if (json_is_object(value) || json_is_array(value)) {
+        snprintf(text, size, json_is_object(value) ? "an object" : "a list");
+        return;
+    }
+    if (json_is_real(value)) {
+        snprintf(text, size, "%.15g", json_real_value(value));
+        return;
+    }
+    /* ASCII, so that cutting it can't cut a character. */
+    char *dumped = json_dumps(value, JSON_ENCODE_ANY | JSON_ENSURE_ASCII);
+    const int length = snprintf(text, size, "%s", dumped ? dumped : "not writable");
+    if (length >= (int)size) memcpy(text + size - 4, "...", 4);
+    free(dumped);
+}
+
+/* A step of a JSON pointer, with ~ and / escaped (RFC 6901). */
+static void pointer_to_member(char *pointer, const char *parent, const char *name)
+{
+    size_t length = (size_t)snprintf(pointer, LONGEST_POINTER - 1, "%s/", parent);
+    for (; *name && length + 3 < LONGEST_POINTER; name++) {
+        if (*name == '~' || *name == '/') {
+            pointer[length++] = '~';
+            pointer[length++] = *name == '~' ? '0' : '1';
+        } else {
+            pointer[length++] = *name;
+        }
+    }
+    pointer[length] = '\0';
+}
+
+/* "[0.1, 5] m" */
+static void range_text(const spec_field *field, char *text, size_t size)
+{
+    snprintf(text, size, "%s%.16g, %.16g]%s%s", field->minimum_open ? "(" : "[", field->minimum, field->maximum,
+             field->unit && *field->unit ? " " : "", field->unit ? field->unit : "");
+}
+
+static double read_number(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
+{
+    const bool integer = field->kind == FIELD_INTEGER;
+    char seen[LONGEST_VALUE], range[120];
+    json_value_text(value, seen, sizeof seen);
+    range_text(field, range, sizeof range);
+    if (!json_is_number(value)) {
+        problem_list_add(problems, pointer, "is %s; must be %s in %s", seen,
+                         integer ? "a whole number" : "a number", range);
+        return NAN;
+    }
+    const double number = json_number_value(value);
+    const bool low = field->minimum_open ? number <= field->minimum : number < field->minimum;
+    if (low || !(number <= field->maximum)) {
+        problem_list_add(problems, pointer, "is %s%s%s; must be in %s", seen, *field->unit ? " " : "", field->unit,
+                         range);
+        return NAN;
+    }
+    if (integer && number != floor(number)) {
+        problem_list_add(problems, pointer, "is %s; must be a whole number in %s", seen, range);
+        return NAN;
+    }
+    /* Below the smallest normal double digits are already lost: such a number is a slip, not a wish. */
+    if (number != 0.0 && fabs(number) < 2.2250738585072014e-308) {
+        problem_list_add(problems, pointer, "is %s%s%s; too close to 0 to be kept, must be in %s", seen,
+                         *field->unit ? " " : "", field->unit, range);
+        return NAN;
+    }
+    return number == 0.0 ? 0.0 : number; /* -0 would be another text for the same input */
+}
+
+static double read_choice(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
+{
+    const char *word = json_string_value(value);
+    for (size_t c = 0; word && field->choices[c]; c++)
+        if (strcmp(word, field->choices[c]) == 0) return (double)c;
+    char seen[LONGEST_VALUE], available[200] = "";
+    json_value_text(value, seen, sizeof seen);
+    for (size_t c = 0; field->choices[c]; c++) {
+        const size_t length = strlen(available);
+        snprintf(available + length, sizeof available - length, "%s\"%s\"", c ? ", " : "", field->choices[c]);
+    }
+    problem_list_add(problems, pointer, "is %s; available: %s", seen, available);
+    return NAN;
+}
+
+static void refuse_unknown_inputs(spec_group group, const json_t *object, const char *pointer, problem_list *problems)
+{
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)object, name, value) {
+        if (spec_field_find(group, name)) continue;
+        if (strlen(name) > LONGEST_MEMBER_NAME) {
+            problem_list_add(problems, pointer, "has an unknown member with a name of %zu bytes", strlen(name));
+            continue;
+        }
+        char unknown[LONGEST_POINTER], near[100];
+        pointer_to_member(unknown, pointer, name);
+        const spec_field *nearest = spec_field_nearest(group, name);
+        if (nearest) {
+            spec_field_path(nearest, near, sizeof near);
+            problem_list_add(problems, unknown, "is not an input; did you mean inputs/%s?", near);
+            continue;
+        }
+        char known[300] = "";
+        for (size_t f = 0; f < spec_field_count; f++) {
+            const size_t length = strlen(known);
+            if (spec_fields[f].group == group)
+                snprintf(known + length, sizeof known - length, "%s%s", length ? ", " : "", spec_fields[f].name);
+        }
+        problem_list_add(problems, unknown, "is not an input; available here: %s", known);
+    }
+}
+
+void refuse_unknown_members(const json_t *object, const char *pointer, const char *const *known,
+                            problem_list *problems)
+{
+    const char *name;
+    json_t *value;
+    json_object_foreach((json_t *)object, name, value) {
+        size_t k = 0;
+        while (known[k] && strcmp(known[k], name) != 0) k++;
+        if (known[k]) continue;
+        char unknown[LONGEST_POINTER] = "";
+        if (strlen(name) <= LONGEST_MEMBER_NAME) pointer_to_member(unknown, pointer, name);
+        problem_list_add(problems, *unknown ? unknown : pointer, "is not a known member");
+    }
+}
+
+static void read_group(spec_group group, const json_t *object, const char *pointer, drum_inputs *inputs, void *place,
+                       problem_list *problems);
+
+static void read_list(const spec_field *field, const json_t *list, const char *pointer, drum_inputs *inputs,
+                      problem_list *problems)
+{
+    const size_t count = json_array_size(list);
+    char seen[LONGEST_VALUE];
+    if (!json_is_array(list)) {
+        json_value_text(list, seen, sizeof seen);
+        problem_list_add(problems, pointer, "is %s; must be a list of objects", seen);
+        return;
+    }
+    if (count < (size_t)field->minimum || count > (size_t)field->maximum) {
+        problem_list_add(problems, pointer, "has %zu entries; must have %.0f to %.0f", count, field->minimum,
+                         field->maximum);
+        return;
+    }
+    for (size_t s = 0; s < count; s++) {
+        char entry[LONGEST_POINTER];
+        snprintf(entry, sizeof entry, "%.200s/%zu", pointer, s);
+        const json_t *object = json_array_get(list, s);
+        if (!json_is_object(object)) {
+            json_value_text(object, seen, sizeof seen);
+            problem_list_add(problems, entry, "is %s; must be an object", seen);
+            continue;
+        }
+        read_group(field->child, object, entry, inputs, &inputs->species[s], problems);
+    }
+    inputs->species_count = count;
+}
+
+static void read_object(const spec_field *field, const json_t *value, const char *pointer, drum_inputs *inputs,
+                        problem_list *problems)
+{
+    if (field->kind == FIELD_OBJECT_OR_NULL && (!value || json_is_null(value))) return;
+    if (value && !json_is_object(value)) {
+        char seen[LONGEST_VALUE];
+        json_value_text(value, seen, sizeof seen);
+        problem_list_add(problems, pointer, "is %s; must be an object%s", seen,
+                         field->kind == FIELD_OBJECT_OR_NULL ? " or null" : "");
+        return;
+    }
+    read_group(field->child, value, pointer, inputs, inputs, problems);
+}
+
+/* A member that has a number or a word; the other of two alternatives stays NaN. */
+static double read_scalar(const spec_field *field, const json_t *object, const char *pointer, problem_list *problems)
+{
+    const json_t *value = json_object_get(object, field->name);
+    const bool excluded = field->excludes && json_object_get(object, field->excludes);
+    if (value && excluded && isnan(field->fallback)) {
+        problem_list_add(problems, pointer, "is given beside %s; give one of the two", field->excludes);
+        return NAN;
+    }
+    if (value && field->kind == FIELD_CHOICE) return read_choice(field, value, pointer, problems);
+    if (value) return read_number(field, value, pointer, problems);
+    if (field->required) {
+        char range[120];
+        range_text(field, range, sizeof range);
+        problem_list_add(problems, pointer, "is missing; must be a number in %s", range);
+    }
+    return excluded ? NAN : field->fallback;
+}
+
+/* object: NULL reads the defaults. place: the struct that the offsets of the group's fields count from. */
+static void read_group(spec_group group, const json_t *object, const char *pointer, drum_inputs *inputs, void *place,
+                       problem_list *problems)
+{
+    for (size_t f = 0; f < spec_field_count; f++) {
+        const spec_field *field = &spec_fields[f];
+        if (field->group != group) continue;
+        char member[LONGEST_POINTER];
+        pointer_to_member(member, pointer, field->name);
+        const json_t *value = json_object_get(object, field->name);
+        if (field->kind >= FIELD_OBJECT && field->required && !value) {
+            problem_list_add(problems, member, "is missing; must be %s",
+                             field->kind == FIELD_LIST ? "a list of objects" : "an object");
+        } else if (field->kind == FIELD_LIST) {
+            read_list(field, value, member, inputs, problems);
+        } else if (field->kind >= FIELD_OBJECT) {
+            read_object(field, value, member, inputs, problems);
+        } else {
+            *(double *)((char *)place + field->offset) = read_scalar(field, object, member, problems);
+        }
+    }
+    refuse_unknown_inputs(group, object, pointer, problems);
+}
+
+static void set_nothing_given(drum_inputs *inputs)
+{
+    inputs->species_count = 0;
+    for (size_t f = 0; f < spec_field_count; f++) {
+        const spec_field *field = &spec_fields[f];
+        if (field->kind >= FIELD_OBJECT) continue;
+        if (field->group != SPEC_PARTICLES) *(double *)((char *)inputs + field->offset) = NAN;
+        for (size_t s = 0; field->group == SPEC_PARTICLES && s < DEM_MAXIMUM_SPECIES; s++)
+            *(double *)((char *)&inputs->species[s] + field->offset) = NAN;
+    }
+}
+
+void drum_inputs_read(const json_t *object, drum_inputs *inputs, problem_list *problems)
+{
+    set_nothing_given(inputs);
+    read_group(SPEC_INPUTS, object, "/inputs", inputs, inputs, problems);
+}

@@ -1,0 +1,377 @@
+/* Claims about reading, checking and writing a job's specification. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka.h needs the four above. */
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "job_spec.h"
+
+static const char minimal[] = "{\"inputs\": {\"drum\": {\"diameter\": 0.05, \"length\": 0.02, \"rotation_rate\": 3},"
+                              " \"particles\": [{\"diameter\": 0.005}]}}";
+
+static json_t *load(const char *text)
+{
+    json_error_t error;
+    json_t *document = json_loads(text, JSON_REJECT_DUPLICATES, &error);
+    if (!document) fail_msg("test's own JSON: %s in %s", error.text, text);
+    return document;
+}
+
+/* The minimal request with one more member of the inputs, or another value of one: path as "contact/friction". */
+static json_t *minimal_with(const char *path, const char *value)
+{
+    json_t *request = load(minimal);
+    json_t *object = json_object_get(request, "inputs");
+    char name[100], wrapped[300];
+    snprintf(name, sizeof name, "%s", path);
+    char *member = name;
+    for (char *slash; (slash = strchr(member, '/')); member = slash + 1) {
+        *slash = '\0';
+        if (json_is_array(object)) {
+            object = json_array_get(object, (size_t)atoi(member));
+            continue;
+        }
+        if (!json_object_get(object, member)) json_object_set_new(object, member, json_object());
+        object = json_object_get(object, member);
+    }
+    snprintf(wrapped, sizeof wrapped, "[%s]", value);
+    json_t *list = load(wrapped);
+    json_object_set(object, member, json_array_get(list, 0));
+    json_decref(list);
+    return request;
+}
+
+/* Parses and frees the request; the pointers and details of all problems, one a line. */
+static char *problems_of(json_t *request)
+{
+    job_spec spec;
+    problem_list problems;
+    assert_true(problem_list_init(&problems));
+    char *text = calloc(1, 100000);
+    if (job_spec_parse("drum", request, 1, &spec, &problems)) {
+        assert_true(problem_list_is_empty(&problems));
+        job_spec_clear(&spec);
+    }
+    size_t p;
+    json_t *problem;
+    json_array_foreach(problems.errors, p, problem) {
+        strcat(text, json_string_value(json_object_get(problem, "pointer")));
+        strcat(text, ": ");
+        strcat(text, json_string_value(json_object_get(problem, "detail")));
+        strcat(text, "\n");
+    }
+    problem_list_clear(&problems);
+    json_decref(request);
+    return text;
+}
+
+static void expect_problem(const char *path, const char *value, const char *expected)
+{
+    char *problems = problems_of(minimal_with(path, value));
+    if (strcmp(problems, expected) != 0)
+        fail_msg("%s = %s gives:\n%sexpected:\n%s", path, value, problems, expected);
+    free(problems);
+}
+
+static void expect_fine(const char *path, const char *value)
+{
+    expect_problem(path, value, "");
+}
+
+static job_spec parse_or_fail(json_t *request)
+{
+    job_spec spec;
+    problem_list problems;
+    problem_list_init(&problems);
+    if (!job_spec_parse(NULL, request, 42, &spec, &problems)) {
+        char *text = json_dumps(problems.errors, JSON_INDENT(1));
+        fail_msg("not read: %s", text);
+    }
+    problem_list_clear(&problems);
+    json_decref(request);
+    return spec;
+}
+
+static void a_minimal_request_gets_every_default(void **state)
+{
+    (void)state;
+    job_spec spec = parse_or_fail(load(minimal));
+    assert_string_equal(spec.process, "drum");
+    assert_true(spec.drum.fill_fraction == 0.5 && spec.drum.gravity == 9.81);
+    assert_true(spec.drum.contact.friction == 0.3 && spec.drum.contact.wall_friction == 0.5);
+    assert_true(spec.drum.contact.restitution == 0.8 && spec.drum.contact.tangential_stiffness_ratio == 0.8);
+    assert_true(spec.maximum_overlap == 0.01 && spec.snapshot_interval == 0.1);
+    assert_true(spec.drum.species[0].density == 2500 && spec.drum.species[0].share == 1);
+    assert_true(spec.drum.lining.diameter == 0);
+    assert_int_equal(spec.drum.threads, 1);
+    assert_int_equal(spec.drum.seed, 42);
+    /* 0.5 x pi/4 x 0.05^2 x 0.02 m3 at a solid fraction of 0.6, over pi/6 x 0.005^3 m3: 180 */
+    assert_int_equal(spec.drum.particle_count, 180);
+    /* 1.25 revolutions at 3 rad/s */
+    assert_true(fabs(spec.duration - 1.25 * 2 * 3.14159265358979 / 3) < 1e-12);
+    assert_true(spec.sample_interval > 0 && spec.sample_interval <= 0.05);
+    job_spec_clear(&spec);
+}
+
+static void a_canonical_spec_is_read_and_written_with_the_same_bytes(void **state)
+{
+    (void)state;
+    const char *const variations[][2] = {
+        {"seed", "9007199254740991"}, {"particle_count", "77"}, {"contact/stiffness", "4000"},
+        {"duration/seconds", "0.7"}, {"snapshots/interval", "0"}, {"contact/friction", "0.1"},
+        {"wall/lining", "{\"diameter\": 0.002}"}, {"contact/friction", "-0.0"},
+        {"particles", "[{\"diameter\":0.003,\"share\":0.1},{\"diameter\":0.004,\"share\":0.2},{\"diameter\":0.005,"
+                      "\"share\":0.7000000001}]"},
+        {"particles", "[{\"diameter\":0.003},{\"diameter\":0.004},{\"diameter\":0.005}]"},
+    };
+    for (size_t v = 0; v < sizeof variations / sizeof variations[0]; v++) {
+        json_t *request = minimal_with(variations[v][0], variations[v][1]);
+        json_object_set_new(request, "label", load("{\"project\": \"caf\\u00e9\", \"row\": 3, \"mu\": 0.1}"));
+        job_spec first = parse_or_fail(request);
+        char *text = job_spec_to_text(&first);
+        job_spec second = parse_or_fail(load(text));
+        char *again = job_spec_to_text(&second);
+        assert_string_equal(text, again);
+        assert_memory_equal(&first.drum, &second.drum, sizeof first.drum);
+        assert_true(first.duration == second.duration && first.sample_interval == second.sample_interval);
+        free(text);
+        free(again);
+        job_spec_clear(&first);
+        job_spec_clear(&second);
+    }
+}
+
+static void a_number_out_of_range_is_named_with_value_unit_and_range(void **state)
+{
+    (void)state;
+    expect_problem("fill_fraction", "1.4", "/inputs/fill_fraction: is 1.4; must be in (0, 0.95]\n");
+    expect_problem("fill_fraction", "0", "/inputs/fill_fraction: is 0; must be in (0, 0.95]\n");
+    expect_problem("drum/diameter", "30", "/inputs/drum/diameter: is 30 m; must be in [0.001, 20] m\n");
+    expect_problem("drum/rotation_rate", "-1",
+                   "/inputs/drum/rotation_rate: is -1 rad/s; must be in [0.001, 500] rad/s\n");
+    expect_problem("contact/friction", "true", "/inputs/contact/friction: is true; must be a number in [0, 5]\n");
+    expect_problem("contact/friction", "null", "/inputs/contact/friction: is null; must be a number in [0, 5]\n");
+    expect_problem("contact/friction", "1e300", "/inputs/contact/friction: is 1e+300; must be in [0, 5]\n");
+    expect_problem("particles/0/density", "\"2500\"",
+                   "/inputs/particles/0/density: is \"2500\"; must be a number in [1, 30000] kg/m3\n");
+}
+
+static void the_ends_of_a_range_are_inside_or_not_as_written(void **state)
+{
+    (void)state;
+    expect_fine("contact/friction", "0");
+    expect_fine("contact/friction", "5");
+    expect_fine("fill_fraction", "0.95");
+    expect_fine("particles/0/share", "1");
+    expect_problem("particles/0/share", "0", "/inputs/particles/0/share: is 0; must be in (0, 1]\n");
+    expect_problem("contact/friction", "5.0000001", "/inputs/contact/friction: is 5.0000001; must be in [0, 5]\n");
+}
+
+static void a_number_that_has_lost_its_digits_is_refused(void **state)
+{
+    (void)state;
+    expect_problem("contact/friction", "1e-310", "/inputs/contact/friction: is 9.99999999999997e-311; too close to 0 "
+                                                 "to be kept, must be in [0, 5]\n");
+}
+
+static void whole_numbers_are_asked_for_where_they_are_needed(void **state)
+{
+    (void)state;
+    expect_problem("threads", "1.5", "/inputs/threads: is 1.5; must be a whole number in [1, 256]\n");
+    expect_problem("threads", "0", "/inputs/threads: is 0; must be in [1, 256]\n");
+    expect_problem("seed", "9007199254740992",
+                   "/inputs/seed: is 9007199254740992; must be in [0, 9007199254740991]\n");
+    expect_problem("seed", "-1", "/inputs/seed: is -1; must be in [0, 9007199254740991]\n");
+    expect_problem("particle_count", "7", "/inputs/particle_count: is 7; must be in [8, 5000000]\n");
+    expect_fine("particle_count", "8.0");
+}
+
+static void unknown_members_are_refused_with_the_nearest_name(void **state)
+{
+    (void)state;
+    expect_problem("contact/frictoin", "0.1",
+                   "/inputs/contact/frictoin: is not an input; did you mean inputs/contact/friction?\n");
+    expect_problem("friction", "0.1", "/inputs/friction: is not an input; did you mean inputs/contact/friction?\n");
+    expect_problem("duration/until_standard_error_deg", "0.3", "/inputs/duration/until_standard_error_deg: is not an "
+                   "input; available here: revolutions, seconds\n");
+    json_t *request = load(minimal);
+    json_object_set_new(json_object_get(request, "inputs"), "a/b~c", json_null());
+    char *problems = problems_of(request);
+    assert_non_null(strstr(problems, "/inputs/a~1b~0c: is not an input"));
+    free(problems);
+}
+
+static void what_is_not_available_yet_is_refused_with_what_is(void **state)
+{
+    (void)state;
+    expect_problem("drum/ends", "\"walls\"", "/inputs/drum/ends: is \"walls\"; available: \"periodic\"\n");
+    expect_problem("particles/0/shape", "\"cube\"", "/inputs/particles/0/shape: is \"cube\"; available: \"sphere\"\n");
+    expect_problem("particles/0/shape", "{\"spheres\": []}",
+                   "/inputs/particles/0/shape: is an object; available: \"sphere\"\n");
+    expect_problem("contact/law", "\"hertz\"", "/inputs/contact/law: is \"hertz\"; available: \"walton-braun\"\n");
+    char *problems = problems_of(json_pack("{s:s, s:o}", "process", "heap", "inputs",
+                                           json_incref(json_object_get(load(minimal), "inputs"))));
+    assert_string_equal(problems, "/process: is \"heap\"; was sent to the process \"drum\"\n");
+    free(problems);
+}
+
+static void one_of_two_alternatives_is_enough_and_both_are_too_much(void **state)
+{
+    (void)state;
+    json_t *request = minimal_with("contact/stiffness", "4000");
+    json_object_set_new(json_object_get(json_object_get(request, "inputs"), "contact"), "maximum_overlap",
+                        json_real(0.01));
+    char *problems = problems_of(request);
+    assert_string_equal(problems, "/inputs/contact/stiffness: is given beside maximum_overlap; give one of the two\n");
+    free(problems);
+    job_spec spec = parse_or_fail(minimal_with("contact/stiffness", "4000"));
+    assert_true(spec.drum.contact.stiffness == 4000 && spec.maximum_overlap == 0);
+    job_spec_clear(&spec);
+    spec = parse_or_fail(minimal_with("particle_count", "180"));
+    assert_true(fabs(spec.drum.fill_fraction - 0.5) < 1e-9); /* as the minimal drum half full has 180 */
+    job_spec_clear(&spec);
+}
+
+static void all_problems_are_listed_at_once(void **state)
+{
+    (void)state;
+    char *problems = problems_of(load("{\"inputs\": {\"drum\": {\"length\": -1, \"ends\": \"open\"}, \"particles\": [{}, "
+                                      "{\"diameter\": 0.003, \"colour\": \"red\"}], \"fill_fraction\": 2, \"seed\": \"x\","
+                                      "\"duration\": 5}, \"label\": [], \"extra\": 1}"));
+    static const char *const expected[] = {
+        "/inputs/drum/diameter: is missing", "/inputs/drum/length: is -1 m", "/inputs/drum/ends: is \"open\"",
+        "/inputs/drum/rotation_rate: is missing", "/inputs/particles/0/diameter: is missing",
+        "/inputs/particles/1/colour: is not an input", "/inputs/fill_fraction: is 2;", "/inputs/seed: is \"x\"",
+        "/inputs/duration: is 5; must be an object", "/label: is a list", "/extra: is not",
+    };
+    size_t lines = 0;
+    for (const char *c = problems; *c; c++) lines += *c == '\n';
+    for (size_t e = 0; e < sizeof expected / sizeof expected[0]; e++)
+        if (!strstr(problems, expected[e])) fail_msg("no \"%s\" in:\n%s", expected[e], problems);
+    assert_int_equal(lines, sizeof expected / sizeof expected[0]);
+    free(problems);
+}
+
+static void combinations_that_make_no_sense_are_refused(void **state)
+{
+    (void)state;
+    expect_problem("drum/diameter", "0.039",
+                   "/inputs/drum/diameter: is 0.039 m; must be at least 0.04 m, 8 of the largest particle diameter\n");
+    expect_problem("drum/length", "0.0149",
+                   "/inputs/drum/length: is 0.0149 m; must be at least 0.015 m, 3 of the largest particle diameter\n");
+    expect_problem("fill_fraction", "0.01",
+                   "/inputs/fill_fraction: is 0.01, which makes 4 particles; must make 8 to 5000000\n");
+    expect_problem("particle_count", "400", "/inputs/particle_count: is 400, a fill fraction of 1.11; must be at most "
+                                            "342, a fill fraction of 0.95\n");
+    expect_problem("particles", "[{\"diameter\": 0.005, \"share\": 0.5}, {\"diameter\": 0.004, \"share\": 0.4}]",
+                   "/inputs/particles: have shares that sum to 0.9; must sum to 1\n");
+    expect_problem("particles", "[{\"diameter\": 0.005, \"share\": 0.5}, {\"diameter\": 0.004}]",
+                   "/inputs/particles: have a valid share in 1 of 2 entries; give it in all or in none\n");
+    expect_problem("particles", "[]", "/inputs/particles: has 0 entries; must have 1 to 16\n");
+    char *problems = problems_of(minimal_with("duration/revolutions", "100000"));
+    assert_non_null(strstr(problems, "/inputs/duration/revolutions: makes "));
+    assert_non_null(strstr(problems, "/inputs/snapshots/interval: is 0.1 s, 2.09e+06 snapshots"));
+    free(problems);
+    problems = problems_of(minimal_with("contact/stiffness", "0.01"));
+    assert_non_null(strstr(problems, "/inputs/contact/stiffness: is 0.01 N/m, too soft"));
+    free(problems);
+}
+
+static void labels_are_short_texts_and_numbers(void **state)
+{
+    (void)state;
+    json_t *request = load(minimal);
+    json_object_set_new(request, "label", load("{\"a\": {\"b\": 1}, \"c\": true, \"fine\": \"yes\"}"));
+    char *problems = problems_of(request);
+    assert_non_null(strstr(problems, "/label: has at \"a\""));
+    assert_non_null(strstr(problems, "/label: has at \"c\""));
+    assert_null(strstr(problems, "fine"));
+    free(problems);
+    char long_text[300];
+    memset(long_text, 'x', sizeof long_text - 1);
+    long_text[sizeof long_text - 1] = '\0';
+    request = load(minimal);
+    json_object_set_new(request, "label", json_pack("{s:s}", "note", long_text));
+    problems = problems_of(request);
+    assert_string_equal(problems, "/label: has at \"note\" a text of 299 bytes; must be a number or a text of at most "
+                                  "200 bytes\n");
+    free(problems);
+}
+
+/* A message cut within a character would be no JSON string and the problem would be lost. */
+static void a_long_message_is_cut_between_characters(void **state)
+{
+    (void)state;
+    for (size_t shift = 0; shift < 4; shift++) {
+        char text[2000];
+        size_t length = 0;
+        while (length < shift) text[length++] = 'a';
+        while (length + 3 < sizeof text) {
+            memcpy(text + length, "\xe2\x82\xac", 3);
+            length += 3;
+        }
+        text[length] = '\0';
+        problem_list problems;
+        problem_list_init(&problems);
+        problem_list_add(&problems, "/x", "%s", text);
+        assert_non_null(problems.errors);
+        assert_int_equal(json_array_size(problems.errors), 1);
+        problem_list_clear(&problems);
+        assert_false(problem_list_is_empty(&problems)); /* lost is not empty */
+    }
+}
+
+static void the_estimate_grows_with_what_is_asked(void **state)
+{
+    (void)state;
+    job_spec small = parse_or_fail(load(minimal)), large = parse_or_fail(minimal_with("duration/revolutions", "100"));
+    const job_estimate a = job_spec_estimate(&small, 1e7), b = job_spec_estimate(&large, 1e7);
+    /* 80 times the revolutions, beside the settling that both have */
+    assert_true(b.steps > 40 * a.steps && b.steps < 80 * a.steps);
+    assert_true(fabs(b.wall_seconds - b.steps * b.particles / 1e7) < 1e-9 * b.wall_seconds);
+    assert_true(b.snapshot_bytes > a.snapshot_bytes && a.memory_bytes > 20e6);
+    job_spec_clear(&small);
+    job_spec_clear(&large);
+}
+
+static void the_description_has_every_default_and_range_that_the_parser_has(void **state)
+{
+    (void)state;
+    assert_null(process_description("heap"));
+    json_t *description = process_description("drum");
+    json_t *friction = json_object_get(json_object_get(json_object_get(json_object_get(json_object_get(
+        json_object_get(description, "inputs"), "contact"), "schema"), "properties"), "friction"), "maximum");
+    assert_true(json_number_value(friction) == 5);
+    const char *const outputs[] = {"repose", "regime", "segregation", "packing", "run"};
+    for (size_t o = 0; o < 5; o++) assert_non_null(json_object_get(json_object_get(description, "outputs"), outputs[o]));
+    json_decref(description);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_minimal_request_gets_every_default),
+        cmocka_unit_test(a_canonical_spec_is_read_and_written_with_the_same_bytes),
+        cmocka_unit_test(a_number_out_of_range_is_named_with_value_unit_and_range),
+        cmocka_unit_test(the_ends_of_a_range_are_inside_or_not_as_written),
+        cmocka_unit_test(a_number_that_has_lost_its_digits_is_refused),
+        cmocka_unit_test(whole_numbers_are_asked_for_where_they_are_needed),
+        cmocka_unit_test(unknown_members_are_refused_with_the_nearest_name),
+        cmocka_unit_test(what_is_not_available_yet_is_refused_with_what_is),
+        cmocka_unit_test(one_of_two_alternatives_is_enough_and_both_are_too_much),
+        cmocka_unit_test(all_problems_are_listed_at_once),
+        cmocka_unit_test(combinations_that_make_no_sense_are_refused),
+        cmocka_unit_test(labels_are_short_texts_and_numbers),
+        cmocka_unit_test(a_long_message_is_cut_between_characters),
+        cmocka_unit_test(the_estimate_grows_with_what_is_asked),
+        cmocka_unit_test(the_description_has_every_default_and_range_that_the_parser_has),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
