@@ -1,0 +1,81 @@
+// Numbers, times and inputs as the page writes them. SI comes in; people read mm, rpm and minutes.
+
+const missing = value => value === null || value === undefined || Number.isNaN(value);
+
+export function significant(value, digits = 3) {
+  if (missing(value)) return '–';
+  if (value !== 0 && (Math.abs(value) >= 1e6 || Math.abs(value) < 1e-3)) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split('e');
+    return `${Number(mantissa)}·10${superscript(Number(exponent))}`;
+  }
+  return Number(value.toPrecision(digits)).toLocaleString('en', { maximumSignificantDigits: digits });
+}
+
+function superscript(integer) {
+  const glyphs = { '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹' };
+  return [...String(integer)].map(character => glyphs[character]).join('');
+}
+
+export const count = value => missing(value) ? '–' : Math.round(value).toLocaleString('en');
+export const percent = share => missing(share) ? '–' : `${significant(100 * share)} %`;
+
+export function degrees(value, error) {
+  if (missing(value)) return '–';
+  // As many decimals as the error has meaning, and never more than two.
+  const decimals = missing(error) ? 1 : error < 0.1 ? 2 : 1;
+  const mean = value.toFixed(decimals);
+  return missing(error) ? `${mean}°` : `${mean} ± ${error.toFixed(decimals)}°`;
+}
+
+export function millimetres(metres) {
+  if (missing(metres)) return '–';
+  return metres >= 1 ? `${significant(metres)} m` : `${significant(1000 * metres)} mm`;
+}
+
+export function duration(seconds) {
+  if (missing(seconds) || seconds < 0) return '–';
+  if (seconds < 10) return `${seconds.toFixed(1)} s`;
+  if (seconds < 100) return `${Math.round(seconds)} s`;
+  const minutes = Math.round(seconds / 60);
+  if (minutes < 100) return `${minutes} min`;
+  const hours = Math.floor(minutes / 60);
+  if (hours < 48) return `${hours} h ${minutes % 60} min`;
+  return `${Math.floor(hours / 24)} d ${hours % 24} h`;
+}
+
+export const secondsBetween = (from, to) => from && to ? (new Date(to) - new Date(from)) / 1000 : null;
+
+// Today: the time of day. Another day: with the date.
+export function clock(iso) {
+  const when = new Date(iso);
+  const time = when.toLocaleTimeString('en-GB');
+  if (when.toDateString() === new Date().toDateString()) return time;
+  const day = when.toLocaleDateString('en-GB', { day: 'numeric', month: 'short', year: 'numeric' });
+  return `${day}, ${time.slice(0, 5)}`;
+}
+
+// The main inputs of a job, in the order in which an engineer asks for them.
+export function inputsInWords(summary) {
+  const has = name => !missing(summary[name]);
+  const words = [];
+  const add = (text, title) => words.push({ text, title });
+  if (has('friction')) add(`μ ${significant(summary.friction)}`, 'friction between particles');
+  if (has('rotation_rate')) {
+    const rpm = summary.rotation_rate * 30 / Math.PI;
+    add(`${significant(summary.rotation_rate)} rad/s`, `rotation rate: ${significant(rpm)} turns a minute`);
+  }
+  if (has('drum_diameter')) add(`Ø ${millimetres(summary.drum_diameter)}`, 'inner diameter of the drum');
+  if (has('particles') && has('diameter'))
+    add(`${count(summary.particles)} × ${millimetres(summary.diameter)}`, 'particles × their diameter');
+  else if (has('particles')) add(`${count(summary.particles)} particles`, 'number of particles');
+  if (has('fill_fraction')) add(`${percent(summary.fill_fraction)} full`, 'fill fraction');
+  return words;
+}
+
+export function bytes(value) {
+  if (missing(value)) return '–';
+  const units = ['B', 'kB', 'MB', 'GB', 'TB'];
+  let unit = 0;
+  while (value >= 1000 && unit < units.length - 1) { value /= 1000; unit++; }
+  return `${significant(value)} ${units[unit]}`;
+}

@@ -1,0 +1,106 @@
+// What a row shows when it is opened: the answer and its plot, or the reason of the failure at once; links to
+// everything the daemon holds of the job; all results.
+import { h, replaceIfChanged } from './dom.js';
+import { bytes, clock, count, significant } from './format.js';
+import { ApiError, jobPath, json } from './api.js';
+import { anglePlot } from './angle_plot.js';
+import { answer, resultsInWords } from './results.js';
+import { fileLink } from './file_link.js';
+
+const SNAPSHOTS_SHOWN = 200;
+
+// A panel that follows its job: update(job) on every poll while the row is open.
+export function createDetail() {
+  const parts = { reason: h('div'), about: h('div'), answer: h('div'), plot: h('div', { class: 'plot-box' }),
+    results: h('div'), links: h('div') };
+  const element = h('div', { class: 'panel' },
+    parts.reason, h('div', { class: 'first' }, parts.answer, parts.plot), parts.links, parts.results, parts.about);
+  let finalShown = null; // the state whose results and plot are on the page for good
+
+  async function update(job) {
+    showReason(parts.reason, job);
+    showAbout(parts.about, job);
+    showLinks(parts.links, job);
+    if (finalShown === job.status || job.status === 'accepted') return;
+    try {
+      const results = job.status === 'successful' ? await json(`${jobPath(job.jobID)}/results`) : null;
+      const points = angleSeries(await json(`${jobPath(job.jobID)}/samples`));
+      if (results) showResults(parts, results, job);
+      showPlot(parts.plot, points, results);
+      if (job.status !== 'running') finalShown = job.status;
+    } catch (error) {
+      if (!(error instanceof ApiError)) throw error;
+      parts.plot.replaceChildren(h('p', { class: 'quiet' }, `Results not loaded: ${error.message}.`));
+    }
+  }
+  return { element, update };
+}
+
+function angleSeries(document) {
+  return document.samples
+    .map(sample => ({ time: sample.time, angle: sample.values.angle_deg }))
+    .filter(point => typeof point.angle === 'number');
+}
+
+function showReason(box, job) {
+  replaceIfChanged(box, [job.status, job.message], () => job.status !== 'failed' ? null
+    : h('div', { class: 'reason' }, h('h3', null, 'Why it failed'), h('p', null, job.message || 'No reason was given.')));
+}
+
+function showResults(parts, results, job) {
+  parts.answer.replaceChildren(answer(results.repose ?? {}, results.regime, job.summary ?? {}));
+  parts.results.replaceChildren(resultsInWords(results));
+}
+
+function showPlot(box, points, results) {
+  if (points.length < 2) {
+    box.replaceChildren(h('p', { class: 'quiet' }, 'No samples yet: they come once the drum turns.'));
+    return;
+  }
+  const width = Math.max(280, Math.floor(box.clientWidth));
+  box.replaceChildren(anglePlot(points, results?.repose, width));
+}
+
+function showAbout(box, job) {
+  const label = Object.entries(job.label ?? {});
+  replaceIfChanged(box, [label, job.attempt, job.created], () => h('dl', { class: 'facts about' },
+    [['id', job.jobID], ...label, ['attempt', count(job.attempt)], ['submitted', clock(job.created)]]
+      .map(([name, value]) => h('div', null, h('dt', null, name), h('dd', null, String(value))))));
+}
+
+function showLinks(box, job) {
+  const path = jobPath(job.jobID);
+  replaceIfChanged(box, job.status, () => [
+    h('ul', { class: 'links' },
+      job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results', `${job.jobID}-results.json`)) : null,
+      h('li', null, fileLink(`${path}/spec`, 'Spec', `${job.jobID}-spec.json`)),
+      h('li', null, fileLink(`${path}/log`, 'Log', `${job.jobID}-log.txt`)),
+      h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)', `${job.jobID}-samples.json`)),
+      h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)', `${job.jobID}-samples.csv`))),
+    job.status === 'accepted' ? null : snapshotList(path)]);
+}
+
+function snapshotList(path) {
+  const list = h('div', null, h('p', { class: 'quiet' }, 'Loading…'));
+  const load = async event => {
+    if (!event.target.open) return;
+    try {
+      const { snapshots } = await json(`${path}/snapshots`);
+      list.replaceChildren(...snapshotLinks(path, snapshots));
+    } catch (error) {
+      list.replaceChildren(h('p', { class: 'quiet' }, `Snapshots not loaded: ${error.message}.`));
+    }
+  };
+  return h('details', { class: 'snapshots', ontoggle: load }, h('summary', null, 'Snapshots (HDF5, for ParaView)'), list);
+}
+
+function snapshotLinks(path, snapshots) {
+  if (snapshots.length === 0) return [h('p', { class: 'quiet' }, 'None yet.')];
+  const shown = snapshots.slice(-SNAPSHOTS_SHOWN);
+  const left = snapshots.length - shown.length;
+  return [
+    left > 0 ? h('p', { class: 'quiet' }, `The last ${SNAPSHOTS_SHOWN} of ${count(snapshots.length)}.`) : null,
+    h('ul', null, shown.map(snapshot => h('li', null,
+      fileLink(snapshot.href ?? `${path}/snapshots/${snapshot.file}`, snapshot.file, snapshot.file),
+      ` at ${significant(snapshot.time)} s, ${bytes(snapshot.bytes)}`)))].filter(Boolean);
+}

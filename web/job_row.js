@@ -1,0 +1,95 @@
+// One job in the list: a row, and under it a row for the details that opens and closes. Rows are kept from
+// poll to poll and only their changed cells are written.
+import { h, replaceIfChanged } from './dom.js';
+import { clock, degrees, duration, inputsInWords, secondsBetween } from './format.js';
+import { drumPicture } from './drum_picture.js';
+import { createDetail } from './job_detail.js';
+
+const COLUMNS = ['job', 'state', 'inputs', 'angle', 'regime', 'times', 'actions'];
+const CAN_BE_STOPPED = ['accepted', 'running'];
+
+export function nameOf(job) {
+  const words = Object.values(job.label ?? {}).map(String).filter(Boolean);
+  return words.length ? words.join(' · ') : `${job.processID} test`;
+}
+
+const nothing = () => h('span', { class: 'quiet nothing' }, '–');
+
+// actions: {toggle(id), stop(job)}
+export function createRow(id, actions) {
+  const cells = Object.fromEntries(COLUMNS.map(name => [name, h('td', { class: name, role: 'cell' })]));
+  const main = h('tr', { class: 'job', role: 'row', id: `job-${id}` }, Object.values(cells));
+  const room = h('td', { role: 'cell', colspan: COLUMNS.length });
+  const below = h('tr', { class: 'detail', role: 'row', id: `detail-${id}`, hidden: true }, room);
+  const row = { id, main, below, job: null, detail: null };
+
+  row.update = (job, open) => {
+    row.job = job;
+    main.dataset.status = job.status;
+    showName(cells.job, job, open, actions);
+    showState(cells.state, job);
+    showInputs(cells.inputs, job);
+    showAngle(cells.angle, job);
+    replaceIfChanged(cells.regime, job.summary?.regime ?? '', () => job.summary?.regime ?? nothing());
+    showTimes(cells.times, job);
+    showActions(cells.actions, job, row, actions);
+    main.classList.toggle('open', open);
+    below.hidden = !open;
+    if (!open) return undefined;
+    if (!row.detail) room.append((row.detail = createDetail()).element);
+    return row.detail.update(job);
+  };
+  return row;
+}
+
+function showName(cell, job, open, actions) {
+  replaceIfChanged(cell, [job.label, job.processID], () => [
+    h('button', { class: 'opener', 'aria-controls': `detail-${job.jobID}`, 'aria-expanded': 'false',
+      onclick: () => actions.toggle(job.jobID) }, nameOf(job)),
+    h('small', null, `${job.processID} · ${job.jobID}`)]);
+  cell.querySelector('.opener').setAttribute('aria-expanded', String(open));
+}
+
+function showState(cell, job) {
+  replaceIfChanged(cell, [job.status, job.attempt, job.message], () => [
+    h('span', { class: `badge ${job.status}` }, job.status),
+    job.attempt > 1 ? h('small', { class: 'attempt' }, `attempt ${job.attempt}`) : null,
+    job.status === 'running' ? h('progress', { max: 100, 'aria-label': 'progress' }) : null,
+    job.status === 'running' ? h('small', { class: 'left' }) : null,
+    job.status === 'failed' && job.message ? h('small', { class: 'why', title: job.message }, job.message) : null]);
+  const bar = cell.querySelector('progress');
+  if (!bar) return;
+  bar.value = job.progress ?? 0;
+  const left = typeof job.eta_seconds === 'number' ? ` · ${duration(job.eta_seconds)} left` : '';
+  cell.querySelector('.left').textContent = `${Math.floor(job.progress ?? 0)} %${left}`;
+}
+
+function showInputs(cell, job) {
+  const words = inputsInWords(job.summary ?? {});
+  replaceIfChanged(cell, words, () => words.map(({ text, title }) => h('span', { title }, text)));
+}
+
+function showAngle(cell, job) {
+  const { angle_deg, standard_error_deg, fill_fraction, steady } = job.summary ?? {};
+  replaceIfChanged(cell, [angle_deg, standard_error_deg, fill_fraction, steady, job.status], () => {
+    if (typeof angle_deg !== 'number') return nothing();
+    return [drumPicture({ angle_deg, fill_fraction }, 34),
+      h('span', { class: 'value' }, degrees(angle_deg, standard_error_deg),
+        steady === false ? h('small', null, 'not steady') : null)];
+  });
+}
+
+function showTimes(cell, job) {
+  const end = job.finished ?? (job.status === 'running' ? new Date().toISOString() : null);
+  const took = secondsBetween(job.started, end);
+  const line = (name, iso) => h('span', null, `${name} `, h('time', { datetime: iso, title: iso }, clock(iso)));
+  replaceIfChanged(cell, [job.created, job.started, job.finished, job.status, Math.floor(took ?? -1)], () => [
+    line('submitted', job.created),
+    job.started ? line('started', job.started) : null,
+    took !== null ? h('span', null, `${job.finished ? 'took' : 'running for'} ${duration(took)}`) : null]);
+}
+
+function showActions(cell, job, row, actions) {
+  replaceIfChanged(cell, CAN_BE_STOPPED.includes(job.status), () => !CAN_BE_STOPPED.includes(job.status) ? null
+    : h('button', { class: 'stop', 'aria-label': `Cancel ${nameOf(job)}`, onclick: () => actions.stop(row.job) }, 'Cancel'));
+}

@@ -1,0 +1,29 @@
+// Asking again and again, politely: soon while something runs, seldom when nothing does or nobody looks,
+// and ever more seldom while the daemon can't be reached.
+
+const BUSY = 2_000, IDLE = 5_000, HIDDEN = 60_000, LONGEST = 60_000; // ms
+
+// ask(): a promise that resolves to true when something is going on. Told of every failure: failed(error, ms).
+export function startPolling(ask, failed) {
+  let timer = 0, failures = 0, turn = 0;
+
+  async function now() {
+    clearTimeout(timer);
+    const mine = ++turn; // a later now() overtakes: an older answer then arms no timer of its own
+    let pause;
+    try {
+      pause = await ask() ? BUSY : IDLE;
+      failures = 0;
+    } catch (error) {
+      if (mine !== turn) return;
+      pause = Math.min(BUSY * 2 ** failures++, LONGEST);
+      failed(error, pause);
+    }
+    if (mine === turn) timer = setTimeout(now, document.hidden ? Math.max(pause, HIDDEN) : pause);
+  }
+
+  document.addEventListener('visibilitychange', () => { if (!document.hidden) now(); });
+  window.addEventListener('online', now);
+  now();
+  return now;
+}
