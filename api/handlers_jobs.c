@@ -1,0 +1,180 @@
+/* The list of jobs, one job, and dismissing it. */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "handlers.h"
+#include "status_info.h"
+
+enum { JOBS_DEFAULT_LIMIT = 50, JOBS_HIGHEST_LIMIT = 500, LONGEST_WAIT = 60 };
+
+void respond_store_failure(http_response *response, store_status status, const char *wanted)
+{
+    if (status == STORE_FULL) {
+        http_respond_problem(response, 507, NULL, "No room on the disk", "could not %s: the data folder's disk is full", wanted);
+        return;
+    }
+    http_respond_problem(response, 503, NULL, "Store not available", "could not %s; the daemon's log says why", wanted);
+    response->retry_after = 5;
+}
+
+void respond_no_such_job(http_response *response, const char *id)
+{
+    http_respond_problem(response, 404, OGC_EXCEPTION "no-such-job", "No such job", "there is no job \"%s\"; /jobs lists them", id);
+}
+
+bool find_job(api_service *service, const http_request *request, http_response *response, job_record *job)
+{
+    const char *id = request->segment[0];
+    const store_status status = job_id_is_valid(id) ? store_find_job(service->store, id, job) : STORE_NOT_FOUND;
+    if (status == STORE_NOT_FOUND) respond_no_such_job(response, id);
+    else if (status != STORE_OK) respond_store_failure(response, status, "read the job");
+    return status == STORE_OK;
+}
+
+static bool has_ended(const job_record *job)
+{
+    return job->status != JOB_ACCEPTED && job->status != JOB_RUNNING;
+}
+
+/* ?wait=SECONDS answers as soon as the job has ended, at the latest when the time is up. */
+void show_job(api_service *service, const http_request *request, http_response *response)
+{
+    char problem[160];
+    int64_t wait;
+    if (!http_request_integer(request, "wait", 0, LONGEST_WAIT, 0, &wait, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return;
+    }
+    job_record job;
+    if (!find_job(service, request, response, &job)) return;
+    if (!has_ended(&job) && request->may_wait && request->waited < (double)wait) response->wait = true;
+    else http_respond_json(response, 200, status_info(&job));
+    job_record_clear(&job);
+}
+
+void dismiss_job(api_service *service, const http_request *request, http_response *response)
+{
+    const char *id = request->segment[0];
+    const store_status status = job_id_is_valid(id) ? store_dismiss_job(service->store, id) : STORE_NOT_FOUND;
+    job_record job;
+    if (status == STORE_OK) {
+        service->jobs_changed(service->daemon);
+    } else if (status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
+        respond_store_failure(response, status, "dismiss the job");
+        return;
+    }
+    if (!find_job(service, request, response, &job)) return;
+    if (status == STORE_CONFLICT && job.status != JOB_DISMISSED)
+        http_respond_problem(response, 409, NULL, "The job has ended", "job %s is %s; its results are kept and it can't be dismissed any more",
+                             job.id, job_status_name(job.status));
+    else /* dismissing twice is no mistake */
+        http_respond_json(response, 200, status_info(&job));
+    job_record_clear(&job);
+}
+
+static bool read_statuses(const char *text, unsigned *statuses, char *problem, size_t size)
+{
+    *statuses = 0;
+    while (text && *text) {
+        const size_t length = strcspn(text, ",");
+        job_status status;
+        if (!job_status_parse(text, length, &status)) {
+            snprintf(problem, size, "parameter status is \"%.40s\"; must be accepted, running, successful, failed, dismissed, or several with commas between", text);
+            return false;
+        }
+        *statuses |= 1U << status;
+        text += length;
+        text += *text == ',';
+    }
+    return true;
+}
+
+static bool read_filter(const http_request *request, job_filter *filter, char *problem, size_t size)
+{
+    filter->process = http_request_parameter(request, "processID");
+    filter->text = http_request_parameter(request, "q");
+    if (filter->text && strlen(filter->text) > 100) {
+        snprintf(problem, size, "parameter q has %zu bytes; must have at most 100", strlen(filter->text));
+        return false;
+    }
+    return read_statuses(http_request_parameter(request, "status"), &filter->statuses, problem, size)
+        && http_request_integer(request, "limit", 1, JOBS_HIGHEST_LIMIT, JOBS_DEFAULT_LIMIT, &filter->limit, problem, size)
+        && http_request_integer(request, "cursor", 1, INT64_MAX, 0, &filter->before, problem, size);
+}
+
+typedef struct job_page {
+    json_t *jobs;
+    int64_t limit, last; /* number of the last job on the page */
+    bool more;
+} job_page;
+
+static bool add_job_to_page(void *context, const job_record *job)
+{
+    job_page *page = context;
+    if ((int64_t)json_array_size(page->jobs) == page->limit) {
+        page->more = true;
+        return false;
+    }
+    page->last = job->number;
+    return json_array_append_new(page->jobs, status_info(job)) == 0;
+}
+
+static void add_escaped(text_buffer *out, const char *text)
+{
+    for (; *text; text++) {
+        const unsigned char c = (unsigned char)*text;
+        if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || strchr("-_.~,", c)) text_buffer_add(out, text, 1);
+        else text_buffer_print(out, "%%%02X", c);
+    }
+}
+
+/* The address of this list, with the filters it was asked with; cursor 0: as it was asked. */
+static json_t *list_link(const http_request *request, const char *rel, int64_t cursor)
+{
+    text_buffer href;
+    text_buffer_init(&href, 4096);
+    text_buffer_print(&href, "%s", request->path);
+    char between = '?';
+    for (size_t i = 0; i < request->parameter_count; i++) {
+        if (cursor && strcmp(request->parameter[i].name, "cursor") == 0) continue;
+        text_buffer_print(&href, "%c%s=", between, request->parameter[i].name);
+        add_escaped(&href, request->parameter[i].value);
+        between = '&';
+    }
+    if (cursor) text_buffer_print(&href, "%ccursor=%lld", between, (long long)cursor);
+    json_t *link = link_to(rel, "application/json", href.text ? href.text : "");
+    text_buffer_clear(&href);
+    return link;
+}
+
+static json_t *counts_of_jobs(api_service *service)
+{
+    int64_t counts[JOB_STATUSES];
+    if (store_count_jobs(service->store, counts) != STORE_OK) return NULL;
+    json_t *object = json_object();
+    for (int i = 0; i < JOB_STATUSES; i++) json_object_set_new(object, job_status_name((job_status)i), json_integer(counts[i]));
+    return object;
+}
+
+void list_jobs(api_service *service, const http_request *request, http_response *response)
+{
+    char problem[240];
+    job_filter filter = {0};
+    if (!read_filter(request, &filter, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return;
+    }
+    job_page page = {.jobs = json_array(), .limit = filter.limit};
+    filter.limit++; /* one more than asked for says whether there is a next page */
+    const store_status status = store_list_jobs(service->store, &filter, add_job_to_page, &page);
+    json_t *counts = status == STORE_OK ? counts_of_jobs(service) : NULL;
+    if (!counts) {
+        json_decref(page.jobs);
+        respond_store_failure(response, STORE_FAILED, "list the jobs");
+        return;
+    }
+    json_t *links = json_pack("[o]", list_link(request, "self", 0));
+    if (page.more) json_array_append_new(links, list_link(request, "next", page.last));
+    http_respond_json(response, 200, json_pack("{s:o, s:o, s:o}", "jobs", page.jobs, "links", links, "counts", counts));
+}

@@ -1,0 +1,115 @@
+/* What can be run, and running it. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/random.h>
+
+#include "handlers.h"
+#include "status_info.h"
+
+/* JSON numbers are doubles to most clients: a seed beyond 2^53 would not come back as it was. */
+#define SEED_BITS 53
+
+void list_processes(api_service *service, const http_request *request, http_response *response)
+{
+    (void)service, (void)request;
+    json_t *links = json_pack("[o]", link_to("self", "application/json", "/processes"));
+    http_respond_json(response, 200, json_pack("{s:o, s:o}", "processes", process_summaries(), "links", links));
+}
+
+static void respond_no_such_process(http_response *response, const char *process)
+{
+    http_respond_problem(response, 404, OGC_EXCEPTION "no-such-process", "No such process",
+                         "there is no process \"%s\"; /processes lists them", process);
+}
+
+void show_process(api_service *service, const http_request *request, http_response *response)
+{
+    (void)service;
+    json_t *description = process_description(request->segment[0]);
+    if (description) http_respond_json(response, 200, description);
+    else respond_no_such_process(response, request->segment[0]);
+}
+
+static json_t *parse_body(const http_request *request, http_response *response)
+{
+    json_error_t error;
+    json_t *document = json_loadb(request->body ? request->body : "", request->body_length, JSON_REJECT_DUPLICATES, &error);
+    if (!document)
+        http_respond_problem(response, 400, NULL, "Not JSON", "line %d, column %d: %s", error.line, error.column, error.text);
+    return document;
+}
+
+static uint64_t random_seed(void)
+{
+    uint64_t bits = 0;
+    while (getrandom(&bits, sizeof bits, 0) != (ssize_t)sizeof bits) continue; /* EINTR is the only failure of 8 bytes */
+    return bits >> (64 - SEED_BITS);
+}
+
+static void set_default_threads(const api_service *service, json_t *document)
+{
+    json_t *inputs = json_object_get(document, "inputs");
+    if (json_is_object(inputs) && !json_object_get(inputs, "threads"))
+        json_object_set_new(inputs, "threads", json_integer(service->default_threads));
+}
+
+static bool read_spec(api_service *service, const http_request *request, http_response *response, job_spec *spec)
+{
+    json_t *document = parse_body(request, response);
+    if (!document) return false;
+    problem_list problems;
+    bool good = false;
+    if (!problem_list_init(&problems)) {
+        http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
+    } else {
+        set_default_threads(service, document);
+        good = job_spec_parse(request->segment[0], document, random_seed(), spec, &problems);
+        if (!good)
+            http_respond_json(response, 400, problem_json(400, "about:blank", "The specification can't be run",
+                                                          "each entry of errors names a member, what it is and what it may be", &problems));
+        problem_list_clear(&problems);
+    }
+    json_decref(document);
+    return good;
+}
+
+static void respond_created(api_service *service, const http_request *request, http_response *response, const job_spec *spec,
+                            const char *id)
+{
+    job_record job;
+    const store_status status = store_find_job(service->store, id, &job);
+    if (status != STORE_OK) { /* it is safe in the queue all the same: say so */
+        http_respond_json(response, 201, json_pack("{s:s, s:s, s:s, s:s}", "jobID", id, "processID", spec->process,
+                                                   "type", "process", "status", "accepted"));
+    } else {
+        json_t *info = status_info(&job);
+        const job_estimate estimate = job_spec_estimate(spec, store_measured_speed(service->store));
+        json_object_set_new(info, "estimate", job_estimate_to_json(&estimate));
+        http_respond_json(response, 201, info);
+        job_record_clear(&job);
+    }
+    snprintf(response->location, sizeof response->location, "/jobs/%s", id);
+    if (request->prefer && strstr(request->prefer, "respond-async")) response->preference_applied = "respond-async";
+}
+
+void execute_process(api_service *service, const http_request *request, http_response *response)
+{
+    json_t *description = process_description(request->segment[0]);
+    if (!description) {
+        respond_no_such_process(response, request->segment[0]);
+        return;
+    }
+    json_decref(description);
+    job_spec spec;
+    if (!read_spec(service, request, response, &spec)) return;
+    char id[JOB_ID_SIZE];
+    const store_status status = store_add_job(service->store, &spec, id);
+    if (status == STORE_OK) {
+        service->jobs_changed(service->daemon);
+        respond_created(service, request, response, &spec, id);
+    } else {
+        respond_store_failure(response, status, "keep the job");
+    }
+    job_spec_clear(&spec);
+}

@@ -1,0 +1,80 @@
+/* Read-only SQL of a user, as JSON or CSV. */
+#include <string.h>
+
+#include "handlers.h"
+
+enum { QUERY_BYTES = 8 << 20, QUERY_ROWS = 10000 };
+
+typedef struct query_table {
+    text_buffer out;
+    bool csv, truncated;
+} query_table;
+
+static void add_value(query_table *table, const query_value *value)
+{
+    switch (value->kind) {
+    case QUERY_INTEGER: text_buffer_print(&table->out, "%lld", (long long)value->integer); break;
+    case QUERY_REAL: text_buffer_add_number(&table->out, value->real); break;
+    case QUERY_TEXT:
+        (table->csv ? text_buffer_add_csv_field : text_buffer_add_json_string)(&table->out, value->text, value->length);
+        break;
+    default: text_buffer_print(&table->out, "%s", table->csv ? "" : "null");
+    }
+}
+
+static void add_row(query_table *table, int64_t row, const query_value *values, int count)
+{
+    if (!table->csv) text_buffer_print(&table->out, row == 0 ? "{\"columns\":[" : row == 1 ? "[" : ",[");
+    for (int i = 0; i < count; i++) {
+        if (i > 0) text_buffer_print(&table->out, ",");
+        add_value(table, &values[i]);
+    }
+    text_buffer_print(&table->out, table->csv ? "\r\n" : row == 0 ? "],\"rows\":[" : "]");
+}
+
+static bool take_row(void *context, int64_t row, const query_value *values, int count)
+{
+    query_table *table = context;
+    const size_t length = table->out.length;
+    if (row <= QUERY_ROWS) add_row(table, row, values, count);
+    table->truncated = row > QUERY_ROWS || table->out.failed;
+    if (row > 0 && table->out.failed && length > 0) { /* the cap: give what is whole */
+        table->out.failed = false;
+        table->out.length = length;
+        table->out.text[length] = '\0';
+    }
+    return !table->truncated;
+}
+
+static void respond_query_failure(http_response *response, query_status status, const char *problem)
+{
+    if (status == QUERY_REFUSED) {
+        http_respond_problem(response, 400, NULL, "The query can't be run", "%s", problem);
+    } else {
+        http_respond_problem(response, 503, NULL, status == QUERY_TOO_SLOW ? "The query takes too long" : "Store not available", "%s", problem);
+        response->retry_after = 5;
+    }
+}
+
+void run_query(api_service *service, const http_request *request, http_response *response)
+{
+    const char *sql = http_request_parameter(request, "sql");
+    const char *format = http_request_parameter(request, "format");
+    query_table table = {.csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv")};
+    if (!sql || (format && !table.csv && strcmp(format, "json") != 0)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", sql ? "parameter format must be json or csv"
+                             : "parameter sql is missing; for example /query?sql=select+friction,angle_deg+from+run_summary");
+        return;
+    }
+    text_buffer_init(&table.out, QUERY_BYTES);
+    char problem[400];
+    const query_status status = store_query(service->store, sql, take_row, &table, problem, sizeof problem);
+    if (status != QUERY_OK) {
+        text_buffer_clear(&table.out);
+        respond_query_failure(response, status, problem);
+        return;
+    }
+    table.out.limit += 64; /* the end always fits */
+    if (!table.csv) text_buffer_print(&table.out, "],\"truncated\":%s}", table.truncated ? "true" : "false");
+    http_respond_text(response, 200, table.csv ? "text/csv; charset=utf-8; header=present" : "application/json", table.out.text, table.out.length);
+}

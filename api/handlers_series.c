@@ -1,0 +1,180 @@
+/* What a job gives over time: samples of its measures, and snapshots. Both come a page at a time. */
+#include <stdlib.h>
+#include <string.h>
+
+#include "handlers.h"
+
+enum { SERIES_LIMIT = 10000, SERIES_BYTES = 64 << 20 };
+
+typedef struct series_page {
+    text_buffer out;
+    json_t *columns; /* CSV alone: names of the measures, from the first row */
+    const char *id;
+    int64_t rows, limit, last;
+    bool more;
+} series_page;
+
+/* Counts the row in; false: the page is full. */
+static bool series_take(series_page *series, int64_t number)
+{
+    series->more = series->rows == series->limit;
+    if (series->more) return false;
+    series->rows++;
+    series->last = number;
+    return true;
+}
+
+static bool open_series(api_service *service, const http_request *request, http_response *response, series_page *series,
+                        int64_t *after)
+{
+    char problem[160];
+    if (!http_request_integer(request, "after", -1, INT64_MAX, -1, after, problem, sizeof problem)
+        || !http_request_integer(request, "limit", 1, SERIES_LIMIT, SERIES_LIMIT, &series->limit, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return false;
+    }
+    job_record job;
+    if (!find_job(service, request, response, &job)) return false;
+    job_record_clear(&job);
+    series->id = request->segment[0];
+    text_buffer_init(&series->out, SERIES_BYTES);
+    return true;
+}
+
+static void close_series(series_page *series, http_response *response, store_status status, const char *type, const char *wanted)
+{
+    json_decref(series->columns);
+    if (status == STORE_OK && !series->out.failed) {
+        http_respond_text(response, 200, type, series->out.text, series->out.length);
+        return;
+    }
+    text_buffer_clear(&series->out);
+    respond_store_failure(response, status, wanted);
+}
+
+static void add_links(series_page *series, const char *name)
+{
+    text_buffer_print(&series->out, "],\"links\":[{\"rel\":\"self\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s\"}", series->id, name);
+    if (series->more)
+        text_buffer_print(&series->out, ",{\"rel\":\"next\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s?after=%lld&limit=%lld\"}",
+                          series->id, name, (long long)series->last, (long long)series->limit);
+    text_buffer_print(&series->out, "]}");
+}
+
+static bool add_sample_json(void *context, const sample_row *row)
+{
+    series_page *series = context;
+    if (!series_take(series, row->number)) return false;
+    text_buffer_print(&series->out, "%s{\"number\":%lld,\"step\":%lld,\"time\":", series->rows > 1 ? "," : "",
+                      (long long)row->number, (long long)row->step);
+    text_buffer_add_number(&series->out, row->time);
+    text_buffer_print(&series->out, ",\"values\":%s}", row->measures);
+    return true;
+}
+
+static void add_csv_header(series_page *series, json_t *values)
+{
+    series->columns = json_array();
+    text_buffer_print(&series->out, "number,step,time");
+    const char *name;
+    json_t *value;
+    json_object_foreach(values, name, value) {
+        if (strcmp(name, "time") == 0) continue; /* the same as the row's */
+        json_array_append_new(series->columns, json_string(name));
+        text_buffer_print(&series->out, ",");
+        text_buffer_add_csv_field(&series->out, name, strlen(name));
+    }
+    text_buffer_print(&series->out, "\r\n");
+}
+
+static bool add_sample_csv(void *context, const sample_row *row)
+{
+    series_page *series = context;
+    if (!series_take(series, row->number)) return false;
+    json_t *values = json_loads(row->measures, 0, NULL);
+    if (!series->columns) add_csv_header(series, values);
+    text_buffer_print(&series->out, "%lld,%lld,", (long long)row->number, (long long)row->step);
+    text_buffer_add_number(&series->out, row->time);
+    size_t i;
+    json_t *name;
+    json_array_foreach(series->columns, i, name) {
+        const json_t *value = json_object_get(values, json_string_value(name));
+        text_buffer_print(&series->out, ",");
+        if (json_is_number(value)) text_buffer_add_number(&series->out, json_number_value(value));
+    }
+    text_buffer_print(&series->out, "\r\n");
+    json_decref(values);
+    return true;
+}
+
+/* *csv: CSV is asked for. False: an unknown format, and the response says so. */
+static bool read_format(const http_request *request, http_response *response, bool *csv)
+{
+    const char *format = http_request_parameter(request, "format");
+    *csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv");
+    if (!format || *csv || strcmp(format, "json") == 0) return true;
+    http_respond_problem(response, 400, NULL, "Bad parameter", "parameter format is \"%.40s\"; must be json or csv", format);
+    return false;
+}
+
+void list_samples(api_service *service, const http_request *request, http_response *response)
+{
+    series_page series = {0};
+    int64_t after;
+    bool csv;
+    if (!read_format(request, response, &csv) || !open_series(service, request, response, &series, &after)) return;
+    if (!csv) text_buffer_print(&series.out, "{\"samples\":[");
+    else text_buffer_add(&series.out, "", 0);
+    const store_status status = store_list_samples(service->store, series.id, after, series.limit + 1,
+                                                   csv ? add_sample_csv : add_sample_json, &series);
+    if (!csv) add_links(&series, "samples");
+    close_series(&series, response, status, csv ? "text/csv; charset=utf-8" : "application/json", "read the samples");
+}
+
+static bool add_snapshot(void *context, const snapshot_row *row)
+{
+    series_page *series = context;
+    if (!series_take(series, row->number)) return false;
+    text_buffer_print(&series->out, "%s{\"number\":%lld,\"step\":%lld,\"time\":", series->rows > 1 ? "," : "",
+                      (long long)row->number, (long long)row->step);
+    text_buffer_add_number(&series->out, row->time);
+    text_buffer_print(&series->out, ",\"bytes\":%lld,\"particles\":%lld,\"href\":\"/jobs/%s/snapshots/%06lld.hdf\"}",
+                      (long long)row->bytes, (long long)row->particles, series->id, (long long)row->number);
+    return true;
+}
+
+void list_snapshots(api_service *service, const http_request *request, http_response *response)
+{
+    series_page series = {0};
+    int64_t after;
+    if (!open_series(service, request, response, &series, &after)) return;
+    text_buffer_print(&series.out, "{\"snapshots\":[");
+    const store_status status = store_list_snapshots(service->store, series.id, after, series.limit + 1, add_snapshot, &series);
+    add_links(&series, "snapshots");
+    close_series(&series, response, status, "application/json", "list the snapshots");
+}
+
+/* "000012.hdf" or "12.hdf" is number 12; -1: neither. */
+static int64_t snapshot_number(const char *name)
+{
+    const size_t digits = strspn(name, "0123456789");
+    if (digits == 0 || digits > 12 || strcmp(name + digits, ".hdf") != 0) return -1;
+    return strtoll(name, NULL, 10);
+}
+
+void send_snapshot(api_service *service, const http_request *request, http_response *response)
+{
+    job_record job;
+    if (!find_job(service, request, response, &job)) return;
+    const int64_t number = snapshot_number(request->segment[1]);
+    int file;
+    const store_status status = number < 0 ? STORE_NOT_FOUND : store_open_snapshot(service->store, job.id, number, &file);
+    if (status == STORE_OK)
+        http_respond_file(request, response, file, "application/x-hdf5", HTTP_FILE_IMMUTABLE);
+    else if (status == STORE_NOT_FOUND)
+        http_respond_problem(response, 404, NULL, "No such snapshot", "job %s has no snapshot \"%s\"; /jobs/%s/snapshots lists them",
+                             job.id, request->segment[1], job.id);
+    else
+        respond_store_failure(response, status, "open the snapshot");
+    job_record_clear(&job);
+}

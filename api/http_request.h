@@ -1,0 +1,68 @@
+/* An HTTP request as the handlers see it, and the answer they make of it: plain data, no library.
+ *
+ * The target is taken raw, because a library that decodes it first hides "%2e%2e" and "%00" from us: before the
+ * query only [A-Za-z0-9/_.~-] is allowed, without empty, "." and ".." segments, so a path needs no decoding. */
+#ifndef HTTP_REQUEST_H
+#define HTTP_REQUEST_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "problem.h"
+
+enum { HTTP_PARAMETERS = 16, HTTP_SEGMENTS = 2, HTTP_SEGMENT_SIZE = 65 };
+
+typedef struct http_parameter {
+    const char *name, *value; /* decoded UTF-8 */
+} http_parameter;
+
+typedef struct http_request {
+    const char *method, *path;
+    /* headers; NULL where there is none */
+    const char *host, *origin, *accept, *content_type, *authorization, *prefer, *range, *if_range, *if_none_match;
+    size_t parameter_count;
+    http_parameter parameter[HTTP_PARAMETERS];
+    char segment[HTTP_SEGMENTS][HTTP_SEGMENT_SIZE]; /* what the pattern's {…} stood for */
+    const char *body;
+    size_t body_length;
+    double waited; /* s that this request has already been kept waiting for a change */
+    bool may_wait; /* false: answer at once (the daemon is leaving) */
+} http_request;
+
+typedef struct http_response {
+    int status;
+    const char *content_type;
+    char *body; /* owned; length bytes; NULL when a file is sent */
+    int file;   /* owned descriptor, or -1: length bytes from offset are sent */
+    uint64_t offset, length;
+    char location[160], etag[80], content_range[80];
+    const char *cache_control, *allow, *preference_applied, *authenticate, *accept_ranges;
+    int retry_after; /* s; 0: no such header */
+    bool wait;       /* nothing to say yet: call the handler again after a change, or when its time is up */
+} http_response;
+
+/* Splits a raw target in place into path and parameters. NULL when good, else what is wrong with it. */
+const char *http_request_split_target(http_request *request, char *target);
+const char *http_request_parameter(const http_request *request, const char *name); /* NULL: not given */
+/* Whole number in [low, high]; `missing` where the parameter is not given. False: *problem says what is wrong. */
+bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing,
+                          int64_t *value, char *problem, size_t problem_size);
+/* Does the Accept header name this media type (exactly, not by a wildcard)? */
+bool http_request_accepts(const http_request *request, const char *media_type);
+
+void http_response_init(http_response *response);
+void http_response_clear(http_response *response);
+void http_respond_json(http_response *response, int status, json_t *document); /* takes the reference; NULL: no memory */
+void http_respond_text(http_response *response, int status, const char *content_type, char *text, size_t length); /* takes text */
+/* type NULL: about:blank. */
+void http_respond_problem(http_response *response, int status, const char *type, const char *title,
+                          const char *format, ...) __attribute__((format(printf, 5, 6)));
+/* Sends a file that was opened, whole or the part asked for; takes the descriptor. immutable: it never changes
+ * under this address. growing: no ETag, because the next read may give more. */
+enum http_file_kind { HTTP_FILE_IMMUTABLE, HTTP_FILE_CHANGING, HTTP_FILE_GROWING };
+void http_respond_file(const http_request *request, http_response *response, int file, const char *content_type,
+                       enum http_file_kind kind);
+
+#endif

@@ -1,0 +1,109 @@
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "http_range.h"
+#include "http_request.h"
+
+void http_response_init(http_response *response)
+{
+    *response = (http_response){.status = 500, .file = -1};
+}
+
+void http_response_clear(http_response *response)
+{
+    free(response->body);
+    if (response->file >= 0) close(response->file);
+    http_response_init(response);
+}
+
+void http_respond_text(http_response *response, int status, const char *content_type, char *text, size_t length)
+{
+    response->status = text ? status : 503;
+    response->content_type = content_type;
+    response->body = text;
+    response->length = text ? length : 0;
+}
+
+void http_respond_json(http_response *response, int status, json_t *document)
+{
+    char *text = document ? json_dumps(document, JSON_COMPACT | JSON_REAL_PRECISION(15)) : NULL;
+    json_decref(document);
+    http_respond_text(response, status, status >= 400 ? "application/problem+json" : "application/json", text,
+                      text ? strlen(text) : 0);
+}
+
+void http_respond_problem(http_response *response, int status, const char *type, const char *title,
+                          const char *format, ...)
+{
+    char *detail = NULL;
+    va_list arguments;
+    va_start(arguments, format);
+    if (vasprintf(&detail, format, arguments) < 0) detail = NULL;
+    va_end(arguments);
+    http_respond_json(response, status, problem_json(status, type ? type : "about:blank", title, detail ? detail : title, NULL));
+    free(detail);
+}
+
+/* From the file that is being sent, not from what a table says about it: files are replaced by rename only, so
+ * the same inode, size and time of change are the same bytes. */
+static void set_etag(http_response *response, const struct stat *facts)
+{
+    snprintf(response->etag, sizeof response->etag, "\"%llx-%llx-%llx\"", (unsigned long long)facts->st_ino,
+             (unsigned long long)facts->st_size,
+             (unsigned long long)facts->st_mtim.tv_sec * 1000000000ULL + (unsigned long long)facts->st_mtim.tv_nsec);
+}
+
+static bool etag_is_listed(const char *list, const char *etag)
+{
+    return list && (strcmp(list, "*") == 0 || strstr(list, etag) != NULL);
+}
+
+static void send_part(const http_request *request, http_response *response, uint64_t size)
+{
+    /* If-Range asks for the part only while the whole is still the one the client knows. */
+    const bool part_is_wanted = !request->if_range || (response->etag[0] && strcmp(request->if_range, response->etag) == 0);
+    const http_range_kind kind = part_is_wanted ? http_range_parse(request->range, size, &response->offset, &response->length)
+                                                : HTTP_RANGE_WHOLE;
+    if (kind == HTTP_RANGE_PART) {
+        response->status = 206;
+        snprintf(response->content_range, sizeof response->content_range, "bytes %llu-%llu/%llu",
+                 (unsigned long long)response->offset, (unsigned long long)(response->offset + response->length - 1),
+                 (unsigned long long)size);
+    } else if (kind == HTTP_RANGE_OUTSIDE) {
+        close(response->file);
+        response->file = -1;
+        http_respond_problem(response, 416, NULL, "Range outside the file", "the file has %llu bytes; Range was \"%.60s\"",
+                             (unsigned long long)size, request->range);
+        snprintf(response->content_range, sizeof response->content_range, "bytes */%llu", (unsigned long long)size);
+    } else {
+        response->offset = 0;
+        response->length = size;
+    }
+}
+
+void http_respond_file(const http_request *request, http_response *response, int file, const char *content_type,
+                       enum http_file_kind kind)
+{
+    struct stat facts;
+    if (fstat(file, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+        close(file);
+        http_respond_problem(response, 404, NULL, "Not found", "there is no such file");
+        return;
+    }
+    response->status = 200;
+    response->content_type = content_type;
+    response->cache_control = kind == HTTP_FILE_IMMUTABLE ? "private, max-age=31536000, immutable" : "no-cache";
+    response->accept_ranges = "bytes";
+    if (kind != HTTP_FILE_GROWING) set_etag(response, &facts);
+    if (kind != HTTP_FILE_GROWING && etag_is_listed(request->if_none_match, response->etag)) {
+        close(file);
+        response->status = 304;
+        return;
+    }
+    response->file = file;
+    send_part(request, response, (uint64_t)facts.st_size);
+}

@@ -1,0 +1,25 @@
+#include "handlers.h"
+
+const http_route route_table[] = {
+    {"GET", "/", "", show_landing, .open = true},
+    {"GET", "/web/{}", "", show_asset, .open = true},
+    {"GET", "/conformance", "", show_conformance, .open = true},
+    {"GET", "/api", "", show_api, .open = true},
+    {"GET", "/processes", "", list_processes, .open = true},
+    {"GET", "/processes/{}", "", show_process, .open = true},
+    {"POST", "/processes/{}/execution", "", execute_process, .open = false},
+    {"GET", "/jobs", " status processID limit cursor q ", list_jobs, .open = false},
+    {"GET", "/jobs/{}", " wait ", show_job, .open = false},
+    {"DELETE", "/jobs/{}", "", dismiss_job, .open = false},
+    {"GET", "/jobs/{}/results", "", show_results, .open = false},
+    {"GET", "/jobs/{}/spec", "", show_spec, .open = false},
+    {"GET", "/jobs/{}/log", "", show_log, .open = false},
+    {"GET", "/jobs/{}/samples", " after limit format ", list_samples, .open = false},
+    {"GET", "/jobs/{}/snapshots", " after limit ", list_snapshots, .open = false},
+    {"GET", "/jobs/{}/snapshots/{}", "", send_snapshot, .open = false},
+    {"GET", "/query", " sql format ", run_query, .slow = true},
+    {"GET", "/healthz", "", show_health, .open = true},
+    {"GET", "/readyz", "", show_readiness, .open = true},
+    {"GET", "/metrics", "", show_metrics, .open = false},
+};
+const size_t route_count = sizeof route_table / sizeof route_table[0];

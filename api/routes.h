@@ -1,0 +1,27 @@
+/* Which handler answers which address. The table is the whole list: what is not in it is 404, and the metrics
+ * count by its rows. */
+#ifndef ROUTES_H
+#define ROUTES_H
+
+#include "service.h"
+
+typedef void route_handler(api_service *service, const http_request *request, http_response *response);
+
+typedef struct http_route {
+    const char *method;     /* GET answers HEAD, too */
+    const char *pattern;    /* "/jobs/{}/log": {} stands for one segment of at most 64 characters */
+    const char *parameters; /* " names " of the query parameters, each between spaces; others are refused */
+    route_handler *handler;
+    bool slow;              /* may take seconds: answered apart, so that nothing else waits for it */
+    bool open;              /* needs no token */
+} http_route;
+
+extern const http_route route_table[];
+extern const size_t route_count;
+
+/* The route for request->method and ->path, its segments filled in. NULL: the response says why not. */
+const http_route *routes_match(const http_route *table, size_t count, http_request *request, http_response *response);
+/* Refuses unknown parameters, then calls the handler. */
+void route_respond(const http_route *route, api_service *service, const http_request *request, http_response *response);
+
+#endif

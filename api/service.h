@@ -1,0 +1,27 @@
+/* What the handlers need of the daemon around them. */
+#ifndef SERVICE_H
+#define SERVICE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "http_request.h"
+#include "store.h"
+#include "text_buffer.h"
+
+#define REPOSED_VERSION "0.1.0"
+
+typedef struct api_service {
+    job_store *store;
+    int web_folder;       /* descriptor of the page's folder; -1: none */
+    const char *api_file; /* the OpenAPI document, YAML */
+    int default_threads;  /* of a job that does not ask */
+    void *daemon;         /* first argument of the functions below */
+    void (*jobs_changed)(void *daemon); /* a job was added or dismissed */
+    bool (*is_ready)(void *daemon, char *why_not, size_t size);
+    void (*write_metrics)(void *daemon, text_buffer *out);
+} api_service;
+
+#define OGC_EXCEPTION "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/"
+
+#endif

@@ -1,0 +1,109 @@
+/* What the handlers need of a store of jobs. The daemon implements it over SQLite and the job folders; a test may
+ * implement it over an array. Times are ISO 8601 in UTC with milliseconds; "" means not yet. */
+#ifndef STORE_H
+#define STORE_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "job_spec.h"
+
+typedef struct job_store job_store;
+
+typedef enum store_status {
+    STORE_OK = 0,
+    STORE_NOT_FOUND,
+    STORE_CONFLICT, /* the job is not in a state that allows this */
+    STORE_FULL,     /* no room on the disk */
+    STORE_FAILED    /* anything else the database or the file system refused; the log has the reason */
+} store_status;
+
+typedef enum job_status {
+    JOB_ACCEPTED, JOB_RUNNING, JOB_SUCCESSFUL, JOB_FAILED, JOB_DISMISSED, JOB_STATUSES
+} job_status;
+
+enum { JOB_ID_SIZE = 25, JOB_TIME_SIZE = 28 };
+
+/* "20261122-014455-3f9a2c71": the time of submission and 32 random bits, so folders sort by age. */
+bool job_id_is_valid(const char *id);
+const char *job_status_name(job_status status);
+bool job_status_parse(const char *name, size_t length, job_status *status);
+
+typedef struct job_record {
+    int64_t number; /* order of submission */
+    char id[JOB_ID_SIZE], process[16];
+    job_status status;
+    int attempt;
+    double progress, eta_seconds; /* percent; s, NaN: unknown */
+    char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], finished[JOB_TIME_SIZE], updated[JOB_TIME_SIZE];
+    char message[1024];
+    json_t *label;   /* owned */
+    json_t *summary; /* owned: main inputs, and main results once there are any */
+} job_record;
+
+void job_record_clear(job_record *job);
+
+/* False stops the walk. The record, row or text is only lent. */
+typedef bool job_visitor(void *context, const job_record *job);
+
+typedef struct job_filter {
+    unsigned statuses;   /* bit 1 << job_status; 0: all */
+    const char *process; /* NULL: all */
+    const char *text;    /* to be found in the id or the label; NULL: all */
+    int64_t before;      /* only jobs with a smaller number; 0: all */
+    int64_t limit;
+} job_filter;
+
+/* Returns after the commit, with spec.json safe on the disk. */
+store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE]);
+/* STORE_CONFLICT: it has already ended. */
+store_status store_dismiss_job(job_store *store, const char *id);
+
+store_status store_find_job(job_store *store, const char *id, job_record *job);
+store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context); /* newest first */
+store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES]);
+
+/* Texts are for free(). STORE_NOT_FOUND: no such job, or (results, failure) it has none. */
+store_status store_read_spec(job_store *store, const char *id, char **text);
+store_status store_read_results(job_store *store, const char *id, char **text);
+store_status store_read_failure(job_store *store, const char *id, char **text); /* the worker's failure event */
+
+typedef struct sample_row {
+    int64_t number, step;
+    double time; /* s since rotation began */
+    const char *measures; /* JSON object of numbers and nulls */
+} sample_row;
+typedef bool sample_visitor(void *context, const sample_row *row);
+store_status store_list_samples(job_store *store, const char *id, int64_t after, int64_t limit, sample_visitor *visit, void *context);
+
+typedef struct snapshot_row {
+    int64_t number, step, bytes, particles;
+    double time;
+} snapshot_row;
+typedef bool snapshot_visitor(void *context, const snapshot_row *row);
+store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit, void *context);
+
+/* Descriptors for reading, the caller closes. */
+store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file);
+store_status store_open_log(job_store *store, const char *id, int *file);
+
+/* Particle steps a second on one thread, from the latest runs here; 0: none yet. */
+double store_measured_speed(job_store *store);
+
+/* Read-only SQL of a user. */
+typedef enum query_status { QUERY_OK, QUERY_REFUSED, QUERY_TOO_SLOW, QUERY_UNAVAILABLE } query_status;
+typedef enum query_value_kind { QUERY_NULL, QUERY_INTEGER, QUERY_REAL, QUERY_TEXT } query_value_kind;
+typedef struct query_value {
+    query_value_kind kind;
+    int64_t integer;
+    double real;
+    const char *text;
+    size_t length;
+} query_value;
+/* row 0 holds the column names as texts, the rows follow. False stops, which is no error. */
+typedef bool query_visitor(void *context, int64_t row, const query_value *values, int count);
+query_status store_query(job_store *store, const char *sql, query_visitor *visit, void *context, char *problem, size_t problem_size);
+
+#endif
