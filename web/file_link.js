@@ -3,7 +3,7 @@
 import { h } from './dom.js';
 import { request, token } from './api.js';
 
-export function fileLink(path, text, name) {
+export function fileLink(path, text, name = text) {
   const fetchAndSave = async event => {
     if (!token.read()) return;
     event.preventDefault();

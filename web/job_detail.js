@@ -15,31 +15,42 @@ export function createDetail() {
     results: h('div'), links: h('div') };
   const element = h('div', { class: 'panel' },
     parts.reason, h('div', { class: 'first' }, parts.answer, parts.plot), parts.links, parts.results, parts.about);
+  const series = { points: [], last: -1 };
+  let loading = false;
   let finalShown = null; // the state whose results and plot are on the page for good
 
   async function update(job) {
     showReason(parts.reason, job);
     showAbout(parts.about, job);
     showLinks(parts.links, job);
-    if (finalShown === job.status || job.status === 'accepted') return;
+    if (loading || finalShown === job.status || job.status === 'accepted') return;
+    loading = true;
     try {
       const results = job.status === 'successful' ? await json(`${jobPath(job.jobID)}/results`) : null;
-      const points = angleSeries(await json(`${jobPath(job.jobID)}/samples`));
+      await fetchNewSamples(job.jobID, series);
       if (results) showResults(parts, results, job);
-      showPlot(parts.plot, points, results);
+      showPlot(parts.plot, series.points, results, job.status);
       if (job.status !== 'running') finalShown = job.status;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
       parts.plot.replaceChildren(h('p', { class: 'quiet' }, `Results not loaded: ${error.message}.`));
+    } finally {
+      loading = false;
     }
   }
   return { element, update };
 }
 
-function angleSeries(document) {
-  return document.samples
-    .map(sample => ({ time: sample.time, angle: sample.values.angle_deg }))
-    .filter(point => typeof point.angle === 'number');
+// Samples never change, so each is asked for once; an answer holds some thousands and links to the next.
+async function fetchNewSamples(id, series) {
+  for (let more = true; more;) {
+    const { samples, links } = await json(`${jobPath(id)}/samples?after=${series.last}`);
+    for (const { number, time, values } of samples) {
+      series.last = number;
+      if (typeof values.angle_deg === 'number') series.points.push({ time, angle: values.angle_deg });
+    }
+    more = links.some(link => link.rel === 'next');
+  }
 }
 
 function showReason(box, job) {
@@ -52,9 +63,10 @@ function showResults(parts, results, job) {
   parts.results.replaceChildren(resultsInWords(results));
 }
 
-function showPlot(box, points, results) {
+function showPlot(box, points, results, status) {
   if (points.length < 2) {
-    box.replaceChildren(h('p', { class: 'quiet' }, 'No samples yet: they come once the drum turns.'));
+    box.replaceChildren(h('p', { class: 'quiet' },
+      status === 'running' ? 'No samples yet: they come once the drum turns.' : 'It ended before there were samples to draw.'));
     return;
   }
   const width = Math.max(280, Math.floor(box.clientWidth));
@@ -86,7 +98,7 @@ function snapshotList(path) {
     if (!event.target.open) return;
     try {
       const { snapshots } = await json(`${path}/snapshots`);
-      list.replaceChildren(...snapshotLinks(path, snapshots));
+      list.replaceChildren(...snapshotLinks(snapshots));
     } catch (error) {
       list.replaceChildren(h('p', { class: 'quiet' }, `Snapshots not loaded: ${error.message}.`));
     }
@@ -94,13 +106,12 @@ function snapshotList(path) {
   return h('details', { class: 'snapshots', ontoggle: load }, h('summary', null, 'Snapshots (HDF5, for ParaView)'), list);
 }
 
-function snapshotLinks(path, snapshots) {
+function snapshotLinks(snapshots) {
   if (snapshots.length === 0) return [h('p', { class: 'quiet' }, 'None yet.')];
   const shown = snapshots.slice(-SNAPSHOTS_SHOWN);
   const left = snapshots.length - shown.length;
   return [
     left > 0 ? h('p', { class: 'quiet' }, `The last ${SNAPSHOTS_SHOWN} of ${count(snapshots.length)}.`) : null,
-    h('ul', null, shown.map(snapshot => h('li', null,
-      fileLink(snapshot.href ?? `${path}/snapshots/${snapshot.file}`, snapshot.file, snapshot.file),
-      ` at ${significant(snapshot.time)} s, ${bytes(snapshot.bytes)}`)))].filter(Boolean);
+    h('ul', null, shown.map(({ href, time, bytes: size }) => h('li', null,
+      fileLink(href, href.split('/').pop()), ` at ${significant(time)} s, ${bytes(size)}`)))].filter(Boolean);
 }
