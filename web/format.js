@@ -64,7 +64,7 @@ export function inputsInWords(summary) {
     const rpm = summary.rotation_rate * 30 / Math.PI;
     add(`${significant(summary.rotation_rate)} rad/s`, `rotation rate: ${significant(rpm)} turns a minute`);
   }
-  if (has('drum_diameter')) add(`Ø ${millimetres(summary.drum_diameter)}`, 'inner diameter of the drum');
+  if (has('drum_diameter')) add(`drum Ø ${millimetres(summary.drum_diameter)}`, 'inner diameter of the drum');
   if (has('particles') && has('diameter'))
     add(`${count(summary.particles)} × ${millimetres(summary.diameter)}`, 'particles × their diameter');
   else if (has('particles')) add(`${count(summary.particles)} particles`, 'number of particles');

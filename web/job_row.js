@@ -46,7 +46,7 @@ function showName(cell, job, open, actions) {
   replaceIfChanged(cell, [job.label, job.processID], () => [
     h('button', { class: 'opener', 'aria-controls': `detail-${job.jobID}`, 'aria-expanded': 'false',
       onclick: () => actions.toggle(job.jobID) }, nameOf(job)),
-    h('small', null, `${job.processID} · ${job.jobID}`)]);
+    h('small', null, job.jobID)]);
   cell.querySelector('.opener').setAttribute('aria-expanded', String(open));
 }
 
