@@ -65,17 +65,19 @@ def surface_offset(snapshot, angle, drum_radius):
     return float(np.median(tops)) if tops else float(above.max())
 
 
-def draw_wall(axes, inputs, ink):
+def draw_wall(axes, snapshot, ink):
+    inputs = snapshot["inputs"]
     radius = inputs["drum"]["diameter"] / 2.0
     axes.add_patch(Circle((0, 0), radius, fill=False, edgecolor=ink, linewidth=2.5))
     lining = (inputs.get("wall") or {}).get("lining")
     if not lining or not lining.get("diameter"):
         return
-    # As many as fit around at their pitch, their outermost points on the wall.
+    # As many as fit around at their pitch, touching the wall from within, turned with it since rotation began.
     ring = radius - lining["diameter"] / 2.0
     count = max(1, int(np.floor(2.0 * np.pi * ring / lining.get("pitch", lining["diameter"]) + 1e-9)))
+    turned = inputs["drum"].get("rotation_rate", 0.0) * max(snapshot["time"], 0.0)
     spheres = [Circle((ring * np.cos(a), ring * np.sin(a)), lining["diameter"] / 2.0)
-               for a in 2.0 * np.pi * np.arange(count) / count]
+               for a in turned + 2.0 * np.pi * np.arange(count) / count]
     axes.add_collection(PatchCollection(spheres, facecolor="#9aa4aa", edgecolor="none"))
 
 
@@ -122,7 +124,7 @@ def draw(snapshot, results, picture, colour="speed", thickness=None, dark=False)
     ink, paper = ("#e6e9ea", "#14191c") if dark else ("#1f2a30", "#ffffff")
     chosen = in_slice(snapshot, thickness)
     figure, axes = plt.subplots(figsize=(7.2, 6.4), facecolor=paper)
-    draw_wall(axes, snapshot["inputs"], ink)
+    draw_wall(axes, snapshot, ink)
     spheres = draw_particles(axes, snapshot, chosen, colour, ink)
     draw_angle(axes, snapshot, results, ink)
     if colour == "speed":
