@@ -65,7 +65,9 @@ export function inputsInWords(summary) {
     add(`${significant(summary.rotation_rate)} rad/s`, `rotation rate: ${significant(rpm)} turns a minute`);
   }
   if (has('drum_diameter')) add(`drum Ø ${millimetres(summary.drum_diameter)}`, 'inner diameter of the drum');
-  if (has('particles') && has('diameter'))
+  if (has('particles') && summary.species > 1)
+    add(`${count(summary.particles)} of ${summary.species} kinds`, 'particles of several kinds');
+  else if (has('particles') && has('diameter'))
     add(`${count(summary.particles)} × ${millimetres(summary.diameter)}`, 'particles × their diameter');
   else if (has('particles')) add(`${count(summary.particles)} particles`, 'number of particles');
   if (has('fill_fraction')) add(`${percent(summary.fill_fraction)} full`, 'fill fraction');

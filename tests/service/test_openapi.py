@@ -1,0 +1,257 @@
+"""api/openapi.yaml against the daemon: every documented operation is called and its answer, good or bad, is what
+the document says; every address the daemon knows is in the document; the inputs in it are those of the process
+description."""
+import json
+import re
+from pathlib import Path
+
+import jsonschema
+import pytest
+import requests
+import yaml
+
+ROOT = Path(__file__).resolve().parents[2]
+QUICK = {
+    "drum": {"diameter": 0.04, "length": 0.012, "rotation_rate": 6.0},
+    "particles": [{"diameter": 0.004}],
+    "fill_fraction": 0.3,
+    "contact": {"friction": 0.3, "maximum_overlap": 0.05},
+    "duration": {"seconds": 0.4},
+    "snapshots": {"interval": 0.1},
+    "seed": 7,
+}
+ENDLESS = QUICK | {"duration": {"seconds": 2000.0}, "snapshots": {"interval": 0}}
+NO_JOB = "20200101-000000-00000000"
+
+
+class Contract:
+    """The document, and the check of one answer against it."""
+
+    def __init__(self, document):
+        self.document = document
+        self.operations = {(method.upper(), path): operation
+                           for path, item in document["paths"].items()
+                           for method, operation in item.items() if method in ("get", "post", "delete", "put")}
+
+    def validate(self, value, schema):
+        root = {"components": self.document["components"], **schema}
+        jsonschema.Draft202012Validator(root).validate(value)
+
+    def check(self, answer, path):
+        responses = self.operations[answer.request.method, path]["responses"]
+        status = str(answer.status_code)
+        if answer.status_code < 400:
+            assert status in responses, f"{path} answers {status}, which is not documented"
+        response = resolved(self.document, responses.get(status, responses["default"]))
+        if "content" not in response:
+            assert answer.content == b""
+            return
+        media_type = answer.headers["Content-Type"].replace("; charset=utf-8", "").replace("; version=0.0.4", "")
+        assert media_type in response["content"], f"{path} {status}: {media_type}, documented: {list(response['content'])}"
+        if media_type.endswith("json"):
+            self.validate(answer.json(), response["content"][media_type]["schema"])
+        for name in response.get("headers", {}):
+            assert name in answer.headers, f"{path} {status} has no {name}"
+
+
+def resolved(document, node):
+    """The node that a chain of $ref ends at; a KeyError where one leads nowhere."""
+    while "$ref" in node:
+        target = document
+        for step in node["$ref"].removeprefix("#/").split("/"):
+            target = target[step]
+        node = target
+    return node
+
+
+def refs_in(node):
+    if isinstance(node, dict):
+        if isinstance(node.get("$ref"), str):
+            yield node["$ref"]
+        for value in node.values():
+            yield from refs_in(value)
+    elif isinstance(node, list):
+        for value in node:
+            yield from refs_in(value)
+
+
+@pytest.fixture(scope="module")
+def contract():
+    return Contract(yaml.safe_load((ROOT / "api/openapi.yaml").read_text()))
+
+
+def submit(url, inputs):
+    answer = requests.post(f"{url}/processes/drum/execution", json={"inputs": inputs, "label": {"of": "contract"}})
+    assert answer.status_code == 201, answer.text
+    return answer.json()["jobID"]
+
+
+def test_the_document_is_sound(contract):
+    assert contract.document["openapi"] == "3.1.0"
+    for reference in refs_in(contract.document):
+        resolved(contract.document, {"$ref": reference})
+    for schema in contract.document["components"]["schemas"].values():
+        jsonschema.Draft202012Validator.check_schema(schema)
+    names = [operation["operationId"] for operation in contract.operations.values()]
+    assert len(names) == len(set(names))
+    for (_, path), operation in contract.operations.items():
+        declared = [resolved(contract.document, parameter) for parameter in
+                    operation.get("parameters", []) + contract.document["paths"][path].get("parameters", [])]
+        in_path = {parameter["name"] for parameter in declared if parameter["in"] == "path"}
+        assert in_path == set(re.findall(r"{(\w+)}", path))
+
+
+def test_every_address_of_the_daemon_is_documented_and_no_other(contract):
+    table = re.findall(r'\{"(\w+)", "([^"]+)", "([^"]*)"', (ROOT / "api/route_table.c").read_text())
+    daemon = {(method, pattern): set(parameters.split()) for method, pattern, parameters in table}
+    documented = {}
+    for (method, path), operation in contract.operations.items():
+        parameters = [resolved(contract.document, p) for p in operation.get("parameters", [])]
+        documented[method, re.sub(r"{\w+}", "{}", path)] = {p["name"] for p in parameters if p["in"] == "query"}
+    assert daemon == documented
+
+
+def test_every_documented_operation_answers_as_documented(daemon, contract):
+    url = daemon.url
+    done, endless = submit(url, QUICK), submit(url, ENDLESS)
+    ended = wait_for_end(url, done)
+    assert ended["status"] == "successful", ended
+    job = f"{url}/jobs/{done}"
+    called = set()
+
+    def call(path, address, expected, method="GET", **options):
+        answer = requests.request(method, address, **options)
+        assert answer.status_code == expected, f"{method} {address}: {answer.status_code} {answer.text[:300]}"
+        contract.check(answer, path)
+        called.add((method, path))
+        return answer
+
+    landing = call("/", f"{url}/", 200, headers={"Accept": "application/json"})
+    call("/", f"{url}/?status=failed", 200, headers={"Accept": "text/html"})
+    for name in ("style.css", "jobs.js", "icon.svg"):
+        asset = call("/web/{name}", f"{url}/web/{name}", 200)
+    call("/web/{name}", f"{url}/web/icon.svg", 304, headers={"If-None-Match": asset.headers["ETag"]})
+    call("/conformance", f"{url}/conformance", 200)
+    assert yaml.safe_load(call("/api", f"{url}/api", 200).text) == contract.document
+    call("/healthz", f"{url}/healthz", 200)
+    call("/readyz", f"{url}/readyz", 200)
+    call("/metrics", f"{url}/metrics", 200)
+    call("/processes", f"{url}/processes", 200)
+    call("/processes/{process}", f"{url}/processes/drum", 200)
+    created = call("/processes/{process}/execution", f"{url}/processes/drum/execution", 201, "POST",
+                   json={"inputs": ENDLESS})
+    assert created.headers["Location"] == f"/jobs/{created.json()['jobID']}"
+
+    first = call("/jobs", f"{url}/jobs?limit=1", 200).json()
+    assert len(first["jobs"]) == 1
+    older = next(link["href"] for link in first["links"] if link["rel"] == "next")
+    call("/jobs", url + older, 200)
+    call("/jobs", f"{url}/jobs?status=accepted,running,successful&processID=drum&q=contract", 200)
+    call("/jobs/{id}", job, 200)
+    call("/jobs/{id}", f"{url}/jobs/{endless}?wait=0", 200)
+    call("/jobs/{id}/results", f"{job}/results", 200)
+    call("/jobs/{id}/spec", f"{job}/spec", 200)
+    call("/jobs/{id}/log", f"{job}/log", 200)
+    samples = call("/jobs/{id}/samples", f"{job}/samples?limit=2", 200).json()
+    assert len(samples["samples"]) == 2 and any(link["rel"] == "next" for link in samples["links"])
+    call("/jobs/{id}/samples", f"{job}/samples?after=1", 200, headers={"Accept": "text/csv"})
+    call("/jobs/{id}/samples", f"{job}/samples?format=csv", 200)
+    snapshots = call("/jobs/{id}/snapshots", f"{job}/snapshots", 200).json()["snapshots"]
+    path, href = "/jobs/{id}/snapshots/{file}", url + snapshots[-1]["href"]
+    whole = call(path, href, 200)
+    assert len(whole.content) == snapshots[-1]["bytes"]
+    part = call(path, href, 206, headers={"Range": "bytes=100-199"})
+    assert part.content == whole.content[100:200]
+    call(path, href, 304, headers={"If-None-Match": whole.headers["ETag"]})
+    call(path, href, 416, headers={"Range": "bytes=99999999999-"})
+    for format in ("json", "csv"):
+        call("/query", f"{url}/query?sql=select id, angle_deg from run_summary&format={format}", 200)
+    call("/jobs/{id}/results", f"{url}/jobs/{endless}/results", 404)
+    for unfinished in (endless, created.json()["jobID"], endless):  # the last a second time
+        call("/jobs/{id}", f"{url}/jobs/{unfinished}", 200, "DELETE")
+    call("/jobs/{id}/results", f"{url}/jobs/{endless}/results", 404)
+
+    assert called == set(contract.operations)
+    addresses = {re.sub(r"{\w+}", "", path) for _, path in contract.operations}
+    assert {link["href"] for link in landing.json()["links"]} <= addresses
+
+
+def wait_for_end(url, job):
+    while True:
+        info = requests.get(f"{url}/jobs/{job}", params={"wait": 30}).json()
+        if info["status"] not in ("accepted", "running"):
+            return info
+
+
+def test_every_error_is_a_documented_problem(daemon, contract):
+    url = daemon.url
+    execution, jobs = "/processes/{process}/execution", "/jobs/{id}"
+    post = {"method": "POST", "url": f"{url}/processes/drum/execution"}
+    bad = [
+        (400, execution, post | {"json": {"inputs": {"drum": {"diametre": 1}}, "lable": {}}}),
+        (400, execution, post | {"data": "{", "headers": {"Content-Type": "application/json"}}),
+        (400, execution, post | {"json": []}),
+        (415, execution, post | {"data": "inputs=1", "headers": {"Content-Type": "text/plain"}}),
+        (413, execution, post | {"data": b" " * 1_100_000, "headers": {"Content-Type": "application/json"}}),
+        (404, execution, post | {"url": f"{url}/processes/stirrer/execution", "json": {}}),
+        (404, "/processes/{process}", {"url": f"{url}/processes/stirrer"}),
+        (404, jobs, {"url": f"{url}/jobs/{NO_JOB}"}),
+        (404, jobs, {"method": "DELETE", "url": f"{url}/jobs/{NO_JOB}"}),
+        (404, "/jobs/{id}/results", {"url": f"{url}/jobs/{NO_JOB}/results"}),
+        (404, "/jobs/{id}/snapshots/{file}", {"url": f"{url}/jobs/{NO_JOB}/snapshots/000000.hdf"}),
+        (404, "/web/{name}", {"url": f"{url}/web/nothing.js"}),
+        (400, "/jobs", {"url": f"{url}/jobs?status=lost"}),
+        (400, "/jobs", {"url": f"{url}/jobs?limit=0"}),
+        (400, "/jobs", {"url": f"{url}/jobs?colour=red"}),
+        (400, jobs, {"url": f"{url}/jobs/{NO_JOB}?wait=forever"}),
+        (400, "/query", {"url": f"{url}/query?sql=delete from job"}),
+        (400, "/query", {"url": f"{url}/query"}),
+    ]
+    for status, path, request in bad:
+        answer = requests.request(**({"method": "GET"} | request))
+        assert answer.status_code == status, (request["url"], answer.status_code, answer.text[:300])
+        contract.check(answer, path)
+        assert answer.json()["status"] == status
+    # What is no operation at all still gets the same kind of document.
+    for method, path, status in (("GET", "/nowhere", 404), ("PUT", "/jobs", 405)):
+        answer = requests.request(method, url + path, headers={"Content-Type": "application/json"})
+        assert answer.status_code == status
+        assert answer.headers["Content-Type"].startswith("application/problem+json")
+        contract.validate(answer.json(), {"$ref": "#/components/schemas/Problem"})
+
+
+def test_a_bad_specification_names_every_problem(daemon):
+    inputs = QUICK | {"fill_fraction": 1.4, "colour": "red", "particles": [{"diameter": -1}]}
+    answer = requests.post(f"{daemon.url}/processes/drum/execution", json={"inputs": inputs})
+    pointers = {error["pointer"] for error in answer.json()["errors"]}
+    assert {"/inputs/fill_fraction", "/inputs/colour", "/inputs/particles/0/diameter"} <= pointers
+
+
+def test_documented_inputs_are_those_of_the_process_description(daemon, contract):
+    description = requests.get(f"{daemon.url}/processes/drum").json()["inputs"]
+    documented = contract.document["components"]["schemas"]["DrumInputs"]
+    assert documented["properties"] == {name: given["schema"] for name, given in description.items()}
+    assert set(documented["required"]) == {name for name, given in description.items() if given["minOccurs"] == 1}
+
+
+def test_documented_results_are_those_of_the_process_description(daemon, contract):
+    description = requests.get(f"{daemon.url}/processes/drum").json()["outputs"]
+    documented = contract.document["components"]["schemas"]["Results"]["properties"]
+    assert set(documented) == set(description)
+    for output, given in description.items():
+        assert set(documented[output]["properties"]) == set(given["schema"]["properties"]), output
+        for name, schema in given["schema"]["properties"].items():
+            assert documented[output]["properties"][name].get("type") == schema.get("type"), (output, name)
+            assert documented[output]["properties"][name].get("x-unit") == schema.get("x-unit"), (output, name)
+
+
+def test_examples_are_valid(contract):
+    execute = {"$ref": "#/components/schemas/Execute"}
+    body = contract.operations["POST", "/processes/{process}/execution"]["requestBody"]
+    contract.validate(body["content"]["application/json"]["example"], execute)
+    examples = list((ROOT / "api/examples").glob("*.json"))
+    assert examples
+    for example in examples:
+        contract.validate(json.loads(example.read_text()), execute)
+    with pytest.raises(jsonschema.ValidationError):
+        contract.validate({"inputs": QUICK | {"colour": "red"}}, execute)
