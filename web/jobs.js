@@ -11,6 +11,8 @@ const PAGE = 50;      // jobs a page
 const TYPING = 250;   // ms without a key before a search is sent
 
 let view = readView();
+const filters = new Map(['', ...STATES].map(status => [status, createFilter(status)]));
+byId('states').append(...filters.values());
 let rows = new Map(); // by job id, in the order shown
 const refresh = startPolling(ask, showFailure);
 
@@ -36,18 +38,22 @@ function showStates(counts = {}) {
   const all = STATES.reduce((sum, state) => sum + (counts[state] ?? 0), 0);
   const running = counts.running ?? 0;
   document.title = running ? `(${running} running) reposed` : 'reposed: jobs';
-  replaceIfChanged(byId('states'), [counts, view.status, view.q], () => ['', ...STATES].map(status => h('a', {
-    href: addressOf({ status, q: view.q }),
-    class: `filter ${status || 'all'}`,
-    'aria-current': view.status === status ? 'true' : null,
-    onclick: event => {
-      if (event.metaKey || event.ctrlKey || event.shiftKey) return; // a new tab or window is the browser's business
-      event.preventDefault();
-      go({ status, cursor: '' });
-      // The links are built anew with the answer; the focus should stay on the one chosen.
-      byId('states').querySelector(`.${status || 'all'}`)?.focus();
-    },
-  }, `${status || 'all'} `, h('span', { class: 'count' }, count(status ? counts[status] ?? 0 : all)))));
+  for (const [status, link] of filters) {
+    link.href = addressOf({ status, q: view.q });
+    if (view.status === status) link.setAttribute('aria-current', 'true'); else link.removeAttribute('aria-current');
+    link.lastElementChild.textContent = count(status ? counts[status] ?? 0 : all);
+  }
+}
+
+// Made once and only written to: a link that is made anew at a poll would lose the focus.
+function createFilter(status) {
+  const follow = event => {
+    if (event.metaKey || event.ctrlKey || event.shiftKey) return; // a new tab or window is the browser's business
+    event.preventDefault();
+    go({ status, cursor: '' });
+  };
+  return h('a', { class: `filter ${status || 'all'}`, href: addressOf({ status }), onclick: follow },
+    `${status || 'all'} `, h('span', { class: 'count' }));
 }
 
 function showRows(jobs) {
