@@ -48,7 +48,7 @@ void show_job(api_service *service, const http_request *request, http_response *
     }
     job_record job;
     if (!find_job(service, request, response, &job)) return;
-    if (!has_ended(&job) && request->may_wait && request->waited < (double)wait) response->wait = true;
+    if (!has_ended(&job) && request->may_wait && request->waited < (double)wait) response->wait = (double)wait - request->waited;
     else http_respond_json(response, 200, status_info(&job));
     job_record_clear(&job);
 }

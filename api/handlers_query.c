@@ -10,13 +10,23 @@ typedef struct query_table {
     bool csv, truncated;
 } query_table;
 
+/* A cast of bytes can give a text that is no UTF-8, which JSON can't hold. */
+static bool is_utf8(const query_value *value)
+{
+    json_t *check = json_stringn(value->text, value->length);
+    json_decref(check);
+    return check != NULL;
+}
+
 static void add_value(query_table *table, const query_value *value)
 {
     switch (value->kind) {
     case QUERY_INTEGER: text_buffer_print(&table->out, "%lld", (long long)value->integer); break;
     case QUERY_REAL: text_buffer_add_number(&table->out, value->real); break;
     case QUERY_TEXT:
-        (table->csv ? text_buffer_add_csv_field : text_buffer_add_json_string)(&table->out, value->text, value->length);
+        if (table->csv) text_buffer_add_csv_field(&table->out, value->text, value->length);
+        else if (is_utf8(value)) text_buffer_add_json_string(&table->out, value->text, value->length);
+        else text_buffer_print(&table->out, "null");
         break;
     default: text_buffer_print(&table->out, "%s", table->csv ? "" : "null");
     }

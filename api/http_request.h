@@ -40,7 +40,7 @@ typedef struct http_response {
     char location[160], etag[80], content_range[80];
     const char *cache_control, *allow, *preference_applied, *authenticate, *accept_ranges;
     int retry_after; /* s; 0: no such header */
-    bool wait;       /* nothing to say yet: call the handler again after a change, or when its time is up */
+    double wait;     /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */
 } http_response;
 
 /* Splits a raw target in place into path and parameters. NULL when good, else what is wrong with it. */

@@ -1,0 +1,162 @@
+#include "data_folder.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/statvfs.h>
+#include <unistd.h>
+
+#include "job_folder.h"
+#include "log.h"
+
+static bool ends_in_tmp(const char *name)
+{
+    const size_t length = strlen(name);
+    return length > 4 && strcmp(name + length - 4, ".tmp") == 0;
+}
+
+/* Files being written when something died: never renamed, so nobody knows them. depth: folders further down. */
+static void sweep_unfinished(int folder, int depth)
+{
+    DIR *list = fdopendir(dup(folder));
+    if (!list) return;
+    rewinddir(list);
+    for (const struct dirent *entry; (entry = readdir(list)) != NULL;) {
+        if (entry->d_name[0] == '.') continue;
+        if (ends_in_tmp(entry->d_name)) {
+            unlinkat(folder, entry->d_name, 0);
+        } else if (depth > 0) {
+            const int inner = openat(folder, entry->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+            if (inner < 0) continue;
+            sweep_unfinished(inner, depth - 1);
+            close(inner);
+        }
+    }
+    closedir(list);
+}
+
+static bool take_lock(data_folder *data, const char *path)
+{
+    char name[4096];
+    snprintf(name, sizeof name, "%s/lock", path);
+    data->lock = open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
+    if (data->lock >= 0 && flock(data->lock, LOCK_EX | LOCK_NB) == 0) return true;
+    if (errno == EWOULDBLOCK) log_line("%s is in use by another reposed", path);
+    else log_line("%s can't be locked: %s", path, strerror(errno));
+    return false;
+}
+
+bool data_folder_open(data_folder *data, const char *path)
+{
+    *data = (data_folder){.jobs = -1, .lock = -1};
+    char jobs[4096], resolved[4096];
+    snprintf(jobs, sizeof jobs, "%s/jobs", path);
+    if ((mkdir(path, 0700) != 0 && errno != EEXIST) || (mkdir(jobs, 0700) != 0 && errno != EEXIST) || !realpath(path, resolved)
+        || strlen(resolved) >= sizeof data->path) {
+        log_line("data folder %s can't be made or used: %s", path, strerror(errno));
+        return false;
+    }
+    strcpy(data->path, resolved);
+    if (!take_lock(data, path)) return false;
+    data->jobs = open(jobs, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (data->jobs < 0) {
+        log_line("folder %s can't be opened: %s", jobs, strerror(errno));
+        return false;
+    }
+    sweep_unfinished(data->jobs, 2);
+    return true;
+}
+
+void data_folder_close(data_folder *data)
+{
+    if (data->jobs >= 0) close(data->jobs);
+    if (data->lock >= 0) close(data->lock);
+    data->jobs = data->lock = -1;
+}
+
+static bool write_durably(int folder, const char *name, const char *text)
+{
+    char temporary[64];
+    snprintf(temporary, sizeof temporary, "%s.tmp", name);
+    const int file = openat(folder, temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
+    if (file < 0) return false;
+    const size_t length = strlen(text);
+    size_t done = 0;
+    while (done < length) {
+        const ssize_t written = write(file, text + done, length - done);
+        if (written < 0 && errno != EINTR) break;
+        if (written > 0) done += (size_t)written;
+    }
+    bool good = done == length && fsync(file) == 0;
+    good = close(file) == 0 && good;
+    return good && renameat(folder, temporary, folder, name) == 0 && fsync(folder) == 0;
+}
+
+bool job_folder_create(const data_folder *data, const char *id, const char *spec)
+{
+    if (mkdirat(data->jobs, id, 0700) != 0 && errno != EEXIST) return false;
+    const int folder = job_folder_open(data, id);
+    if (folder < 0) return false;
+    const bool good = faccessat(folder, JOB_SPEC_FILE, R_OK, 0) == 0
+                   || (write_durably(folder, JOB_SPEC_FILE, spec) && fsync(data->jobs) == 0);
+    const int reason = errno;
+    close(folder);
+    errno = reason;
+    return good;
+}
+
+void job_folder_discard(const data_folder *data, const char *id)
+{
+    const int folder = job_folder_open(data, id);
+    if (folder < 0) return;
+    unlinkat(folder, JOB_SPEC_FILE, 0);
+    unlinkat(folder, JOB_SPEC_FILE ".tmp", 0);
+    close(folder);
+    unlinkat(data->jobs, id, AT_REMOVEDIR); /* refuses unless empty */
+}
+
+int job_folder_open(const data_folder *data, const char *id)
+{
+    return openat(data->jobs, id, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+}
+
+int job_file_open(const data_folder *data, const char *id, const char *folder, const char *name)
+{
+    const int job = job_folder_open(data, id);
+    if (job < 0) return -1;
+    const int inner = folder ? openat(job, folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : job;
+    const int file = inner < 0 ? -1 : openat(inner, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (folder && inner >= 0) close(inner);
+    close(job);
+    return file;
+}
+
+char *job_file_read(const data_folder *data, const char *id, const char *name, size_t limit)
+{
+    const int file = job_file_open(data, id, NULL, name);
+    if (file < 0) return NULL;
+    struct stat facts;
+    char *text = NULL;
+    if (fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && (size_t)facts.st_size <= limit)
+        text = calloc(1, (size_t)facts.st_size + 1);
+    size_t done = 0;
+    while (text && done < (size_t)facts.st_size) {
+        const ssize_t got = read(file, text + done, (size_t)facts.st_size - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) break;
+        done += (size_t)got;
+    }
+    close(file);
+    return text;
+}
+
+double data_folder_free_bytes(const data_folder *data)
+{
+    struct statvfs disk;
+    return fstatvfs(data->jobs, &disk) == 0 ? (double)disk.f_bavail * (double)disk.f_frsize : 0.0;
+}

@@ -1,0 +1,32 @@
+/* The data folder on the disk: DATA/lock, DATA/reposed.sqlite, DATA/jobs/<id>/. */
+#ifndef DATA_FOLDER_H
+#define DATA_FOLDER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+typedef struct data_folder {
+    char path[4000]; /* absolute */
+    int jobs;        /* descriptor of DATA/jobs */
+    int lock;        /* held while the daemon lives */
+} data_folder;
+
+/* Creates what is missing, takes the lock, removes files that were being written when a daemon or worker died.
+ * False: the problem is logged; most often a second daemon on the same folder. */
+bool data_folder_open(data_folder *data, const char *path);
+void data_folder_close(data_folder *data);
+
+/* Makes jobs/<id> with this spec.json, all of it safe on the disk on return; keeps a folder that has it already.
+ * False: errno says why. */
+bool job_folder_create(const data_folder *data, const char *id, const char *spec);
+/* Takes back what job_folder_create made; leaves anything else. */
+void job_folder_discard(const data_folder *data, const char *id);
+
+int job_folder_open(const data_folder *data, const char *id); /* descriptor, -1 */
+/* A file of the folder, or with `folder` not NULL of that folder in it; never through a symbolic link. */
+int job_file_open(const data_folder *data, const char *id, const char *folder, const char *name);
+/* Whole text of a file up to `limit` bytes, for free(); NULL: not there, or larger. */
+char *job_file_read(const data_folder *data, const char *id, const char *name, size_t limit);
+double data_folder_free_bytes(const data_folder *data);
+
+#endif

@@ -1,0 +1,128 @@
+#include "database.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "log.h"
+#include "schema.h"
+
+store_status sql_status(sqlite3 *database, int code)
+{
+    if (code == SQLITE_OK || code == SQLITE_ROW || code == SQLITE_DONE) return STORE_OK;
+    log_line("database: %s (%s)", sqlite3_errmsg(database), sqlite3_errstr(code));
+    const int system_reason = sqlite3_system_errno(database);
+    return (code & 0xff) == SQLITE_FULL || ((code & 0xff) == SQLITE_IOERR && system_reason == ENOSPC) ? STORE_FULL : STORE_FAILED;
+}
+
+static void bind_all(sqlite3_stmt *statement, const char *types, va_list values)
+{
+    for (int i = 1; *types; i++, types++) {
+        if (*types == 'i') {
+            sqlite3_bind_int64(statement, i, va_arg(values, int64_t));
+        } else if (*types == 'd') {
+            sqlite3_bind_double(statement, i, va_arg(values, double)); /* NaN binds NULL */
+        } else {
+            const char *text = va_arg(values, const char *);
+            sqlite3_bind_text(statement, i, text, -1, SQLITE_STATIC);
+        }
+    }
+}
+
+static sqlite3_stmt *prepare_and_bind(sqlite3 *database, const char *sql, const char *types, va_list values)
+{
+    sqlite3_stmt *statement;
+    const int code = sqlite3_prepare_v2(database, sql, -1, &statement, NULL);
+    if (sql_status(database, code) != STORE_OK) return NULL;
+    bind_all(statement, types, values);
+    return statement;
+}
+
+sqlite3_stmt *sql_prepare(sqlite3 *database, const char *sql, const char *types, ...)
+{
+    va_list values;
+    va_start(values, types);
+    sqlite3_stmt *statement = prepare_and_bind(database, sql, types, values);
+    va_end(values);
+    return statement;
+}
+
+store_status sql_run(sqlite3 *database, int64_t *changed, const char *sql, const char *types, ...)
+{
+    va_list values;
+    va_start(values, types);
+    sqlite3_stmt *statement = prepare_and_bind(database, sql, types, values);
+    va_end(values);
+    if (!statement) return STORE_FAILED;
+    const store_status status = sql_finish(statement, sqlite3_step(statement));
+    if (changed) *changed = status == STORE_OK ? sqlite3_changes64(database) : 0;
+    return status;
+}
+
+store_status sql_finish(sqlite3_stmt *statement, int code)
+{
+    const store_status status = sql_status(sqlite3_db_handle(statement), code);
+    sqlite3_finalize(statement);
+    return status;
+}
+
+static int read_pragma(sqlite3 *database, const char *sql)
+{
+    sqlite3_stmt *statement = sql_prepare(database, sql, "");
+    if (!statement) return -1;
+    const int value = sqlite3_step(statement) == SQLITE_ROW ? sqlite3_column_int(statement, 0) : -1;
+    sqlite3_finalize(statement);
+    return value;
+}
+
+/* Each migration and the new version number in one transaction. */
+static bool migrate(sqlite3 *database, const char *path)
+{
+    const int version = read_pragma(database, "PRAGMA user_version");
+    const int application = read_pragma(database, "PRAGMA application_id");
+    if (version < 0 || version > schema_version || (application != SCHEMA_APPLICATION_ID && (application != 0 || version != 0))) {
+        log_line("%s is of schema version %d, application %d; this program knows versions 0 to %d", path, version, application, schema_version);
+        return false;
+    }
+    for (int next = version; next < schema_version; next++) {
+        const char *const *parts = schema_migrations[next].parts;
+        char end[128];
+        snprintf(end, sizeof end, "PRAGMA application_id=%d; PRAGMA user_version=%d; COMMIT;", SCHEMA_APPLICATION_ID, next + 1);
+        if (sqlite3_exec(database, "BEGIN IMMEDIATE;", NULL, NULL, NULL) != SQLITE_OK
+            || sqlite3_exec(database, parts[0], NULL, NULL, NULL) != SQLITE_OK
+            || (parts[1] && sqlite3_exec(database, parts[1], NULL, NULL, NULL) != SQLITE_OK)
+            || sqlite3_exec(database, end, NULL, NULL, NULL) != SQLITE_OK) {
+            log_line("%s: migration %d failed: %s", path, next + 1, sqlite3_errmsg(database));
+            return false;
+        }
+    }
+    return true;
+}
+
+static sqlite3 *open_with(const char *path, int flags, const char *pragmas)
+{
+    sqlite3 *database;
+    if (sqlite3_open_v2(path, &database, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, NULL) != SQLITE_OK
+        || sqlite3_exec(database, pragmas, NULL, NULL, NULL) != SQLITE_OK) {
+        log_line("%s can't be opened: %s", path, sqlite3_errmsg(database));
+        sqlite3_close(database);
+        return NULL;
+    }
+    return database;
+}
+
+sqlite3 *database_open_writer(const char *path)
+{
+    sqlite3 *database = open_with(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
+                                  "PRAGMA busy_timeout=5000; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL;"
+                                  "PRAGMA foreign_keys=ON; PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-2000;");
+    if (database && migrate(database, path)) return database;
+    sqlite3_close(database);
+    return NULL;
+}
+
+sqlite3 *database_open_reader(const char *path)
+{
+    return open_with(path, SQLITE_OPEN_READONLY, "PRAGMA busy_timeout=2000; PRAGMA query_only=ON; PRAGMA cache_size=-500;");
+}

@@ -1,0 +1,26 @@
+/* SQLite as this daemon uses it: one connection that writes, several that only read.
+ *
+ * The release in use may damage a write-ahead log when two connections checkpoint it, so only the writer may:
+ * readers open mode=ro, which also keeps them from writing anything else. */
+#ifndef DATABASE_H
+#define DATABASE_H
+
+#include <sqlite3.h>
+#include <stdbool.h>
+
+#include "store.h"
+
+/* Opens for writing and brings the tables up to date. NULL: the problem is logged. */
+sqlite3 *database_open_writer(const char *path);
+sqlite3 *database_open_reader(const char *path);
+
+/* Prepares and binds: types has one letter a value: i int64_t, d double (NaN becomes NULL), t text (may be NULL).
+ * Texts are lent until the statement ends. NULL: the problem is logged. */
+sqlite3_stmt *sql_prepare(sqlite3 *database, const char *sql, const char *types, ...);
+/* The same for a statement without rows. *changed, where not NULL: rows changed. */
+store_status sql_run(sqlite3 *database, int64_t *changed, const char *sql, const char *types, ...);
+/* Ends a statement whose last step gave this code: SQLITE_ROW or SQLITE_DONE are good. */
+store_status sql_finish(sqlite3_stmt *statement, int code);
+store_status sql_status(sqlite3 *database, int code);
+
+#endif

@@ -1,0 +1,53 @@
+/* The supervisor: takes jobs from the queue, starts workers, follows what they write, records how they end. It runs
+ * on the main thread and is the only one that forks. */
+#ifndef DISPATCHER_H
+#define DISPATCHER_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "event_tail.h"
+#include "executor.h"
+#include "job_store.h"
+
+enum { DISPATCHER_MOST_WORKERS = 256 };
+
+/* One worker at work. */
+typedef struct worker_slot {
+    enum { SLOT_FREE, SLOT_WORKING, SLOT_ENDED } state; /* ended: gone, but not recorded yet */
+    job_claim claim;
+    worker_handle worker;
+    worker_end end;
+    int events;        /* descriptor of events.ndjson; -1: not there yet */
+    int64_t events_at; /* recorded up to this offset */
+    bool claim_lost;   /* dismissed: what it writes does not count any more */
+    double stop_asked; /* monotonic s; 0: not asked to stop */
+    double speed;      /* particle steps a second, as it last said; NaN: not yet */
+    json_t *failure;   /* the failure event; NULL: none */
+} worker_slot;
+
+typedef struct job_dispatcher {
+    job_store *store;
+    worker_executor *executor;
+    int workers, threads; /* slots; threads of all workers together */
+    worker_slot *slot;    /* (workers) */
+    int wake, signals;    /* eventfd; signalfd of SIGTERM and SIGINT */
+    bool stopping;
+    void (*jobs_changed)(void *context); /* told after every recorded change of a job's state */
+    void *context;
+    /* for the metrics, written here, read by any thread */
+    _Atomic double last_round, speed; /* monotonic s; particle steps a second of all workers */
+    _Atomic int64_t started, put_back, ended[JOB_STATUSES], store_failures;
+    _Atomic int running;
+} job_dispatcher;
+
+bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job);
+void dispatcher_clear(job_dispatcher *dispatcher);
+/* Returns after SIGTERM or SIGINT, when every worker has left and its job is back in the queue. leaving is called
+ * once, first. */
+void dispatcher_run(job_dispatcher *dispatcher, void (*leaving)(void *context));
+/* From any thread: look at the queue and at the jobs now. */
+void dispatcher_wake(job_dispatcher *dispatcher);
+
+#endif

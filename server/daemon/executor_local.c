@@ -1,0 +1,121 @@
+/* Workers as child processes, each the head of its own process group.
+ *
+ * All calls come from one thread, the supervisor's: PR_SET_PDEATHSIG follows the thread that forked, so a worker
+ * forked from a short-lived thread would die with it. Between fork and exec only async-signal-safe calls are made,
+ * because other threads may have held any lock at the fork. */
+#include <errno.h>
+#include <fcntl.h>
+#include <linux/close_range.h>
+#include <signal.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/pidfd.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "executor.h"
+#include "job_folder.h"
+
+enum { EXEC_FAILED = 127, SECONDS_FOR_THE_FOLDER = 10 };
+
+static void limit(int resource, double value)
+{
+    const struct rlimit bound = {(rlim_t)value, (rlim_t)value};
+    setrlimit(resource, &bound);
+}
+
+static void reset_signals(void)
+{
+    sigset_t none;
+    sigemptyset(&none);
+    for (int number = 1; number < 32; number++) signal(number, SIG_DFL);
+    sigprocmask(SIG_SETMASK, &none, NULL);
+}
+
+static void open_streams(int folder)
+{
+    const int null = open("/dev/null", O_RDWR);
+    const int log = openat(folder, JOB_LOG_FILE, O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0600);
+    if (null < 0 || log < 0 || dup2(null, 0) < 0 || dup2(null, 1) < 0 || dup2(log, 2) < 0) _exit(WORKER_DISK);
+}
+
+/* The worker inherits this lock and holds it to its end: after a crash of the daemon the next attempt waits here
+ * until the one before is really gone, so that no two ever write in one folder. */
+static void lock_folder(int folder)
+{
+    close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);
+    alarm(SECONDS_FOR_THE_FOLDER);
+    while (flock(folder, LOCK_EX) != 0) if (errno != EINTR) _exit(WORKER_DISK);
+    alarm(0);
+    fcntl(folder, F_SETFD, 0);
+}
+
+static void become_worker(const worker_order *order, const char *program, char *const *arguments, pid_t parent)
+{
+    setpgid(0, 0);
+    reset_signals();
+    open_streams(order->job_folder_file);
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(WORKER_FAULT); /* the daemon died before the line above */
+    lock_folder(order->job_folder_file);
+    limit(RLIMIT_AS, order->memory_bytes);
+    limit(RLIMIT_CPU, order->cpu_seconds);
+    limit(RLIMIT_FSIZE, order->file_bytes);
+    limit(RLIMIT_CORE, 0.0);
+    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    execv(program, arguments);
+    _exit(EXEC_FAILED);
+}
+
+static bool start(worker_executor *executor, const worker_order *order, worker_handle *worker)
+{
+    char spec[4200], attempt[16], threads[16];
+    snprintf(spec, sizeof spec, "%s/" JOB_SPEC_FILE, order->job_folder);
+    snprintf(attempt, sizeof attempt, "%d", order->attempt);
+    snprintf(threads, sizeof threads, "%d", order->threads);
+    char *const arguments[] = {(char *)executor->program, "run", spec, "--out", (char *)order->job_folder,
+                               "--attempt", attempt, "--threads", threads, NULL};
+    const pid_t parent = getpid();
+    const pid_t process = fork();
+    if (process == 0) become_worker(order, executor->program, arguments, parent);
+    if (process < 0) return false;
+    setpgid(process, process); /* also here: whoever comes first */
+    *worker = (worker_handle){.process = process, .watch = pidfd_open(process, 0)};
+    return true;
+}
+
+static bool has_ended(worker_executor *executor, worker_handle *worker, worker_end *end)
+{
+    (void)executor;
+    int status;
+    const pid_t process = waitpid(worker->process, &status, WNOHANG);
+    if (process == 0 || (process < 0 && errno == EINTR)) return false;
+    *end = WIFSIGNALED(status) ? (worker_end){true, WTERMSIG(status)} : (worker_end){false, WEXITSTATUS(status)};
+    if (process < 0) *end = (worker_end){false, WORKER_FAULT}; /* not our child: nothing to wait for */
+    if (worker->watch >= 0) close(worker->watch);
+    *worker = (worker_handle){.watch = -1};
+    return true;
+}
+
+/* Neither can hit a stranger: until has_ended reaps it, the number stays the worker's. */
+static void ask_to_stop(worker_executor *executor, const worker_handle *worker)
+{
+    (void)executor;
+    kill(worker->process, SIGTERM);
+}
+
+static void kill_worker(worker_executor *executor, const worker_handle *worker)
+{
+    (void)executor;
+    kill(-worker->process, SIGKILL);
+    kill(worker->process, SIGKILL);
+}
+
+void executor_local_init(worker_executor *executor, const char *program)
+{
+    *executor = (worker_executor){.start = start, .has_ended = has_ended, .ask_to_stop = ask_to_stop, .kill = kill_worker,
+                                  .program = program};
+}

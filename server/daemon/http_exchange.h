@@ -1,0 +1,33 @@
+/* One request and its answer on their way through the server. Belongs to the connection's thread, but for the time
+ * in which it is suspended: then it is the waiting room's. */
+#ifndef HTTP_EXCHANGE_H
+#define HTTP_EXCHANGE_H
+
+#include <microhttpd.h>
+
+#include "http_guard.h"
+#include "routes.h"
+
+typedef struct http_exchange {
+    struct http_server *server;
+    struct MHD_Connection *connection;
+    char *target; /* as it was sent; request.path and the parameters point into it */
+    char *body;
+    size_t body_expected;
+    http_request request;
+    http_headers headers;
+    http_response response;
+    const http_route *route; /* NULL: none was reached */
+    enum {
+        EXCHANGE_NEW,     /* the request line is here */
+        EXCHANGE_READING, /* headers are good, the body comes in */
+        EXCHANGE_REFUSED, /* the answer is made; what still comes of the body is dropped */
+        EXCHANGE_WHOLE,   /* to be answered */
+        EXCHANGE_ANSWERED /* the answer is made */
+    } stage;
+    double arrived, worked; /* monotonic s when the request was whole; s spent on the answer */
+    double resume_at;       /* monotonic s, while parked */
+    struct http_exchange *next;
+} http_exchange;
+
+#endif

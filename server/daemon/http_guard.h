@@ -1,0 +1,32 @@
+/* Refuses requests before any handler sees them: headers that two servers could read differently, names that are not
+ * ours, writes from foreign pages, missing tokens. */
+#ifndef HTTP_GUARD_H
+#define HTTP_GUARD_H
+
+#include "config.h"
+#include "routes.h"
+
+enum { HTTP_BODY_LIMIT = 1 << 20, HTTP_TOKEN_SIZE = 256 };
+
+typedef struct http_guard {
+    const config *settings;
+    char token[HTTP_TOKEN_SIZE]; /* "": none is needed */
+} http_guard;
+
+/* What the headers add up to beyond those in http_request. */
+typedef struct http_headers {
+    int hosts, lengths, encodings; /* how many of each were sent */
+    const char *length;            /* Content-Length */
+    bool strange_name;             /* a header name with other characters than a token has: a folded line */
+} http_headers;
+
+/* False: the problem is logged. A host beyond loopback needs a token. */
+bool http_guard_init(http_guard *guard, const config *settings);
+void http_headers_take(http_headers *headers, http_request *request, const char *name, const char *value);
+/* False: the response says why not. *body_length: to be expected. */
+bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request,
+                       const http_route *route, http_response *response, size_t *body_length);
+/* The part that holds for requests to unknown addresses, too. */
+bool http_guard_knows_host(const http_guard *guard, const http_headers *headers, const http_request *request, http_response *response);
+
+#endif

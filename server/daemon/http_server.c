@@ -1,0 +1,295 @@
+#include "http_server.h"
+
+#include <errno.h>
+#include <netdb.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "log.h"
+
+enum { HTTP_THREADS = 4, MOST_CONNECTIONS = 256, MOST_PER_ADDRESS = 192, CONNECTION_MEMORY = 32768,
+       THREAD_STACK = 1 << 20, /* JSON nests up to 2048 deep */
+       SILENCE_SECONDS = 20, DROPPED_BODY_LIMIT = 16 << 20 };
+
+/* --- answering --- */
+
+static void add_header(struct MHD_Response *reply, const char *name, const char *value)
+{
+    if (value && value[0]) MHD_add_response_header(reply, name, value);
+}
+
+static void add_headers(struct MHD_Response *reply, const http_response *response)
+{
+    char retry_after[16] = "";
+    if (response->retry_after > 0) snprintf(retry_after, sizeof retry_after, "%d", response->retry_after);
+    add_header(reply, "Content-Type", response->content_type);
+    add_header(reply, "Location", response->location);
+    add_header(reply, "ETag", response->etag);
+    add_header(reply, "Content-Range", response->content_range);
+    add_header(reply, "Accept-Ranges", response->accept_ranges);
+    add_header(reply, "Cache-Control", response->cache_control ? response->cache_control : "no-store");
+    add_header(reply, "Allow", response->allow);
+    add_header(reply, "Preference-Applied", response->preference_applied);
+    add_header(reply, "WWW-Authenticate", response->authenticate);
+    add_header(reply, "Retry-After", retry_after);
+    add_header(reply, "Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'");
+    add_header(reply, "X-Content-Type-Options", "nosniff");
+    add_header(reply, "Referrer-Policy", "no-referrer");
+    /* After a refusal the rest of the stream may not be what it seems. */
+    if (response->status >= 400) add_header(reply, "Connection", "close");
+}
+
+static struct MHD_Response *reply_of(http_response *response)
+{
+    if (response->file >= 0 && response->length > 0) {
+        struct MHD_Response *reply = MHD_create_response_from_fd_at_offset64(response->length, response->file, response->offset);
+        if (reply) response->file = -1; /* the library closes it */
+        return reply;
+    }
+    struct MHD_Response *reply = MHD_create_response_from_buffer(response->body ? response->length : 0, response->body, MHD_RESPMEM_MUST_FREE);
+    if (reply) response->body = NULL; /* the library frees it */
+    return reply;
+}
+
+static enum MHD_Result send_response(http_exchange *exchange)
+{
+    http_response *response = &exchange->response;
+    struct MHD_Response *reply = reply_of(response);
+    if (!reply) return MHD_NO;
+    add_headers(reply, response);
+    metrics_count(&exchange->server->metrics, exchange->route, response->status, exchange->worked);
+    if (response->status >= 500) log_line("%s %s: answered %d", exchange->request.method, exchange->request.path, response->status);
+    const enum MHD_Result result = MHD_queue_response(exchange->connection, (unsigned)response->status, reply);
+    MHD_destroy_response(reply);
+    return result;
+}
+
+static enum MHD_Result answer_slowly(http_exchange *exchange)
+{
+    if (waiting_room_queue_slow(&exchange->server->room, exchange)) return MHD_YES;
+    http_respond_problem(&exchange->response, 503, NULL, "Too many queries", "%d wait already; try again later", WAITING_ROOM_SLOW_LIMIT);
+    exchange->response.retry_after = 5;
+    return send_response(exchange);
+}
+
+static enum MHD_Result answer(http_exchange *exchange)
+{
+    http_server *server = exchange->server;
+    if (exchange->stage == EXCHANGE_WHOLE && exchange->route->slow) return answer_slowly(exchange);
+    while (exchange->stage == EXCHANGE_WHOLE) {
+        bool closing;
+        const unsigned long changes = waiting_room_changes(&server->room, &closing);
+        const double start = monotonic_seconds();
+        exchange->request.may_wait = !closing;
+        exchange->request.waited = start - exchange->arrived;
+        http_response_clear(&exchange->response);
+        route_respond(exchange->route, server->service, &exchange->request, &exchange->response);
+        exchange->worked += monotonic_seconds() - start;
+        if (!(exchange->response.wait > 0.0)) break;
+        if (waiting_room_park(&server->room, exchange, changes, exchange->response.wait)) return MHD_YES;
+    }
+    return send_response(exchange);
+}
+
+/* --- taking requests in --- */
+
+static enum MHD_Result take_header(void *context, enum MHD_ValueKind kind, const char *name, const char *value)
+{
+    (void)kind;
+    http_exchange *exchange = context;
+    http_headers_take(&exchange->headers, &exchange->request, name, value);
+    return MHD_YES;
+}
+
+static bool admit(http_exchange *exchange, const char *method)
+{
+    http_request *request = &exchange->request;
+    request->method = method;
+    request->path = "/";
+    MHD_get_connection_values(exchange->connection, MHD_HEADER_KIND, take_header, exchange);
+    const char *problem = http_request_split_target(request, exchange->target);
+    if (problem) {
+        http_respond_problem(&exchange->response, 400, NULL, "Bad address", "%s", problem);
+        return false;
+    }
+    const http_guard *guard = &exchange->server->guard;
+    if (!http_guard_knows_host(guard, &exchange->headers, request, &exchange->response)) return false;
+    exchange->route = routes_match(route_table, route_count, request, &exchange->response);
+    return exchange->route && http_guard_admits(guard, &exchange->headers, request, exchange->route, &exchange->response, &exchange->body_expected);
+}
+
+static enum MHD_Result begin(http_exchange *exchange, const char *method)
+{
+    if (admit(exchange, method)) {
+        exchange->stage = EXCHANGE_READING;
+        exchange->body = exchange->body_expected ? malloc(exchange->body_expected) : NULL;
+        return exchange->body || !exchange->body_expected ? MHD_YES : MHD_NO;
+    }
+    exchange->stage = EXCHANGE_REFUSED;
+    /* Taking in what is still on its way lets the client read the answer rather than a broken connection. */
+    const http_headers *headers = &exchange->headers;
+    const bool takes_rest = headers->lengths == 1 && headers->encodings == 0 && strtoull(headers->length, NULL, 10) <= DROPPED_BODY_LIMIT;
+    return takes_rest ? MHD_YES : send_response(exchange);
+}
+
+static enum MHD_Result take_body(http_exchange *exchange, const char *piece, size_t *size)
+{
+    const size_t room = exchange->body_expected - exchange->request.body_length;
+    if (exchange->stage == EXCHANGE_READING) {
+        if (*size > room) return MHD_NO;
+        memcpy(exchange->body + exchange->request.body_length, piece, *size);
+        exchange->request.body_length += *size;
+    }
+    *size = 0;
+    return MHD_YES;
+}
+
+static watched_connection *watched(struct MHD_Connection *connection)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
+    return info ? info->socket_context : NULL;
+}
+
+/* Called for each step of a request: headers, pieces of the body, its end, and again after a suspension. */
+static enum MHD_Result take_request(void *context, struct MHD_Connection *connection, const char *url, const char *method,
+                                    const char *version, const char *data, size_t *data_size, void **state)
+{
+    (void)url, (void)version;
+    http_exchange *exchange = *state;
+    if (!exchange) return MHD_NO;
+    if (exchange->stage == EXCHANGE_NEW) {
+        exchange->server = context;
+        exchange->connection = connection;
+        return begin(exchange, method);
+    }
+    if (*data_size > 0) return take_body(exchange, data, data_size);
+    if (exchange->stage == EXCHANGE_READING) {
+        connection_watch_set_reading(&exchange->server->watch, watched(connection), 0);
+        exchange->request.body = exchange->body;
+        exchange->arrived = monotonic_seconds();
+        exchange->stage = EXCHANGE_WHOLE;
+    }
+    return answer(exchange);
+}
+
+/* The raw target, before anything is decoded. What it returns comes back as the request's state. */
+static void *take_target(void *context, const char *target, struct MHD_Connection *connection)
+{
+    (void)context, (void)connection;
+    http_exchange *exchange = calloc(1, sizeof *exchange);
+    if (!exchange) return NULL;
+    http_response_init(&exchange->response);
+    exchange->target = strdup(target);
+    if (exchange->target) return exchange;
+    free(exchange);
+    return NULL;
+}
+
+static void end_request(void *context, struct MHD_Connection *connection, void **state, enum MHD_RequestTerminationCode why)
+{
+    (void)why;
+    http_server *server = context;
+    http_exchange *exchange = *state;
+    *state = NULL;
+    if (!exchange) return;
+    connection_watch_set_reading(&server->watch, watched(connection), 1);
+    http_response_clear(&exchange->response);
+    free(exchange->body);
+    free(exchange->target);
+    free(exchange);
+}
+
+static void note_connection(void *context, struct MHD_Connection *connection, void **socket_context,
+                            enum MHD_ConnectionNotificationCode what)
+{
+    http_server *server = context;
+    if (what == MHD_CONNECTION_NOTIFY_STARTED) {
+        const union MHD_ConnectionInfo *info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
+        *socket_context = connection_watch_add(&server->watch, info->connect_fd);
+        server->metrics.connections++;
+    } else {
+        connection_watch_remove(&server->watch, *socket_context);
+        *socket_context = NULL;
+        server->metrics.connections--;
+    }
+}
+
+/* --- listening --- */
+
+static int open_listener(const char *host, int port)
+{
+    char service[8];
+    snprintf(service, sizeof service, "%d", port);
+    const struct addrinfo wanted = {.ai_socktype = SOCK_STREAM, .ai_flags = AI_PASSIVE | AI_NUMERICSERV};
+    struct addrinfo *found;
+    const int code = getaddrinfo(host, service, &wanted, &found);
+    if (code != 0) {
+        log_line("--host %s: %s", host, gai_strerror(code));
+        return -1;
+    }
+    const int on = 1;
+    int listener = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+    if (listener < 0 || setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0
+        || bind(listener, found->ai_addr, found->ai_addrlen) != 0 || listen(listener, 128) != 0) {
+        log_line("%s port %d can't be opened: %s", host, port, strerror(errno));
+        if (listener >= 0) close(listener);
+        listener = -1;
+    }
+    freeaddrinfo(found);
+    return listener;
+}
+
+static int port_of(int listener)
+{
+    struct sockaddr_storage address;
+    socklen_t length = sizeof address;
+    char port[8] = "0";
+    if (getsockname(listener, (struct sockaddr *)&address, &length) == 0)
+        getnameinfo((struct sockaddr *)&address, length, NULL, 0, port, sizeof port, NI_NUMERICSERV);
+    return atoi(port);
+}
+
+bool http_server_open(http_server *server, const config *settings, api_service *service)
+{
+    memset(server, 0, sizeof *server);
+    server->service = service;
+    if (!http_guard_init(&server->guard, settings)) return false;
+    server->listener = open_listener(settings->host, settings->port);
+    if (server->listener < 0) return false;
+    server->port = port_of(server->listener);
+    connection_watch_init(&server->watch);
+    return true;
+}
+
+bool http_server_start(http_server *server)
+{
+    if (!waiting_room_open(&server->room, server->service, &server->watch)) return false;
+    server->daemon = MHD_start_daemon(
+        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, take_request, server,
+        MHD_OPTION_LISTEN_SOCKET, server->listener, MHD_OPTION_THREAD_POOL_SIZE, (unsigned)HTTP_THREADS,
+        MHD_OPTION_THREAD_STACK_SIZE, (size_t)THREAD_STACK, MHD_OPTION_STRICT_FOR_CLIENT, 1,
+        MHD_OPTION_URI_LOG_CALLBACK, take_target, server, MHD_OPTION_NOTIFY_COMPLETED, end_request, server,
+        MHD_OPTION_NOTIFY_CONNECTION, note_connection, server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)MOST_CONNECTIONS,
+        MHD_OPTION_PER_IP_CONNECTION_LIMIT, (unsigned)MOST_PER_ADDRESS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_SECONDS,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY, MHD_OPTION_END);
+    if (server->daemon) return true;
+    log_line("the HTTP server can't be started");
+    waiting_room_close(&server->room);
+    return false;
+}
+
+void http_server_leave(http_server *server)
+{
+    waiting_room_close(&server->room);
+    const MHD_socket listener = MHD_quiesce_daemon(server->daemon);
+    if (listener != MHD_INVALID_SOCKET) close(listener);
+}
+
+void http_server_stop(http_server *server)
+{
+    MHD_stop_daemon(server->daemon);
+    connection_watch_clear(&server->watch);
+}

@@ -1,0 +1,27 @@
+/* The HTTP side: libmicrohttpd with a few threads, the guard before and the routes behind. */
+#ifndef HTTP_SERVER_H
+#define HTTP_SERVER_H
+
+#include "connection_watch.h"
+#include "http_guard.h"
+#include "metrics.h"
+#include "waiting_room.h"
+
+typedef struct http_server {
+    api_service *service;
+    http_guard guard;
+    http_metrics metrics;
+    connection_watch watch;
+    waiting_room room;
+    struct MHD_Daemon *daemon;
+    int listener, port; /* the port that was opened */
+} http_server;
+
+/* Listens, but answers nobody yet. False: the problem is logged. */
+bool http_server_open(http_server *server, const config *settings, api_service *service);
+bool http_server_start(http_server *server);
+/* No new connections; those waiting for a job are answered as things are. */
+void http_server_leave(http_server *server);
+void http_server_stop(http_server *server);
+
+#endif

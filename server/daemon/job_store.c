@@ -1,0 +1,268 @@
+/* The store's connections, and what the handlers ask of it (api/store.h). */
+#include "job_store.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "database.h"
+#include "job_folder.h"
+#include "log.h"
+
+job_store *store_open(data_folder *data)
+{
+    job_store *store = calloc(1, sizeof *store);
+    if (!store) return NULL;
+    store->data = data;
+    pthread_mutex_init(&store->write_lock, NULL);
+    pthread_mutex_init(&store->readers_lock, NULL);
+    pthread_cond_init(&store->reader_is_free, NULL);
+    char path[4096];
+    snprintf(path, sizeof path, "%s/reposed.sqlite", data->path);
+    store->writer = database_open_writer(path);
+    bool good = store->writer != NULL;
+    for (; good && store->readers_free < STORE_READERS; store->readers_free++)
+        good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
+    if (good) good = (store->query = database_open_reader(path)) != NULL;
+    if (!good) {
+        store_close(store);
+        return NULL;
+    }
+    query_connection_restrict(store->query);
+    return store;
+}
+
+void store_close(job_store *store)
+{
+    sqlite3_close(store->query);
+    for (int i = 0; i < STORE_READERS; i++) sqlite3_close(store->reader[i]);
+    sqlite3_close(store->writer); /* last, so that the checkpoint at the end is the writer's */
+    pthread_cond_destroy(&store->reader_is_free);
+    pthread_mutex_destroy(&store->readers_lock);
+    pthread_mutex_destroy(&store->write_lock);
+    free(store);
+}
+
+sqlite3 *store_borrow_reader(job_store *store)
+{
+    pthread_mutex_lock(&store->readers_lock);
+    while (store->readers_free == 0) pthread_cond_wait(&store->reader_is_free, &store->readers_lock);
+    sqlite3 *reader = store->reader[--store->readers_free];
+    pthread_mutex_unlock(&store->readers_lock);
+    return reader;
+}
+
+void store_return_reader(job_store *store, sqlite3 *reader)
+{
+    pthread_mutex_lock(&store->readers_lock);
+    store->reader[store->readers_free++] = reader;
+    pthread_cond_signal(&store->reader_is_free);
+    pthread_mutex_unlock(&store->readers_lock);
+}
+
+store_status store_begin(job_store *store)
+{
+    pthread_mutex_lock(&store->write_lock);
+    const store_status status = sql_run(store->writer, NULL, "BEGIN IMMEDIATE", "");
+    if (status != STORE_OK) pthread_mutex_unlock(&store->write_lock);
+    return status;
+}
+
+store_status store_end(job_store *store, store_status status)
+{
+    if (status == STORE_OK) status = sql_run(store->writer, NULL, "COMMIT", "");
+    /* A full disk may have rolled back by itself already. */
+    if (status != STORE_OK && !sqlite3_get_autocommit(store->writer)) sql_run(store->writer, NULL, "ROLLBACK", "");
+    pthread_mutex_unlock(&store->write_lock);
+    return status;
+}
+
+/* --- adding and dismissing --- */
+
+static bool choose_id(char id[JOB_ID_SIZE])
+{
+    uint32_t bits;
+    if (getrandom(&bits, sizeof bits, 0) != (ssize_t)sizeof bits) return false;
+    const time_t now = time(NULL);
+    struct tm parts;
+    gmtime_r(&now, &parts);
+    const size_t length = strftime(id, JOB_ID_SIZE, "%Y%m%d-%H%M%S-", &parts);
+    snprintf(id + length, JOB_ID_SIZE - length, "%08x", bits);
+    return true;
+}
+
+static store_status insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const char *label)
+{
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    const job_estimate estimate = job_spec_estimate(spec, store_measured_speed(store));
+    return sql_run(store->writer, NULL,
+                   "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated)"
+                   " VALUES(?,?,?,?,'accepted','waiting for a free worker',?,?,?,?,?)", "ttttiddtt",
+                   id, spec->process, label, text, (int64_t)spec->drum.threads, estimate.wall_seconds, estimate.memory_bytes, now, now);
+}
+
+static store_status insert_inputs(job_store *store, const job_spec *spec)
+{
+    const dem_drum_definition *drum = &spec->drum;
+    return sql_run(store->writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", "idddddii" "dddddddddd" "i",
+                   (int64_t)sqlite3_last_insert_rowid(store->writer), drum->diameter, drum->length, drum->rotation_rate, drum->gravity,
+                   drum->fill_fraction, (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter,
+                   drum->species[0].density, drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
+                   drum->contact.tangential_stiffness_ratio, drum->contact.stiffness, drum->lining.diameter, drum->time_step,
+                   spec->duration, (int64_t)drum->seed);
+}
+
+static store_status add_texts(job_store *store, const job_spec *spec, const char *text, const char *label, char id[JOB_ID_SIZE])
+{
+    if (!text || !label || !choose_id(id)) return STORE_FAILED;
+    if (!job_folder_create(store->data, id, text)) {
+        const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
+        log_line("job %s: its folder can't be written: %s", id, strerror(errno));
+        job_folder_discard(store->data, id);
+        return reason;
+    }
+    store_status status = store_begin(store);
+    if (status == STORE_OK) {
+        status = insert_job(store, spec, id, text, label);
+        if (status == STORE_OK) status = insert_inputs(store, spec);
+        status = store_end(store, status);
+    }
+    if (status != STORE_OK) job_folder_discard(store->data, id);
+    return status;
+}
+
+store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE])
+{
+    json_t *document = job_spec_to_json(spec);
+    char *text = document ? json_dumps(document, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) : NULL;
+    char *label = json_dumps(spec->label, JSON_COMPACT);
+    const store_status status = add_texts(store, spec, text, label, id);
+    free(label);
+    free(text);
+    json_decref(document);
+    return status;
+}
+
+static store_status exists(job_store *store, const char *id)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT 1 FROM job WHERE id=?", "t", id);
+    const int code = statement ? sqlite3_step(statement) : SQLITE_ERROR;
+    const store_status status = statement ? sql_finish(statement, code) : STORE_FAILED;
+    store_return_reader(store, reader);
+    return status == STORE_OK && code != SQLITE_ROW ? STORE_NOT_FOUND : status;
+}
+
+store_status store_dismiss_job(job_store *store, const char *id)
+{
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    int64_t changed = 0;
+    store_status status = store_begin(store);
+    if (status != STORE_OK) return status;
+    status = sql_run(store->writer, &changed,
+                     "UPDATE job SET status='dismissed', message='dismissed on request', eta_seconds=NULL, finished=?, updated=?"
+                     " WHERE id=? AND status IN ('accepted','running')", "ttt", now, now, id);
+    status = store_end(store, status);
+    if (status != STORE_OK || changed > 0) return status;
+    const store_status found = exists(store, id);
+    return found == STORE_OK ? STORE_CONFLICT : found;
+}
+
+/* --- texts, counts, files --- */
+
+static store_status read_text(job_store *store, const char *sql, const char *id, char **text)
+{
+    *text = NULL;
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, sql, "t", id);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        const char *value = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+        if (value) *text = strdup(value);
+        status = sql_finish(statement, code);
+        if (status == STORE_OK && !*text) status = value ? STORE_FAILED : STORE_NOT_FOUND;
+    }
+    store_return_reader(store, reader);
+    return status;
+}
+
+store_status store_read_spec(job_store *store, const char *id, char **text)
+{
+    return read_text(store, "SELECT spec FROM job WHERE id=?", id, text);
+}
+
+store_status store_read_results(job_store *store, const char *id, char **text)
+{
+    return read_text(store, "SELECT document FROM result JOIN job ON result.job=job.number WHERE job.id=?", id, text);
+}
+
+store_status store_read_failure(job_store *store, const char *id, char **text)
+{
+    return read_text(store, "SELECT failure FROM job WHERE id=?", id, text);
+}
+
+store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES])
+{
+    memset(counts, 0, JOB_STATUSES * sizeof counts[0]);
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT status, jobs FROM job_count", "");
+    store_status result = STORE_FAILED;
+    if (statement) {
+        int code;
+        while ((code = sqlite3_step(statement)) == SQLITE_ROW) {
+            const char *name = (const char *)sqlite3_column_text(statement, 0);
+            job_status status;
+            if (name && job_status_parse(name, strlen(name), &status)) counts[status] = sqlite3_column_int64(statement, 1);
+        }
+        result = sql_finish(statement, code);
+    }
+    store_return_reader(store, reader);
+    return result;
+}
+
+/* Of one thread; the median of the latest runs, so that one odd job does not decide. */
+double store_measured_speed(job_store *store)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader,
+        "SELECT speed FROM (SELECT particle_steps_per_second/max(threads,1) AS speed FROM run_result"
+        " WHERE particle_steps_per_second>0 ORDER BY job DESC LIMIT 9) ORDER BY speed"
+        " LIMIT 1 OFFSET (SELECT min(count(*),9)/2 FROM (SELECT 1 FROM run_result WHERE particle_steps_per_second>0 LIMIT 9))", "");
+    double speed = 0.0;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        if (code == SQLITE_ROW) speed = sqlite3_column_double(statement, 0);
+        sql_finish(statement, code);
+    }
+    store_return_reader(store, reader);
+    return speed;
+}
+
+store_status store_open_log(job_store *store, const char *id, int *file)
+{
+    *file = job_file_open(store->data, id, NULL, JOB_LOG_FILE);
+    return *file >= 0 ? STORE_OK : STORE_NOT_FOUND;
+}
+
+store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT file FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number=?", "ti", id, number);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        const char *name = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+        *file = name && !strchr(name, '/') ? job_file_open(store->data, id, JOB_SNAPSHOT_FOLDER, name) : -1;
+        status = sql_finish(statement, code);
+        if (status == STORE_OK && *file < 0) status = STORE_NOT_FOUND;
+    }
+    store_return_reader(store, reader);
+    return status;
+}

@@ -1,0 +1,67 @@
+/* The store over SQLite and the job folders. Handlers use it through api/store.h; the dispatcher through this. */
+#ifndef JOB_STORE_H
+#define JOB_STORE_H
+
+#include <pthread.h>
+#include <sqlite3.h>
+
+#include "data_folder.h"
+#include "event_tail.h"
+#include "store.h"
+
+enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
+
+/* Everything below is private to job_store*.c, result_tables.c and query.c. */
+struct job_store {
+    data_folder *data;
+    pthread_mutex_t write_lock; /* held for each transaction of the one writer */
+    sqlite3 *writer;
+    pthread_mutex_t readers_lock;
+    pthread_cond_t reader_is_free;
+    sqlite3 *reader[STORE_READERS]; /* the first readers_free are free */
+    int readers_free;
+    sqlite3 *query; /* for users' SQL alone: it has an authorizer and limits; the slow lane is its only thread */
+};
+
+job_store *store_open(data_folder *data);
+void store_close(job_store *store);
+
+sqlite3 *store_borrow_reader(job_store *store);
+void store_return_reader(job_store *store, sqlite3 *reader);
+/* Between begin and end this thread owns the writer. end commits where status is STORE_OK, else rolls back;
+ * returns what became of it. */
+store_status store_begin(job_store *store);
+store_status store_end(job_store *store, store_status status);
+
+/* One attempt of one job: what every write a worker causes is fenced by. */
+typedef struct job_claim {
+    int64_t number;
+    char id[JOB_ID_SIZE];
+    int attempt, threads;
+    double estimated_seconds, estimated_memory_bytes;
+    char *spec; /* owned; NULL once the worker has started */
+} job_claim;
+
+/* Takes the oldest job that waits, if it needs no more threads than are free (a job of more than `all_threads`
+ * counts as that many). STORE_NOT_FOUND: none. */
+store_status store_claim_job(job_store *store, int free_threads, int all_threads, job_claim *claim);
+
+/* The calls below return STORE_CONFLICT when the claim no longer holds (the job was dismissed): then nothing was
+ * written. store_record_events is for use between begin and end. */
+store_status store_record_events(job_store *store, const job_claim *claim, const event_batch *events);
+store_status store_record_success(job_store *store, const job_claim *claim, const char *document);
+store_status store_record_failure(job_store *store, const job_claim *claim, const char *message, const json_t *failure);
+/* Back into the queue. uses_attempt: the worker died; the last attempt's death fails the job. */
+store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, double delay, const char *message);
+bool store_claim_holds(job_store *store, const job_claim *claim);
+
+/* At start: jobs that a dead daemon left running are put back, or recorded as done where the result is there. */
+store_status store_recover(job_store *store);
+
+/* result_tables.c: spreads the results document over the tables; between begin and end. */
+store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document);
+
+/* query.c: the limits and the authorizer of users' SQL. */
+void query_connection_restrict(sqlite3 *database);
+
+#endif

@@ -1,0 +1,171 @@
+/* Walks over jobs, samples and snapshots. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "database.h"
+#include "job_store.h"
+#include "text_buffer.h"
+
+/* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary. */
+#define RECORD_COLUMNS 13
+#define SELECT_JOBS                                                                                                   \
+    "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"     \
+    " job.started, job.finished, job.updated, job.message, job.label,"                                                 \
+    " i.drum_diameter, i.drum_length, i.rotation_rate, i.fill_fraction, i.particles, i.species, i.diameter, i.density," \
+    " i.friction, i.restitution, i.wall_friction, i.stiffness, i.duration, i.seed, job.threads,"                       \
+    " job.estimated_seconds, a.angle_deg, a.standard_error_deg, a.steady, g.name AS regime, r.wall_seconds"            \
+    " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN repose_result a ON a.job=job.number"               \
+    " LEFT JOIN regime_result g ON g.job=job.number LEFT JOIN run_result r ON r.job=job.number"
+
+static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
+{
+    const char *value = (const char *)sqlite3_column_text(row, column);
+    snprintf(text, size, "%s", value ? value : "");
+}
+
+static json_t *summary_of(sqlite3_stmt *row)
+{
+    json_t *summary = json_object();
+    for (int i = RECORD_COLUMNS; i < sqlite3_column_count(row); i++) {
+        const char *name = sqlite3_column_name(row, i);
+        switch (sqlite3_column_type(row, i)) {
+        case SQLITE_INTEGER:
+            json_object_set_new(summary, name, strcmp(name, "steady") == 0 ? json_boolean(sqlite3_column_int(row, i))
+                                                                           : json_integer(sqlite3_column_int64(row, i)));
+            break;
+        case SQLITE_FLOAT: json_object_set_new(summary, name, json_real(sqlite3_column_double(row, i))); break;
+        case SQLITE_TEXT: json_object_set_new(summary, name, json_string((const char *)sqlite3_column_text(row, i))); break;
+        default: break; /* not known yet */
+        }
+    }
+    return summary;
+}
+
+static void fill_record(sqlite3_stmt *row, job_record *job)
+{
+    *job = (job_record){.number = sqlite3_column_int64(row, 0), .attempt = sqlite3_column_int(row, 4),
+                        .progress = sqlite3_column_double(row, 5)};
+    copy_text(job->id, sizeof job->id, row, 1);
+    copy_text(job->process, sizeof job->process, row, 2);
+    const char *status = (const char *)sqlite3_column_text(row, 3);
+    job_status_parse(status, strlen(status), &job->status); /* the table's CHECK allows no other names */
+    job->eta_seconds = sqlite3_column_type(row, 6) == SQLITE_NULL ? NAN : sqlite3_column_double(row, 6);
+    copy_text(job->created, sizeof job->created, row, 7);
+    copy_text(job->started, sizeof job->started, row, 8);
+    copy_text(job->finished, sizeof job->finished, row, 9);
+    copy_text(job->updated, sizeof job->updated, row, 10);
+    copy_text(job->message, sizeof job->message, row, 11);
+    job->label = json_loads((const char *)sqlite3_column_text(row, 12), 0, NULL);
+    job->summary = summary_of(row);
+}
+
+store_status store_find_job(job_store *store, const char *id, job_record *job)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, SELECT_JOBS " WHERE job.id=?", "t", id);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        if (code == SQLITE_ROW) fill_record(statement, job);
+        status = sql_finish(statement, code);
+        if (status == STORE_OK && code != SQLITE_ROW) status = STORE_NOT_FOUND;
+    }
+    store_return_reader(store, reader);
+    return status;
+}
+
+/* Only fixed pieces go into the SQL; what the user gave is bound. */
+static void write_list_sql(const job_filter *filter, text_buffer *sql)
+{
+    text_buffer_print(sql, SELECT_JOBS " WHERE (?1=0 OR job.number<?1) AND (?2 IS NULL OR job.process=?2)"
+                           " AND (?3 IS NULL OR instr(lower(job.label), lower(?3)) OR instr(job.id, ?3))");
+    if (filter->statuses) {
+        text_buffer_print(sql, " AND job.status IN (''");
+        for (int i = 0; i < JOB_STATUSES; i++)
+            if (filter->statuses & (1U << i)) text_buffer_print(sql, ",'%s'", job_status_name((job_status)i));
+        text_buffer_print(sql, ")");
+    }
+    text_buffer_print(sql, " ORDER BY job.number DESC LIMIT ?4");
+}
+
+store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context)
+{
+    text_buffer sql;
+    text_buffer_init(&sql, 8192);
+    write_list_sql(filter, &sql);
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "itti", filter->before, filter->process, filter->text, filter->limit);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        int code;
+        bool more = true;
+        while (more && (code = sqlite3_step(statement)) == SQLITE_ROW) {
+            job_record job;
+            fill_record(statement, &job);
+            more = visit(context, &job);
+            job_record_clear(&job);
+        }
+        status = sql_finish(statement, code);
+    }
+    store_return_reader(store, reader);
+    text_buffer_clear(&sql);
+    return status;
+}
+
+/* A walk over rows of one job that begin with number, step and time. */
+typedef bool row_taker(sqlite3_stmt *row, void *context);
+
+static store_status walk(job_store *store, const char *sql, const char *id, int64_t after, int64_t limit, row_taker *take, void *context)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, sql, "tii", id, after, limit);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        int code;
+        while ((code = sqlite3_step(statement)) == SQLITE_ROW && take(statement, context)) continue;
+        status = sql_finish(statement, code);
+    }
+    store_return_reader(store, reader);
+    return status;
+}
+
+typedef struct sample_walk {
+    sample_visitor *visit;
+    void *context;
+} sample_walk;
+
+static bool take_sample(sqlite3_stmt *row, void *context)
+{
+    const sample_walk *to = context;
+    const sample_row sample = {sqlite3_column_int64(row, 0), sqlite3_column_int64(row, 1), sqlite3_column_double(row, 2),
+                               (const char *)sqlite3_column_text(row, 3)};
+    return to->visit(to->context, &sample);
+}
+
+store_status store_list_samples(job_store *store, const char *id, int64_t after, int64_t limit, sample_visitor *visit, void *context)
+{
+    sample_walk to = {visit, context};
+    return walk(store, "SELECT number, step, time, measures FROM sample WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
+                       " ORDER BY number LIMIT ?", id, after, limit, take_sample, &to);
+}
+
+typedef struct snapshot_walk {
+    snapshot_visitor *visit;
+    void *context;
+} snapshot_walk;
+
+static bool take_snapshot(sqlite3_stmt *row, void *context)
+{
+    const snapshot_walk *to = context;
+    const snapshot_row snapshot = {sqlite3_column_int64(row, 0), sqlite3_column_int64(row, 1), sqlite3_column_int64(row, 2),
+                                   sqlite3_column_int64(row, 3), sqlite3_column_double(row, 4)};
+    return to->visit(to->context, &snapshot);
+}
+
+store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit, void *context)
+{
+    snapshot_walk to = {visit, context};
+    return walk(store, "SELECT number, step, bytes, particles, time FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
+                       " ORDER BY number LIMIT ?", id, after, limit, take_snapshot, &to);
+}

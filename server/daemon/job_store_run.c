@@ -1,0 +1,223 @@
+/* What running a job writes. Every write a worker causes is fenced by `number AND attempt AND status='running'`: a
+ * job that was dismissed or put back meanwhile is not touched. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "database.h"
+#include "job_folder.h"
+#include "job_store.h"
+#include "log.h"
+
+#define FENCE " WHERE number=? AND attempt=? AND status='running'"
+
+enum { LARGEST_RESULT = 16 << 20 };
+
+static double unix_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
+{
+    const int code = sqlite3_step(statement);
+    if (code != SQLITE_ROW) {
+        const store_status status = sql_finish(statement, code);
+        return status == STORE_OK ? STORE_NOT_FOUND : status;
+    }
+    *claim = (job_claim){.number = sqlite3_column_int64(statement, 0), .attempt = sqlite3_column_int(statement, 2),
+                         .threads = sqlite3_column_int(statement, 3), .estimated_seconds = sqlite3_column_double(statement, 4),
+                         .estimated_memory_bytes = sqlite3_column_double(statement, 5)};
+    snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
+    const char *spec = (const char *)sqlite3_column_text(statement, 6);
+    claim->spec = spec ? strdup(spec) : NULL;
+    /* The update counts only when the statement has ended well. */
+    const store_status status = sql_finish(statement, sqlite3_step(statement));
+    return status == STORE_OK && !claim->spec ? STORE_FAILED : status;
+}
+
+store_status store_claim_job(job_store *store, int free_threads, int all_threads, job_claim *claim)
+{
+    *claim = (job_claim){0};
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    store_status status = store_begin(store);
+    if (status != STORE_OK) return status;
+    sqlite3_stmt *statement = sql_prepare(store->writer,
+        "UPDATE job SET status='running', message='starting', started=coalesce(started,?1), updated=?1, eta_seconds=NULL"
+        " WHERE number=(SELECT number FROM job WHERE status='accepted' AND not_before<=?2 ORDER BY number LIMIT 1)"
+        " AND min(threads,?3)<=?4"
+        " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec",
+        "tdii", now, unix_seconds(), (int64_t)all_threads, (int64_t)free_threads);
+    status = store_end(store, statement ? read_claim(statement, claim) : STORE_FAILED);
+    if (status != STORE_OK) {
+        free(claim->spec);
+        claim->spec = NULL;
+    }
+    return status;
+}
+
+bool store_claim_holds(job_store *store, const job_claim *claim)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT 1 FROM job" FENCE, "ii", claim->number, (int64_t)claim->attempt);
+    /* Doubt keeps the worker: each of its writes is fenced anyway. */
+    const int code = statement ? sqlite3_step(statement) : SQLITE_ROW;
+    if (statement) sql_finish(statement, code);
+    store_return_reader(store, reader);
+    return code != SQLITE_DONE;
+}
+
+/* --- events --- */
+
+static int64_t whole(const json_t *event, const char *name)
+{
+    return (int64_t)json_number_value(json_object_get(event, name));
+}
+
+static store_status insert_samples(sqlite3 *writer, int64_t job, const json_t *samples)
+{
+    store_status status = STORE_OK;
+    for (size_t i = 0; status == STORE_OK && i < json_array_size(samples); i++) {
+        const json_t *event = json_array_get(samples, i);
+        const json_t *values = json_object_get(event, "values");
+        if (!json_is_object(values) || !json_is_integer(json_object_get(event, "number"))) continue;
+        char *text = json_dumps(values, JSON_COMPACT);
+        /* A later attempt repeats samples with the same numbers: the later line wins. */
+        status = text ? sql_run(writer, NULL, "INSERT INTO sample(job,number,step,time,measures) VALUES(?,?,?,?,?)"
+                                              " ON CONFLICT DO UPDATE SET step=excluded.step, time=excluded.time, measures=excluded.measures",
+                                "iiidt", job, whole(event, "number"), whole(event, "step"),
+                                json_number_value(json_object_get(event, "time")), text) : STORE_FAILED;
+        free(text);
+    }
+    return status;
+}
+
+static bool is_plain_name(const char *name)
+{
+    return name && name[0] && name[0] != '.' && strlen(name) < 64 && !strchr(name, '/');
+}
+
+static store_status insert_snapshots(sqlite3 *writer, int64_t job, const json_t *snapshots)
+{
+    store_status status = STORE_OK;
+    for (size_t i = 0; status == STORE_OK && i < json_array_size(snapshots); i++) {
+        const json_t *event = json_array_get(snapshots, i);
+        const char *file = json_string_value(json_object_get(event, "file"));
+        if (!is_plain_name(file) || !json_is_integer(json_object_get(event, "number"))) continue;
+        status = sql_run(writer, NULL, "INSERT OR REPLACE INTO snapshot(job,number,step,time,file,bytes,particles) VALUES(?,?,?,?,?,?,?)",
+                         "iiidtii", job, whole(event, "number"), whole(event, "step"),
+                         json_number_value(json_object_get(event, "time")), file, whole(event, "bytes"), whole(event, "particles"));
+    }
+    return status;
+}
+
+store_status store_record_events(job_store *store, const job_claim *claim, const event_batch *events)
+{
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    int64_t changed;
+    store_status status = sql_run(store->writer, &changed,
+        "UPDATE job SET updated=?, progress=coalesce(min(max(?,0),100),progress), eta_seconds=coalesce(?,eta_seconds),"
+        " message=coalesce(nullif(?,''),message)" FENCE,
+        "tddtii", now, events->progress, events->eta_seconds, events->phase, claim->number, (int64_t)claim->attempt);
+    if (status == STORE_OK && changed == 0) return STORE_CONFLICT;
+    if (status == STORE_OK) status = insert_samples(store->writer, claim->number, events->samples);
+    if (status == STORE_OK) status = insert_snapshots(store->writer, claim->number, events->snapshots);
+    return status;
+}
+
+/* --- ends --- */
+
+static store_status end_job(job_store *store, const job_claim *claim, job_status end, const char *message, const char *failure)
+{
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    int64_t changed;
+    const store_status status = sql_run(store->writer, &changed,
+        "UPDATE job SET status=?, message=?, failure=?, finished=?, updated=?, eta_seconds=NULL,"
+        " progress=CASE WHEN ?1='successful' THEN 100 ELSE progress END" FENCE,
+        "tttttii", job_status_name(end), message, failure, now, now, claim->number, (int64_t)claim->attempt);
+    return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
+}
+
+store_status store_record_success(job_store *store, const job_claim *claim, const char *document)
+{
+    store_status status = store_begin(store);
+    if (status != STORE_OK) return status;
+    status = end_job(store, claim, JOB_SUCCESSFUL, "done", NULL);
+    if (status == STORE_OK) status = result_tables_fill(store->writer, claim->number, document);
+    return store_end(store, status);
+}
+
+store_status store_record_failure(job_store *store, const job_claim *claim, const char *message, const json_t *failure)
+{
+    char *text = failure ? json_dumps(failure, JSON_COMPACT) : NULL;
+    store_status status = store_begin(store);
+    if (status == STORE_OK) status = store_end(store, end_job(store, claim, JOB_FAILED, message, text));
+    free(text);
+    return status;
+}
+
+static store_status put_back(job_store *store, const job_claim *claim, bool uses_attempt, double delay, const char *message)
+{
+    char now[JOB_TIME_SIZE], text[1024];
+    time_text(now);
+    if (uses_attempt && claim->attempt >= JOB_ATTEMPTS) {
+        snprintf(text, sizeof text, "%s; this was the last of %d attempts", message, JOB_ATTEMPTS);
+        return end_job(store, claim, JOB_FAILED, text, NULL);
+    }
+    int64_t changed;
+    const store_status status = sql_run(store->writer, &changed,
+        "UPDATE job SET status='accepted', attempt=attempt+?, not_before=?, message=?, updated=?, eta_seconds=NULL" FENCE,
+        "idttii", (int64_t)uses_attempt, delay > 0.0 ? unix_seconds() + delay : 0.0, message, now, claim->number, (int64_t)claim->attempt);
+    return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
+}
+
+store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, double delay, const char *message)
+{
+    const store_status status = store_begin(store);
+    return status == STORE_OK ? store_end(store, put_back(store, claim, uses_attempt, delay, message)) : status;
+}
+
+/* --- after a crash --- */
+
+/* The oldest job still marked running, with a number above `after`. */
+static store_status next_orphan(job_store *store, int64_t after, job_claim *claim)
+{
+    sqlite3_stmt *statement = sql_prepare(store->writer,
+        "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec FROM job"
+        " WHERE status='running' AND number>? ORDER BY number LIMIT 1", "i", after);
+    return statement ? read_claim(statement, claim) : STORE_FAILED;
+}
+
+/* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. */
+static store_status recover_one(job_store *store, const job_claim *claim)
+{
+    char *document = job_file_read(store->data, claim->id, JOB_RESULT_FILE, LARGEST_RESULT);
+    json_t *parsed = document ? json_loads(document, 0, NULL) : NULL;
+    const store_status status = parsed ? store_record_success(store, claim, document)
+                                       : store_put_back(store, claim, true, 0.0, "the daemon stopped while it ran");
+    log_line("job %s: left running by an earlier daemon; %s", claim->id, parsed ? "its result is there" : "put back");
+    json_decref(parsed);
+    free(document);
+    return status;
+}
+
+store_status store_recover(job_store *store)
+{
+    job_claim claim = {0};
+    int64_t after = 0;
+    store_status status;
+    while ((status = next_orphan(store, after, &claim)) == STORE_OK) {
+        after = claim.number;
+        status = recover_one(store, &claim);
+        free(claim.spec);
+        if (status != STORE_OK) return status;
+    }
+    return status == STORE_NOT_FOUND ? STORE_OK : status;
+}

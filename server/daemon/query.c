@@ -1,0 +1,129 @@
+/* SQL of users, read-only and bounded.
+ *
+ * The connection is opened mode=ro; on top of that an authorizer lets through SELECT over our tables with functions
+ * of a list, limits keep one value and one statement small, a progress handler ends what runs too long, and
+ * sqlite3_stmt_readonly stops what preparing lets pass (VACUUM INTO writes a file and still prepares). */
+#include <stdio.h>
+#include <string.h>
+#include <strings.h>
+
+#include "database.h"
+#include "job_store.h"
+#include "log.h"
+
+#define QUERY_SECONDS 2.0
+#define STEPS_BETWEEN_LOOKS 1000 /* of the virtual machine, some tens of microseconds */
+
+static const char tables[] =
+    " job job_count drum_input result repose_result regime_result segregation_result packing_result run_result sample"
+    " snapshot run_summary sqlite_master sqlite_schema json_each json_tree ";
+static const char functions[] =
+    " abs avg ceil ceiling coalesce count cume_dist date datetime degrees dense_rank exp first_value floor format glob"
+    " group_concat hex ifnull iif instr json json_array json_array_length json_extract json_group_array json_group_object"
+    " json_object json_type json_valid julianday lag last_value lead length like ln log log10 log2 lower ltrim max min mod"
+    " nth_value ntile nullif percent_rank pi pow power printf quote radians rank replace round row_number rtrim sign sin"
+    " cos tan asin acos atan atan2 sqrt strftime substr substring sum time total trim trunc typeof unicode unixepoch upper"
+    " -> ->> ";
+
+static bool is_listed(const char *list, const char *name)
+{
+    char wanted[72];
+    if (!name || strlen(name) > 60 || strchr(name, ' ')) return false;
+    snprintf(wanted, sizeof wanted, " %s ", name);
+    return strcasestr(list, wanted) != NULL;
+}
+
+static int authorize(void *context, int action, const char *first, const char *second, const char *database, const char *trigger)
+{
+    (void)context, (void)database, (void)trigger;
+    switch (action) {
+    case SQLITE_SELECT:
+    case SQLITE_RECURSIVE: return SQLITE_OK;
+    case SQLITE_READ: return is_listed(tables, first) || first[0] == '\0' ? SQLITE_OK : SQLITE_DENY;
+    case SQLITE_FUNCTION: return is_listed(functions, second) ? SQLITE_OK : SQLITE_DENY;
+    default: return SQLITE_DENY;
+    }
+}
+
+void query_connection_restrict(sqlite3 *database)
+{
+    static const int limits[][2] = {
+        {SQLITE_LIMIT_LENGTH, 4 << 20}, {SQLITE_LIMIT_SQL_LENGTH, 20000}, {SQLITE_LIMIT_COLUMN, 200},
+        {SQLITE_LIMIT_EXPR_DEPTH, 100}, {SQLITE_LIMIT_COMPOUND_SELECT, 20}, {SQLITE_LIMIT_VDBE_OP, 50000},
+        {SQLITE_LIMIT_FUNCTION_ARG, 100}, {SQLITE_LIMIT_ATTACHED, 0}, {SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 200},
+        {SQLITE_LIMIT_VARIABLE_NUMBER, 16}, {SQLITE_LIMIT_TRIGGER_DEPTH, 1}, {SQLITE_LIMIT_WORKER_THREADS, 0},
+    };
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) sqlite3_limit(database, limits[i][0], limits[i][1]);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
+    sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, NULL);
+    sqlite3_set_authorizer(database, authorize, NULL);
+}
+
+static int is_past(void *deadline)
+{
+    return monotonic_seconds() > *(const double *)deadline;
+}
+
+static sqlite3_stmt *prepare_one(sqlite3 *database, const char *sql, char *problem, size_t size)
+{
+    sqlite3_stmt *statement = NULL;
+    const char *tail = "";
+    const int code = sqlite3_prepare_v2(database, sql, -1, &statement, &tail);
+    if (code == SQLITE_OK) tail += strspn(tail, " \t\r\n;");
+    if (code != SQLITE_OK) snprintf(problem, size, "%s", sqlite3_errmsg(database));
+    else if (!statement) snprintf(problem, size, "the query is empty");
+    else if (*tail) snprintf(problem, size, "only one statement is allowed; a second begins with \"%.40s\"", tail);
+    else if (!sqlite3_stmt_readonly(statement)) snprintf(problem, size, "only reading is allowed");
+    else return statement;
+    sqlite3_finalize(statement);
+    return NULL;
+}
+
+static query_value value_of(sqlite3_stmt *row, int column)
+{
+    switch (sqlite3_column_type(row, column)) {
+    case SQLITE_INTEGER: return (query_value){.kind = QUERY_INTEGER, .integer = sqlite3_column_int64(row, column)};
+    case SQLITE_FLOAT: return (query_value){.kind = QUERY_REAL, .real = sqlite3_column_double(row, column)};
+    case SQLITE_TEXT: {
+        const char *text = (const char *)sqlite3_column_text(row, column);
+        return (query_value){.kind = QUERY_TEXT, .text = text, .length = (size_t)sqlite3_column_bytes(row, column)};
+    }
+    default: return (query_value){.kind = QUERY_NULL}; /* our tables hold no blobs */
+    }
+}
+
+static int walk(sqlite3_stmt *statement, query_visitor *visit, void *context)
+{
+    query_value values[200];
+    const int count = sqlite3_column_count(statement);
+    for (int i = 0; i < count; i++) {
+        const char *name = sqlite3_column_name(statement, i);
+        values[i] = (query_value){.kind = QUERY_TEXT, .text = name ? name : "", .length = name ? strlen(name) : 0};
+    }
+    bool more = visit(context, 0, values, count);
+    int code = SQLITE_DONE;
+    for (int64_t row = 1; more && (code = sqlite3_step(statement)) == SQLITE_ROW; row++) {
+        for (int i = 0; i < count; i++) values[i] = value_of(statement, i);
+        more = visit(context, row, values, count);
+    }
+    return more ? code : SQLITE_DONE;
+}
+
+query_status store_query(job_store *store, const char *sql, query_visitor *visit, void *context, char *problem, size_t problem_size)
+{
+    double deadline = monotonic_seconds() + QUERY_SECONDS;
+    sqlite3_progress_handler(store->query, STEPS_BETWEEN_LOOKS, is_past, &deadline);
+    sqlite3_stmt *statement = prepare_one(store->query, sql, problem, problem_size);
+    query_status status = QUERY_REFUSED;
+    if (statement) {
+        const int code = walk(statement, visit, context);
+        status = code == SQLITE_DONE ? QUERY_OK : (code & 0xff) == SQLITE_INTERRUPT ? QUERY_TOO_SLOW
+               : (code & 0xff) == SQLITE_IOERR || (code & 0xff) == SQLITE_BUSY ? QUERY_UNAVAILABLE : QUERY_REFUSED;
+        if (status == QUERY_TOO_SLOW) snprintf(problem, problem_size, "it ran for %.0f s, which is the limit", QUERY_SECONDS);
+        else if (status != QUERY_OK) snprintf(problem, problem_size, "%s", sqlite3_errmsg(store->query));
+        sqlite3_finalize(statement);
+    }
+    sqlite3_progress_handler(store->query, 0, NULL, NULL);
+    return status;
+}

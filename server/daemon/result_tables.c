@@ -1,0 +1,54 @@
+/* The results document, spread over the tables whose columns bear its names. */
+
+#include "database.h"
+#include "job_store.h"
+#include "text_buffer.h"
+
+/* Table <object>_result has these columns, each named as the document's member. */
+static const struct { const char *object; const char *columns[12]; } tables[] = {
+    {"repose", {"angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady", "drift_deg_per_revolution",
+                "method", "interface_fluctuation"}},
+    {"regime", {"name", "omega2_outer", "omega2_inner"}},
+    {"segregation", {"radial_index", "axial_index", "lacey_index"}},
+    {"packing", {"solid_fraction", "coordination_number"}},
+    {"run", {"particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second",
+             "maximum_overlap", "threads", "seed"}},
+};
+
+static void bind_json(sqlite3_stmt *statement, int index, const json_t *value)
+{
+    if (json_is_boolean(value)) sqlite3_bind_int(statement, index, json_is_true(value));
+    else if (json_is_integer(value)) sqlite3_bind_int64(statement, index, json_integer_value(value));
+    else if (json_is_real(value)) sqlite3_bind_double(statement, index, json_real_value(value));
+    else if (json_is_string(value)) sqlite3_bind_text(statement, index, json_string_value(value), -1, SQLITE_STATIC);
+    else sqlite3_bind_null(statement, index);
+}
+
+static store_status fill_table(sqlite3 *writer, int64_t job, size_t table, const json_t *object)
+{
+    text_buffer sql;
+    text_buffer_init(&sql, 2048);
+    text_buffer_print(&sql, "INSERT OR REPLACE INTO %s_result(job", tables[table].object);
+    size_t count = 0;
+    while (tables[table].columns[count]) text_buffer_print(&sql, ",%s", tables[table].columns[count++]);
+    text_buffer_print(&sql, ") VALUES(?");
+    for (size_t i = 0; i < count; i++) text_buffer_print(&sql, ",?");
+    text_buffer_print(&sql, ")");
+    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(writer, sql.text, "i", job);
+    text_buffer_clear(&sql);
+    if (!statement) return STORE_FAILED;
+    for (size_t i = 0; i < count; i++) bind_json(statement, (int)i + 2, json_object_get(object, tables[table].columns[i]));
+    return sql_finish(statement, sqlite3_step(statement));
+}
+
+store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document)
+{
+    json_t *results = json_loads(document, 0, NULL);
+    store_status status = results ? sql_run(writer, NULL, "INSERT OR REPLACE INTO result VALUES(?,?)", "it", job, document) : STORE_FAILED;
+    for (size_t i = 0; status == STORE_OK && i < sizeof tables / sizeof tables[0]; i++) {
+        const json_t *object = json_object_get(results, tables[i].object);
+        if (object) status = fill_table(writer, job, i, object);
+    }
+    json_decref(results);
+    return status;
+}

@@ -1,0 +1,95 @@
+/* A migration that has been released is never changed; a new one is added below it.
+ *
+ * One row of `job` is a job for ever. `drum_input` holds the main inputs as numbers, the *_result tables what came
+ * out, under the names of the results document, which `result` keeps whole. job_count is kept by triggers, because
+ * the list of jobs shows counts at every look and counting 100,000 rows each time would be felt. */
+#include "schema.h"
+
+static const char job_tables[] =
+    "CREATE TABLE job("
+    "  number INTEGER PRIMARY KEY," /* order of submission */
+    "  id TEXT NOT NULL UNIQUE,"
+    "  process TEXT NOT NULL,"
+    "  label TEXT NOT NULL,"  /* JSON object */
+    "  spec TEXT NOT NULL,"   /* canonical JSON */
+    "  status TEXT NOT NULL CHECK(status IN ('accepted','running','successful','failed','dismissed')),"
+    "  message TEXT NOT NULL,"
+    "  attempt INTEGER NOT NULL DEFAULT 1,"
+    "  not_before REAL NOT NULL DEFAULT 0," /* unix seconds: a job put back after a full disk waits */
+    "  threads INTEGER NOT NULL,"
+    "  estimated_seconds REAL NOT NULL,"
+    "  estimated_memory_bytes REAL NOT NULL,"
+    "  created TEXT NOT NULL, started TEXT, finished TEXT, updated TEXT NOT NULL,"
+    "  progress REAL NOT NULL DEFAULT 0,"
+    "  eta_seconds REAL,"
+    "  failure TEXT" /* the worker's failure event, JSON */
+    ") STRICT;"
+    "CREATE INDEX job_waiting ON job(number) WHERE status='accepted';"
+    "CREATE INDEX job_running ON job(number) WHERE status='running';"
+    "CREATE INDEX job_by_status ON job(status, number);"
+    "CREATE TABLE job_count(status TEXT PRIMARY KEY, jobs INTEGER NOT NULL) STRICT, WITHOUT ROWID;"
+    "INSERT INTO job_count VALUES('accepted',0),('running',0),('successful',0),('failed',0),('dismissed',0);"
+    "CREATE TRIGGER job_counted AFTER INSERT ON job BEGIN"
+    "  UPDATE job_count SET jobs=jobs+1 WHERE status=new.status; END;"
+    "CREATE TRIGGER job_moved AFTER UPDATE OF status ON job WHEN old.status<>new.status BEGIN"
+    "  UPDATE job_count SET jobs=jobs-1 WHERE status=old.status;"
+    "  UPDATE job_count SET jobs=jobs+1 WHERE status=new.status; END;"
+    "CREATE TRIGGER job_forgotten AFTER DELETE ON job BEGIN"
+    "  UPDATE job_count SET jobs=jobs-1 WHERE status=old.status; END;"
+    "CREATE TABLE drum_input("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  drum_diameter REAL NOT NULL, drum_length REAL NOT NULL, rotation_rate REAL NOT NULL, gravity REAL NOT NULL,"
+    "  fill_fraction REAL NOT NULL, particles INTEGER NOT NULL, species INTEGER NOT NULL,"
+    "  diameter REAL NOT NULL, density REAL NOT NULL," /* of the first species */
+    "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"
+    "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, lining_diameter REAL NOT NULL,"
+    "  time_step REAL NOT NULL, duration REAL NOT NULL, seed INTEGER NOT NULL"
+    ") STRICT;";
+
+static const char result_tables[] =
+    "CREATE TABLE result(job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE, document TEXT NOT NULL) STRICT;"
+    "CREATE TABLE repose_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  angle_deg REAL, standard_error_deg REAL, minimum_deg REAL, maximum_deg REAL, steady INTEGER,"
+    "  drift_deg_per_revolution REAL, method TEXT, interface_fluctuation REAL) STRICT;"
+    "CREATE TABLE regime_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  name TEXT, omega2_outer REAL, omega2_inner REAL) STRICT;"
+    "CREATE TABLE segregation_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  radial_index REAL, axial_index REAL, lacey_index REAL) STRICT;"
+    "CREATE TABLE packing_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  solid_fraction REAL, coordination_number REAL) STRICT;"
+    "CREATE TABLE run_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  particles INTEGER, steps INTEGER, time_step REAL, simulated_seconds REAL, wall_seconds REAL,"
+    "  particle_steps_per_second REAL, maximum_overlap REAL, threads INTEGER, seed INTEGER) STRICT;"
+    "CREATE TABLE sample("
+    "  job INTEGER NOT NULL REFERENCES job(number) ON DELETE CASCADE,"
+    "  number INTEGER NOT NULL, step INTEGER NOT NULL, time REAL NOT NULL," /* s since rotation began */
+    "  measures TEXT NOT NULL," /* JSON object */
+    "  angle_deg REAL GENERATED ALWAYS AS (measures->>'angle_deg') VIRTUAL,"
+    "  PRIMARY KEY(job, number)) STRICT, WITHOUT ROWID;"
+    "CREATE TABLE snapshot("
+    "  job INTEGER NOT NULL REFERENCES job(number) ON DELETE CASCADE,"
+    "  number INTEGER NOT NULL, step INTEGER NOT NULL, time REAL NOT NULL,"
+    "  file TEXT NOT NULL, bytes INTEGER NOT NULL, particles INTEGER NOT NULL,"
+    "  PRIMARY KEY(job, number)) STRICT, WITHOUT ROWID;"
+    /* One row a finished run: its main inputs and results. */
+    "CREATE VIEW run_summary AS SELECT"
+    "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
+    "  i.drum_diameter, i.drum_length, i.rotation_rate, i.gravity, i.fill_fraction, i.particles, i.species, i.diameter,"
+    "  i.density, i.friction, i.restitution, i.wall_friction, i.tangential_stiffness_ratio, i.stiffness,"
+    "  i.lining_diameter, i.time_step, i.duration, i.seed,"
+    "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady, a.drift_deg_per_revolution,"
+    "  a.interface_fluctuation, g.name AS regime, g.omega2_outer, g.omega2_inner,"
+    "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number,"
+    "  r.steps, r.simulated_seconds, r.wall_seconds, r.particle_steps_per_second, r.maximum_overlap, r.threads"
+    " FROM job JOIN run_result r ON r.job=job.number LEFT JOIN drum_input i ON i.job=job.number"
+    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"
+    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
+    " WHERE job.status='successful';";
+
+const schema_migration schema_migrations[] = {{{job_tables, result_tables}}};
+const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];
