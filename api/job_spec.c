@@ -1,14 +1,14 @@
 /* A request as a whole: process, inputs, label. */
 #include "job_spec.h"
 
-#include <stdlib.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "json_text.h"
 #include "spec_rules.h"
 #include "spec_text.h"
 
-enum { MOST_LABELS = 32, LONGEST_LABEL_NAME = 64, LONGEST_LABEL = 200 };
+enum { MOST_LABELS = 16, LONGEST_LABEL_NAME = 64, LONGEST_LABEL = 200 };
 
 static void read_process(const char *process, const json_t *request, problem_list *problems)
 {
@@ -103,7 +103,7 @@ json_t *job_spec_to_json(const job_spec *spec)
 char *job_spec_to_text(const job_spec *spec)
 {
     json_t *document = job_spec_to_json(spec);
-    char *text = document ? json_dumps(document, JSON_INDENT(2)) : NULL;
+    char *text = json_text_write(document);
     json_decref(document);
     return text;
 }

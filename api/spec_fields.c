@@ -134,6 +134,10 @@ const spec_field *spec_field_nearest(spec_group group, const char *name)
             nearest = &spec_fields[f];
         }
     }
+    /* Only the beginning of a name: "fill". */
+    for (size_t f = 0; f < spec_field_count && !nearest && strlen(name) >= 3; f++)
+        if (spec_fields[f].group == group && strncmp(spec_fields[f].name, name, strlen(name)) == 0)
+            nearest = &spec_fields[f];
     /* The right name in the wrong object. */
     for (size_t f = 0; f < spec_field_count && !nearest; f++)
         if (strcmp(spec_fields[f].name, name) == 0) nearest = &spec_fields[f];

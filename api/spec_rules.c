@@ -101,6 +101,9 @@ static void check_lining(const drum_inputs *inputs, problem_list *problems)
     if (inputs->lining_pitch < 0.5 * inputs->lining_diameter)
         problem_list_add(problems, "/inputs/wall/lining/pitch", "is %g m; must be at least %g m, half the diameter of "
                          "the lining's spheres", inputs->lining_pitch, 0.5 * inputs->lining_diameter);
+    if (inputs->lining_pitch > inputs->drum_length)
+        problem_list_add(problems, "/inputs/wall/lining/pitch", "is %g m; must be at most %g m, the drum's length",
+                         inputs->lining_pitch, inputs->drum_length);
     const double spheres = DEM_PI * inputs->drum_diameter * inputs->drum_length
                          / (inputs->lining_pitch * inputs->lining_pitch);
     if (spheres > MOST_PARTICLES)
@@ -189,15 +192,18 @@ static void check_amounts(const job_spec *spec, problem_list *problems)
     const job_estimate estimate = job_spec_estimate(spec, 0.0);
     const char *duration = isnan(inputs->revolutions) ? "/inputs/duration/seconds" : "/inputs/duration/revolutions";
     if (estimate.steps > MOST_STEPS)
-        problem_list_add(problems, duration, "makes %.3g steps of %.3g s; must make at most %.3g: shorten the duration "
-                         "or allow a larger overlap", estimate.steps, spec->drum.time_step, MOST_STEPS);
+        problem_list_add(problems, duration, "makes %.3g steps of %.3g s; must make at most %.3g: shorten the "
+                         "duration or allow a larger overlap", estimate.steps, spec->drum.time_step, MOST_STEPS);
+    if (spec->duration < SAMPLES_PER_RUN * spec->drum.time_step)
+        problem_list_add(problems, duration, "is %.3g s; must be at least %.3g s, %g time steps", spec->duration,
+                         SAMPLES_PER_RUN * spec->drum.time_step, SAMPLES_PER_RUN);
+    else if (spec->sample_interval < spec->drum.time_step)
+        problem_list_add(problems, "/inputs/samples/interval", "is %g s; must be at least the time step, %.3g s",
+                         spec->sample_interval, spec->drum.time_step);
     const double samples = spec->duration / spec->sample_interval;
     if (samples > MOST_SAMPLES)
         problem_list_add(problems, "/inputs/samples/interval", "is %g s, %.3g samples in all; must make at most %.0f",
                          spec->sample_interval, samples, MOST_SAMPLES);
-    if (spec->sample_interval < spec->drum.time_step)
-        problem_list_add(problems, "/inputs/samples/interval", "is %g s; must be at least the time step, %.3g s",
-                         spec->sample_interval, spec->drum.time_step);
     if (spec->snapshot_interval > 0.0 && spec->snapshot_interval < spec->drum.time_step)
         problem_list_add(problems, "/inputs/snapshots/interval", "is %g s; must be 0 or at least the time step, %.3g s",
                          spec->snapshot_interval, spec->drum.time_step);

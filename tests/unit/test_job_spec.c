@@ -275,9 +275,9 @@ static void combinations_that_make_no_sense_are_refused(void **state)
     expect_problem("particles", "[{\"diameter\": 0.005, \"share\": 0.5}, {\"diameter\": 0.004}]",
                    "/inputs/particles: have a valid share in 1 of 2 entries; give it in all or in none\n");
     expect_problem("particles", "[]", "/inputs/particles: has 0 entries; must have 1 to 16\n");
-    char *problems = problems_of(minimal_with("duration/revolutions", "100000"));
-    assert_non_null(strstr(problems, "/inputs/duration/revolutions: makes "));
-    assert_non_null(strstr(problems, "/inputs/snapshots/interval: is 0.1 s, 2.09e+06 snapshots"));
+    char *problems = problems_of(minimal_with("duration/seconds", "1e6"));
+    assert_non_null(strstr(problems, "/inputs/duration/seconds: makes "));
+    assert_non_null(strstr(problems, "/inputs/snapshots/interval: is 0.1 s, 1e+07 snapshots"));
     free(problems);
     problems = problems_of(minimal_with("contact/stiffness", "0.01"));
     assert_non_null(strstr(problems, "/inputs/contact/stiffness: is 0.01 N/m, too soft"));

@@ -1,0 +1,120 @@
+#include "json_text.h"
+
+#include <ctype.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A number that is not 0 as written but too small for a double: strtod makes 0 or a denormal of it, and the parser
+ * does not tell. Returns its place, or NULL. The text is known to be good JSON. */
+static const char *find_vanishing_number(const char *text, const char *end)
+{
+    for (const char *c = text; c < end;) {
+        if (*c == '"') {
+            for (c++; c < end && *c != '"'; c++)
+                if (*c == '\\') c++;
+            c++;
+        } else if (isdigit((unsigned char)*c)) {
+            const char *start = c;
+            size_t digits = 0; /* of the mantissa, other than 0 */
+            for (; c < end && (isdigit((unsigned char)*c) || *c == '.'); c++) digits += *c >= '1' && *c <= '9';
+            while (c < end && (isalnum((unsigned char)*c) || *c == '+' || *c == '-' || *c == '.')) c++;
+            char number[64] = "";
+            const size_t length = (size_t)(c - start);
+            memcpy(number, start, length < sizeof number ? length : sizeof number - 1);
+            if (length < sizeof number && digits && strtod(number, NULL) == 0.0) return start;
+        } else {
+            c++;
+        }
+    }
+    return NULL;
+}
+
+json_t *json_text_load(const char *text, size_t length, problem_list *problems)
+{
+    json_error_t error;
+    json_t *document = json_loadb(text, length, JSON_REJECT_DUPLICATES | JSON_DECODE_ANY, &error);
+    if (!document) {
+        problem_list_add(problems, "", "is not JSON: %s (line %d, column %d)", error.text, error.line, error.column);
+        return NULL;
+    }
+    const char *vanishing = find_vanishing_number(text, text + length);
+    if (!vanishing) return document;
+    int line = 1;
+    for (const char *c = text; c < vanishing; c++) line += *c == '\n';
+    problem_list_add(problems, "", "has in line %d a number too close to 0 to be kept: %.20s...", line, vanishing);
+    json_decref(document);
+    return NULL;
+}
+
+static void write_value(FILE *stream, const json_t *value, int depth);
+
+static void write_real(FILE *stream, double number)
+{
+    char text[40];
+    int digits = 15;
+    do snprintf(text, sizeof text, "%.*g", digits, number); while (strtod(text, NULL) != number && ++digits <= 17);
+    /* Without a point or an exponent it would be read back as an integer. */
+    fprintf(stream, strpbrk(text, ".e") ? "%s" : "%s.0", text);
+}
+
+static void write_indent(FILE *stream, int depth)
+{
+    fprintf(stream, "\n%*s", 2 * depth, "");
+}
+
+static void write_object(FILE *stream, const json_t *object, int depth)
+{
+    const char *name;
+    json_t *value;
+    bool first = true;
+    fputc('{', stream);
+    json_object_foreach((json_t *)object, name, value) {
+        if (!first) fputc(',', stream);
+        first = false;
+        write_indent(stream, depth + 1);
+        json_t *quoted = json_string(name);
+        json_dumpf(quoted, stream, JSON_ENCODE_ANY);
+        json_decref(quoted);
+        fputs(": ", stream);
+        write_value(stream, value, depth + 1);
+    }
+    if (!first) write_indent(stream, depth);
+    fputc('}', stream);
+}
+
+static void write_array(FILE *stream, const json_t *array, int depth)
+{
+    size_t index;
+    json_t *value;
+    fputc('[', stream);
+    json_array_foreach(array, index, value) {
+        if (index) fputc(',', stream);
+        write_indent(stream, depth + 1);
+        write_value(stream, value, depth + 1);
+    }
+    if (json_array_size(array)) write_indent(stream, depth);
+    fputc(']', stream);
+}
+
+static void write_value(FILE *stream, const json_t *value, int depth)
+{
+    if (json_is_object(value)) write_object(stream, value, depth);
+    else if (json_is_array(value)) write_array(stream, value, depth);
+    else if (json_is_real(value)) write_real(stream, json_real_value(value));
+    else json_dumpf(value, stream, JSON_ENCODE_ANY);
+}
+
+char *json_text_write(const json_t *document)
+{
+    char *text = NULL;
+    size_t length = 0;
+    FILE *stream = document ? open_memstream(&text, &length) : NULL;
+    if (!stream) return NULL;
+    write_value(stream, document, 0);
+    fputc('\n', stream);
+    const bool failed = ferror(stream) != 0;
+    if (fclose(stream) == 0 && !failed) return text;
+    free(text);
+    return NULL;
+}

@@ -1,0 +1,27 @@
+/* checkpoint.hdf: everything a run needs to go on bit for bit after its worker has died. */
+#ifndef CHECKPOINT_FILE_H
+#define CHECKPOINT_FILE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "dem.h"
+
+typedef struct checkpoint {
+    int64_t next_sample, next_snapshot; /* numbers of those not yet taken */
+    double wall_seconds;                /* s spent so far, by all attempts */
+    double time_step, stiffness;        /* as derived by the program that wrote it */
+    double *frames;                     /* (next_sample, frame_width) */
+    size_t frame_width;
+    dem_state state;
+} checkpoint;
+
+/* params: the canonical spec. The file of before stays whole until the new one is safe. */
+bool checkpoint_write(const checkpoint *saved, const char *params);
+
+/* False when there is no checkpoint of this spec, or none that can be read (logged). The checkpoint then owns its
+ * frames and the state's arrays. */
+bool checkpoint_read(checkpoint *saved, const char *params);
+void checkpoint_clear(checkpoint *saved);
+
+#endif

@@ -1,0 +1,24 @@
+/* Files that appear whole or not at all: written as NAME.tmp, synced, renamed, the folder synced.
+ *
+ * All names are relative to the job folder, which is the working directory of a worker at work. Failures are
+ * logged here, with the reason. */
+#ifndef FILE_PUBLISH_H
+#define FILE_PUBLISH_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+/* NAME.tmp, already written and closed, becomes NAME. */
+bool file_publish(const char *name);
+bool file_write(const char *name, const char *text, size_t length);
+
+/* The whole file, with a \0 after it; to be freed. NULL: not there or not readable (logged unless not there). */
+char *file_read(const char *name, size_t most, size_t *length);
+
+/* Left over from a worker that died while writing. */
+void file_sweep_temporary(const char *folder);
+
+/* Says why writing NAME failed and how much room the disk has. */
+void file_log_write_failure(const char *name, const char *reason);
+
+#endif

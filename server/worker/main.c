@@ -1,0 +1,183 @@
+/* repose: one virtual drum test, run or checked. With no daemon at all it serves a laptop, a test or a batch
+ * system; the daemon starts it for every attempt at a job. */
+#include <getopt.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+#include <unistd.h>
+
+#include "file_publish.h"
+#include "hdf_file.h"
+#include "job_run.h"
+#include "json_text.h"
+#include "run_summary.h"
+#include "spec_file.h"
+#include "worker_log.h"
+
+#define VERSION "1.0.0"
+
+enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
+
+static const char help[] =
+    "repose run SPEC --out DIR     run the test that the file SPEC describes (\"-\": stdin)\n"
+    "    --threads N               instead of those of the spec; results do not depend on it\n"
+    "    --attempt N               of a job that was begun before (default 1)\n"
+    "    --checkpoint-seconds S    between checkpoints (default 30)\n"
+    "    --json                    print the results as JSON\n"
+    "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"
+    "                              memory; or every problem it has\n"
+    "repose --help | --version\n"
+    "\n"
+    "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR.\n"
+    "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk.\n";
+
+typedef struct command_line {
+    const char *spec, *out;
+    int threads; /* 0: those of the spec */
+    bool json;
+    run_options run;
+} command_line;
+
+static enum worker_exit refuse_usage(const char *problem, const char *value)
+{
+    fprintf(stderr, "repose: %s%s%s\nTry: repose --help\n", problem, value ? ": " : "", value ? value : "");
+    return WORKER_BAD_SPEC;
+}
+
+static bool read_whole(const char *text, int most, int *number)
+{
+    char *end;
+    const long value = strtol(text, &end, 10);
+    if (*end || end == text || value < 1 || value > most) return false;
+    *number = (int)value;
+    return true;
+}
+
+static bool read_seconds(const char *text, double *seconds)
+{
+    char *end;
+    *seconds = strtod(text, &end);
+    return !*end && end != text && isfinite(*seconds) && *seconds >= 0.0;
+}
+
+/* argv[0] is the word "run" or "check". */
+static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
+{
+    static const struct option options[] = {
+        {"out", required_argument, NULL, 'o'},     {"threads", required_argument, NULL, 't'},
+        {"attempt", required_argument, NULL, 'a'}, {"checkpoint-seconds", required_argument, NULL, 'c'},
+        {"json", no_argument, NULL, 'j'},          {NULL, 0, NULL, 0},
+    };
+    *line = (command_line){.run = {.attempt = 1, .checkpoint_seconds = 30.0}};
+    bool good = true;
+    for (int option; good && (option = getopt_long(argc, argv, "o:", options, NULL)) != -1;) {
+        switch (option) {
+        case 'o': line->out = optarg; break;
+        case 't': good = read_whole(optarg, MOST_THREADS, &line->threads); break;
+        case 'a': good = read_whole(optarg, INT_MAX, &line->run.attempt); break;
+        case 'c': good = read_seconds(optarg, &line->run.checkpoint_seconds); break;
+        case 'j': line->json = true; break;
+        default: return WORKER_BAD_SPEC; /* getopt has said why */
+        }
+        if (!good) return refuse_usage("not a number in the allowed range", optarg);
+    }
+    if (optind + 1 != argc) return refuse_usage("give one SPEC file", NULL);
+    line->spec = argv[optind];
+    return WORKER_DONE;
+}
+
+static uint64_t random_seed(void)
+{
+    uint64_t seed = 0;
+    if (getrandom(&seed, sizeof seed, 0) != (ssize_t)sizeof seed) worker_warn("no random seed from the system: taking 0");
+    return seed;
+}
+
+static void print_json(json_t *document)
+{
+    char *text = json_text_write(document);
+    if (text) fputs(text, stdout);
+    free(text);
+    json_decref(document);
+}
+
+/* The spec, or the problem document on stdout. */
+static enum worker_exit load_spec(const char *name, job_spec *spec)
+{
+    problem_list problems;
+    problem_list_init(&problems);
+    const char *path = strcmp(name, "-") == 0 ? "/dev/stdin" : name;
+    const bool loaded = spec_file_load(path, random_seed(), spec, &problems);
+    if (!loaded)
+        print_json(problem_json(400, "about:blank", "Bad specification", "The specification can't be run as it is.",
+                                &problems));
+    problem_list_clear(&problems);
+    return loaded ? WORKER_DONE : WORKER_BAD_SPEC;
+}
+
+static enum worker_exit check(int argc, char **argv)
+{
+    command_line line;
+    job_spec spec;
+    enum worker_exit exit = read_command_line(argc, argv, &line);
+    if (exit == WORKER_DONE) exit = load_spec(line.spec, &spec);
+    if (exit != WORKER_DONE) return exit;
+    const job_estimate estimate = job_spec_estimate(&spec, 0.0);
+    print_json(json_pack("{s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate)));
+    job_spec_clear(&spec);
+    return WORKER_DONE;
+}
+
+/* The working directory is the job folder now. */
+static void print_result(const command_line *line)
+{
+    size_t length;
+    char *text = file_read(JOB_RESULT_FILE, LONGEST_RESULT, &length);
+    if (!text) return;
+    if (line->json) {
+        fputs(text, stdout);
+    } else {
+        json_t *result = json_loadb(text, length, 0, NULL);
+        terminal_summary(result, line->out);
+        json_decref(result);
+    }
+    free(text);
+}
+
+static enum worker_exit run(int argc, char **argv)
+{
+    command_line line;
+    job_spec spec;
+    enum worker_exit exit = read_command_line(argc, argv, &line);
+    if (exit == WORKER_DONE && !line.out) exit = refuse_usage("say where to write: --out DIR", NULL);
+    if (exit == WORKER_DONE) exit = load_spec(line.spec, &spec);
+    if (exit != WORKER_DONE) return exit;
+    if (line.threads) spec.drum.threads = line.threads;
+    line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;
+    worker_log_only_warnings(line.run.on_terminal && isatty(STDERR_FILENO));
+    hdf_init();
+    job_run_catch_signals();
+    exit = job_run(&spec, line.out, &line.run);
+    if (line.run.on_terminal) terminal_end_progress();
+    if (exit == WORKER_DONE && (line.json || line.run.on_terminal)) print_result(&line);
+    job_spec_clear(&spec);
+    return exit;
+}
+
+int main(int argc, char **argv)
+{
+    const char *word = argc > 1 ? argv[1] : "--help";
+    int exit = WORKER_DONE;
+    if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1);
+    else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1);
+    else if (strcmp(word, "--help") == 0) fputs(help, stdout);
+    else if (strcmp(word, "--version") == 0) puts("repose " VERSION);
+    else exit = refuse_usage("not a command", word);
+    /* After a failed write HDF5's own cleaning up at exit crashes: leave without it. */
+    if (fflush(stdout) != 0 && exit == WORKER_DONE) exit = WORKER_DISK;
+    fflush(stderr);
+    _exit(exit);
+}

@@ -1,0 +1,63 @@
+#include "run_summary.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "job_folder.h"
+
+enum { BAR_WIDTH = 30 };
+
+static void write_duration(double seconds, char *text, size_t size)
+{
+    const long long whole = llround(fmin(fmax(seconds, 0.0), 3e9));
+    if (whole >= 3600) snprintf(text, size, "%lld h %02lld min", whole / 3600, whole / 60 % 60);
+    else if (whole >= 60) snprintf(text, size, "%lld min %02lld s", whole / 60, whole % 60);
+    else snprintf(text, size, "%lld s", whole);
+}
+
+void terminal_progress(const progress_report *report, dem_phase phase, double time)
+{
+    char bar[BAR_WIDTH + 1], left[40];
+    for (int i = 0; i < BAR_WIDTH; i++) bar[i] = report->percent * BAR_WIDTH >= 100.0 * (i + 1) ? '#' : '.';
+    bar[BAR_WIDTH] = '\0';
+    write_duration(report->eta_seconds, left, sizeof left);
+    printf("\r\033[K%s %5.1f %%  %s", bar, report->percent, dem_phase_name(phase));
+    if (phase == DEM_PHASE_ROTATING) printf(" %.2f s", time);
+    printf("  %s left  %.1f M particle-steps/s", left, 1e-6 * report->particle_steps_per_second);
+    fflush(stdout);
+}
+
+void terminal_end_progress(void)
+{
+    printf("\r\033[K");
+    fflush(stdout);
+}
+
+static double number_at(const json_t *result, const char *output, const char *name)
+{
+    const json_t *value = json_object_get(json_object_get(result, output), name);
+    return json_is_number(value) ? json_number_value(value) : NAN;
+}
+
+void terminal_summary(const json_t *result, const char *folder)
+{
+    const json_t *repose = json_object_get(result, "repose");
+    const char *regime = json_string_value(json_object_get(json_object_get(result, "regime"), "name"));
+    const double angle = number_at(result, "repose", "angle_deg");
+    char spent[40];
+    if (isnan(angle)) {
+        printf("angle of repose   not measured: the run is too short\n");
+    } else {
+        printf("angle of repose   %.2f +- %.2f degrees (%s)%s\n", angle, number_at(result, "repose", "standard_error_deg"),
+               json_string_value(json_object_get(repose, "method")),
+               json_is_true(json_object_get(repose, "steady")) ? "" : ", not steady");
+        printf("frames            %.2f to %.2f degrees\n", number_at(result, "repose", "minimum_deg"),
+               number_at(result, "repose", "maximum_deg"));
+    }
+    printf("regime            %s\n", regime ? regime : "not known: the run is too short");
+    write_duration(number_at(result, "run", "wall_seconds"), spent, sizeof spent);
+    printf("run               %.0f particles, %.0f steps, %s, largest overlap %.2g of a diameter\n",
+           number_at(result, "run", "particles"), number_at(result, "run", "steps"), spent,
+           number_at(result, "run", "maximum_overlap"));
+    printf("files             %s/%s, %s/%s (ParaView)\n", folder, JOB_RESULT_FILE, folder, JOB_SERIES_FILE);
+}

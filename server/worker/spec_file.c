@@ -1,0 +1,27 @@
+#include "spec_file.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "file_publish.h"
+#include "json_text.h"
+
+enum { LONGEST_SPEC = 1000000 };
+
+bool spec_file_load(const char *name, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
+{
+    size_t length;
+    errno = 0;
+    char *text = file_read(name, LONGEST_SPEC, &length);
+    if (!text) {
+        problem_list_add(problems, "", "can't read %.200s: %s", name,
+                         errno ? strerror(errno) : "it is longer than 1 MB");
+        return false;
+    }
+    json_t *request = json_text_load(text, length, problems);
+    free(text);
+    const bool read = request && job_spec_parse(NULL, request, seed_if_missing, spec, problems);
+    json_decref(request);
+    return read;
+}

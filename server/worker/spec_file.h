@@ -1,0 +1,10 @@
+/* A spec from a file, as a user or the daemon wrote it. */
+#ifndef SPEC_FILE_H
+#define SPEC_FILE_H
+
+#include "job_spec.h"
+
+/* False when it can't be read or has problems, which are listed. */
+bool spec_file_load(const char *name, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);
+
+#endif

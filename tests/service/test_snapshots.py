@@ -1,0 +1,140 @@
+"""Snapshots as other programs see them: h5py, VTK's own reader, and ParaView by the types it insists on."""
+import hashlib
+import json
+
+import h5py
+import numpy
+import pytest
+from worker_runs import events, result, run, small, snapshot_bytes, write_spec
+
+
+@pytest.fixture(scope="module")
+def job(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("snapshots")
+    spec = small(particles=[{"diameter": 0.003, "share": 0.75}, {"diameter": 0.0024, "density": 1200, "share": 0.25}],
+                 duration={"seconds": 0.25})
+    code, _, stderr = run(write_spec(folder, spec), folder / "job")
+    assert code == 0, stderr
+    return folder / "job"
+
+
+@pytest.fixture
+def last(job):
+    with h5py.File(sorted((job / "snapshots").iterdir())[-1], "r") as file:
+        yield file
+
+
+def test_the_type_attribute_is_the_only_kind_of_string_that_paraview_takes(last):
+    attribute = h5py.h5a.open(last["VTKHDF"].id, b"Type")
+    kind = attribute.get_type()
+    assert attribute.get_space().get_simple_extent_ndims() == 0
+    assert isinstance(kind, h5py.h5t.TypeStringID) and not kind.is_variable_str()
+    assert kind.get_size() == 16
+    assert kind.get_cset() == h5py.h5t.CSET_ASCII
+    assert kind.get_strpad() == h5py.h5t.STR_NULLPAD
+    assert last["VTKHDF"].attrs["Type"] == b"UnstructuredGrid"
+
+
+def test_the_version_is_1_0_in_two_64_bit_integers(last):
+    version = last["VTKHDF"].attrs["Version"]
+    assert version.dtype == numpy.int64 and list(version) == [1, 0]
+
+
+def test_the_grid_has_one_vertex_a_particle(job, last):
+    n = result(job)["run"]["particles"]
+    grid = last["VTKHDF"]
+    for name in ("NumberOfPoints", "NumberOfCells", "NumberOfConnectivityIds"):
+        assert grid[name].dtype == numpy.int64 and list(grid[name]) == [n]
+    assert grid["Points"].shape == (n, 3) and grid["Points"].dtype == numpy.float32
+    assert grid["Connectivity"].dtype == numpy.int64 and list(grid["Connectivity"]) == list(range(n))
+    assert grid["Offsets"].dtype == numpy.int64 and list(grid["Offsets"]) == list(range(n + 1))
+    assert grid["Types"].dtype == numpy.uint8 and set(grid["Types"]) == {1}
+
+
+def test_every_field_of_a_particle_is_there_compressed(job, last):
+    n = result(job)["run"]["particles"]
+    fields = last["VTKHDF/PointData"]
+    assert set(fields) == {"radius", "id", "velocity", "angular_velocity", "species", "contacts", "speed"}
+    for name, shape in (("radius", (n,)), ("velocity", (n, 3)), ("angular_velocity", (n, 3)), ("speed", (n,))):
+        assert fields[name].shape == shape and fields[name].dtype == numpy.float32, name
+        assert fields[name].compression == "gzip" and fields[name].shuffle, name
+    assert list(fields["id"]) == list(range(n))
+    assert numpy.allclose(fields["speed"], numpy.linalg.norm(fields["velocity"], axis=1), rtol=1e-6)
+
+
+def test_particles_are_of_their_species_and_inside_the_drum(last):
+    fields, points = last["VTKHDF/PointData"], last["VTKHDF/Points"][:]
+    species, radius = fields["species"][:], fields["radius"][:]
+    assert numpy.allclose(radius[species == 0], 0.0015) and numpy.allclose(radius[species == 1], 0.0012)
+    assert abs(numpy.mean(species == 1) - 0.25) < 1.0 / len(species)
+    # The centre may come nearer to the wall than the radius by the overlap, 1 % of a diameter.
+    assert numpy.all(numpy.hypot(points[:, 0], points[:, 1]) < 0.015 - 0.9 * radius)
+    assert numpy.all(numpy.abs(points[:, 2]) <= 0.005 * (1 + 1e-6))
+    assert points[:, 1].mean() < 0  # gravity points along -y
+    assert fields["contacts"][:].mean() > 2
+
+
+def test_time_step_and_spec_are_kept_with_the_particles(job, last):
+    final = events(job, "snapshot")[-1]
+    assert list(last["VTKHDF/FieldData/time"]) == [pytest.approx(final["time"], rel=1e-11)]
+    assert list(last["VTKHDF/FieldData/step"]) == [final["step"]]
+    params = last["run"].attrs["params_json"]
+    params = params.decode() if isinstance(params, bytes) else params
+    assert json.loads(params) == json.loads((job / "spec.json").read_text())
+
+
+def test_position_is_another_name_of_the_points(last):
+    assert last["particles/position"] == last["VTKHDF/Points"]
+
+
+def test_vtk_reads_points_and_fields(job):
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOHDF import vtkHDFReader
+    path = sorted((job / "snapshots").iterdir())[-1]
+    reader = vtkHDFReader()
+    assert reader.CanReadFile(str(path))
+    reader.SetFileName(str(path))
+    reader.Update()
+    grid = reader.GetOutput()
+    n = result(job)["run"]["particles"]
+    assert grid.GetNumberOfPoints() == n and grid.GetNumberOfCells() == n
+    assert grid.GetCellType(0) == 1
+    with h5py.File(path, "r") as file:
+        assert numpy.array_equal(vtk_to_numpy(grid.GetPoints().GetData()), file["VTKHDF/Points"][:])
+        for name in file["VTKHDF/PointData"]:
+            read = vtk_to_numpy(grid.GetPointData().GetArray(name))
+            assert numpy.array_equal(read, file["VTKHDF/PointData"][name][:]), name
+    assert grid.GetFieldData().GetArray("time").GetValue(0) == pytest.approx(0.25, abs=1e-3)
+
+
+def test_the_series_names_every_snapshot_with_its_time(job):
+    series = json.loads((job / "snapshots.hdf.series").read_text())
+    assert series["file-series-version"] == "1.0"
+    written = events(job, "snapshot")
+    assert [entry["name"] for entry in series["files"]] == ["snapshots/" + event["file"] for event in written]
+    for entry, event in zip(series["files"], written):
+        assert (job / entry["name"]).exists()
+        assert entry["time"] == pytest.approx(event["time"], rel=1e-8)
+
+
+def test_equal_runs_have_equal_bytes(job, tmp_path):
+    assert run(job / "spec.json", tmp_path / "again")[0] == 0
+    hashes = [{name: hashlib.sha256(content).hexdigest() for name, content in snapshot_bytes(out).items()}
+              for out in (job, tmp_path / "again")]
+    assert hashes[0] == hashes[1] and len(hashes[0]) == 4
+
+
+def test_no_dataset_carries_the_time_of_its_making(last):
+    def look(name, item):
+        assert h5py.h5g.get_objinfo(item.id).mtime == 0, name
+    last.visititems(look)
+
+
+def test_a_label_in_any_script_survives_in_the_file(tmp_path):
+    spec = small(duration={"seconds": 0.02}, snapshots={"interval": 0})
+    spec["label"] = {"\u6750\u6599": "\u7802 \u2713", "quote": 'a "b" \\ c'}
+    assert run(write_spec(tmp_path, spec), tmp_path / "job")[0] == 0
+    with h5py.File(tmp_path / "job" / "snapshots" / "000000.hdf", "r") as file:
+        params = file["run"].attrs["params_json"]
+    params = params.decode() if isinstance(params, bytes) else params
+    assert json.loads(params)["label"] == spec["label"]

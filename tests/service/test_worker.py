@@ -1,0 +1,343 @@
+"""`repose` by itself: specs checked, a run from spec to result, and what survives when it is interrupted."""
+import json
+import math
+import resource
+import signal
+import subprocess
+
+import pytest
+from worker_runs import (REPOSE, SMALL, events, result, run, samples, small, snapshot_bytes, start, timeless_result,
+                         wait_until, write_spec)
+
+
+def check(text):
+    done = subprocess.run([REPOSE, "check", "-"], input=text, capture_output=True, text=True, timeout=20)
+    return done.returncode, done.stdout
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory):
+    """A run of SMALL that nothing interrupted: the oracle for those that were."""
+    folder = tmp_path_factory.mktemp("whole")
+    code, stdout, stderr = run(write_spec(folder, SMALL), folder / "job", "--json")
+    assert code == 0, stderr
+    return folder / "job", stdout
+
+
+# --- specs
+
+def test_check_prints_the_canonical_spec_and_an_estimate():
+    code, text = check(json.dumps(SMALL))
+    assert code == 0
+    answer = json.loads(text)
+    assert answer["spec"]["inputs"]["contact"]["friction"] == 0.3
+    assert answer["spec"]["inputs"]["drum"]["ends"] == "periodic"
+    estimate = answer["estimate"]
+    # pi/4 D^2 L fill 0.6 / (pi/6 d^3)
+    assert estimate["particles"] == round(0.03**2 * 0.01 / 4 * 0.5 * 0.6 / (0.003**3 / 6))
+    assert estimate["steps"] * estimate["time_step"] > 4 * math.pi / 6.0
+    assert estimate["wall_seconds"] > 0 and estimate["memory_bytes"] > 0
+
+
+def test_a_canonical_spec_is_checked_into_itself():
+    _, text = check(json.dumps(SMALL))
+    spec = json.loads(text)["spec"]
+    code, again = check(json.dumps(spec))
+    assert code == 0 and again == text
+
+
+def test_check_lists_every_problem_and_ends_with_2():
+    bad = small(fill_fraction=1.4, contact={"friction": -1, "law": "hertz"})
+    bad["inputs"]["colour"] = "red"
+    code, text = check(json.dumps(bad))
+    assert code == 2
+    errors = {error["pointer"]: error["detail"] for error in json.loads(text)["errors"]}
+    assert errors["/inputs/fill_fraction"] == "is 1.4; must be in (0, 0.95]"
+    assert set(errors) == {"/inputs/fill_fraction", "/inputs/contact/friction", "/inputs/contact/law", "/inputs/colour"}
+
+
+@pytest.mark.parametrize("text, expected", [
+    ("{", "is not JSON"),
+    ('{"inputs": {"seed": 1, "seed": 2}}', "duplicate object key"),
+    ('{"inputs": {"snapshots": {"interval": 1e-400}}}', "too close to 0"),
+    ('{"inputs": {"seed": NaN}}', "is not JSON"),
+    ('{"inputs": {"seed": 1e400}}', "is not JSON"),
+    ('{"inputs": {}} x', "is not JSON"),
+    ("[]", "must be an object"),
+    ("[" * 3000, "is not JSON"),
+])
+def test_text_that_is_no_spec_is_refused_in_words(text, expected):
+    code, answer = check(text)
+    assert code == 2
+    assert expected in json.loads(answer)["errors"][0]["detail"]
+
+
+def test_a_seed_is_chosen_when_none_is_given():
+    spec = small()
+    del spec["inputs"]["seed"]
+    seeds = {json.loads(check(json.dumps(spec))[1])["spec"]["inputs"]["seed"] for _ in range(3)}
+    assert len(seeds) == 3 and all(0 <= seed < 2**53 for seed in seeds)
+
+
+def test_wrong_usage_ends_with_2_and_help_with_0(tmp_path):
+    assert subprocess.run([REPOSE, "fly"], capture_output=True).returncode == 2
+    assert subprocess.run([REPOSE, "run", "x.json"], capture_output=True).returncode == 2
+    assert subprocess.run([REPOSE, "run", "x.json", "--out", str(tmp_path / "o"), "--threads", "none"],
+                          capture_output=True).returncode == 2
+    shown = subprocess.run([REPOSE, "--help"], capture_output=True, text=True)
+    assert shown.returncode == 0 and "--out DIR" in shown.stdout
+
+
+# --- a run
+
+def test_a_run_leaves_every_result_that_is_promised(whole):
+    document = result(whole[0])
+    assert set(document) == {"repose", "regime", "segregation", "packing", "run"}
+    promised = {
+        "repose": ["angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady",
+                   "drift_deg_per_revolution", "method", "other_methods", "interface_fluctuation"],
+        "regime": ["name", "omega2_outer", "omega2_inner", "predicted", "evidence"],
+        "segregation": ["radial_index", "axial_index", "lacey_index"],
+        "packing": ["solid_fraction", "coordination_number"],
+        "run": ["particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second",
+                "maximum_overlap", "threads", "seed"],
+    }
+    for output, names in promised.items():
+        assert set(names) <= set(document[output]), output
+    assert document["repose"]["method"] == "surface-fit"
+    assert document["segregation"]["radial_index"] is None  # one species
+    assert document["run"]["simulated_seconds"] == pytest.approx(4 * math.pi / 6, abs=1e-4)
+
+
+def test_the_angle_is_that_of_a_bed_of_frictional_spheres(whole):
+    # Ten diameters across is a coarse drum: any dynamic angle of spheres with friction lies well within this.
+    repose = result(whole[0])["repose"]
+    assert 10 < repose["angle_deg"] < 50
+    assert repose["minimum_deg"] <= repose["angle_deg"] <= repose["maximum_deg"]
+
+
+def test_overlaps_stay_near_what_was_asked_for(whole):
+    assert 0 < result(whole[0])["run"]["maximum_overlap"] < 2 * 0.01
+
+
+def test_json_prints_the_results_file(whole):
+    assert json.loads(whole[1]) == result(whole[0])
+
+
+def test_events_begin_with_the_start_and_number_samples_without_a_gap(whole):
+    out = whole[0]
+    assert events(out)[0]["event"] == "start" and events(out)[0]["resumed"] is False
+    numbers = [event["number"] for event in events(out, "sample")]
+    assert numbers == list(range(result(out)["run"]["samples"]))
+    first = events(out, "sample")[0]
+    assert first["time"] == 0 and "angle_deg" in first["values"]
+    for event in events(out):
+        assert {"event", "step", "time"} <= set(event)
+
+
+def test_samples_come_at_least_twenty_times_a_second(whole):
+    times = [event["time"] for event in events(whole[0], "sample")]
+    steps = [b - a for a, b in zip(times, times[1:])]
+    assert max(steps) <= 0.05 * 1.001
+    assert max(steps) - min(steps) < 2.1 * result(whole[0])["run"]["time_step"]
+
+
+def test_snapshots_are_regular_and_end_with_the_run(whole):
+    out = whole[0]
+    written = events(out, "snapshot")
+    assert [event["file"] for event in written] == ["%06d.hdf" % n for n in range(len(written))]
+    assert written[0]["time"] == 0
+    assert written[-1]["time"] == pytest.approx(result(out)["run"]["simulated_seconds"], rel=1e-11)
+    for number, event in enumerate(written[:-1]):
+        assert event["time"] == pytest.approx(0.1 * number, abs=2e-4)
+        assert event["bytes"] == (out / "snapshots" / event["file"]).stat().st_size
+    assert not list(out.rglob("*.tmp"))
+
+
+def test_an_interval_of_0_writes_the_last_snapshot_alone(tmp_path):
+    spec = small(snapshots={"interval": 0}, duration={"seconds": 0.05})
+    assert run(write_spec(tmp_path, spec), tmp_path / "job")[0] == 0
+    assert list(snapshot_bytes(tmp_path / "job")) == ["000000.hdf"]
+    assert events(tmp_path / "job", "snapshot")[0]["time"] == pytest.approx(0.05, abs=1e-3)
+
+
+def test_the_number_of_threads_changes_nothing(whole, tmp_path):
+    code, _, stderr = run(write_spec(tmp_path, SMALL), tmp_path / "job", "--threads", 2)
+    assert code == 0, stderr
+    with_two, alone = timeless_result(tmp_path / "job"), timeless_result(whole[0])
+    assert with_two["run"].pop("threads") == 2 and alone["run"].pop("threads") == 1
+    assert with_two == alone
+    assert snapshot_bytes(tmp_path / "job") == snapshot_bytes(whole[0])
+
+
+def test_another_seed_gives_another_run(whole, tmp_path):
+    assert run(write_spec(tmp_path, small(seed=8)), tmp_path / "job")[0] == 0
+    assert result(tmp_path / "job")["repose"]["angle_deg"] != result(whole[0])["repose"]["angle_deg"]
+
+
+# --- interrupted runs
+
+def expect_as_if_never_interrupted(out, whole_out):
+    assert timeless_result(out) == timeless_result(whole_out)
+    assert samples(out) == samples(whole_out)
+    assert snapshot_bytes(out) == snapshot_bytes(whole_out)
+
+
+def interrupt(spec_path, out, with_signal, samples_before=20):
+    """Starts a run and sends the signal when it has a checkpoint taken while rotating, and samples after it."""
+    worker = start(spec_path, out, "--checkpoint-seconds", 0.1)
+    wait_until(lambda: worker.poll() is not None or len(events(out, "sample")) >= samples_before
+               and any(event["time"] > 0 for event in events(out, "checkpoint")))
+    assert worker.poll() is None, "ended before it could be interrupted: " + worker.communicate()[1]
+    worker.send_signal(with_signal)
+    worker.communicate(timeout=20)
+    return worker.returncode
+
+
+def test_a_killed_run_goes_on_from_its_checkpoint_to_the_same_result(whole, tmp_path):
+    spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
+    assert interrupt(spec, out, signal.SIGKILL) == -signal.SIGKILL
+    assert not (out / "result.json").exists()
+    code, _, stderr = run(spec, out, "--attempt", 2)
+    assert code == 0, stderr
+    starts = events(out, "start")
+    assert [s["attempt"] for s in starts] == [1, 2]
+    assert starts[1]["resumed"] is True and starts[1]["step"] > 0
+    expect_as_if_never_interrupted(out, whole[0])
+
+
+def test_a_run_killed_before_its_first_checkpoint_starts_anew(whole, tmp_path):
+    spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
+    worker = start(spec, out)
+    wait_until(lambda: len(events(out, "sample")) > 3)
+    worker.kill()
+    worker.communicate()
+    assert not (out / "checkpoint.hdf").exists()
+    assert run(spec, out, "--attempt", 2)[0] == 0
+    assert events(out, "start")[1]["resumed"] is False
+    expect_as_if_never_interrupted(out, whole[0])
+
+
+def test_sigterm_saves_a_checkpoint_and_ends_with_3(whole, tmp_path):
+    spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
+    assert interrupt(spec, out, signal.SIGTERM) == 3
+    last = events(out)[-1]
+    assert last["event"] == "checkpoint"
+    assert run(spec, out, "--attempt", 2)[0] == 0
+    assert events(out, "start")[1]["step"] == last["step"]
+    expect_as_if_never_interrupted(out, whole[0])
+
+
+def test_sigterm_while_the_bed_settles_is_no_loss_either(whole, tmp_path):
+    spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
+    worker = start(spec, out, "--checkpoint-seconds", 0)
+    wait_until(lambda: events(out, "checkpoint"))
+    worker.terminate()
+    worker.communicate(timeout=20)
+    assert worker.returncode == 3 and events(out)[-1]["time"] < 0
+    assert run(spec, out)[0] == 0
+    expect_as_if_never_interrupted(out, whole[0])
+
+
+def limit_files_to(size):
+    """What a full disk looks like to a worker: a write that fails. (The signal is ignored by the worker.)"""
+    return lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+
+def test_a_full_disk_ends_with_5_and_leaves_no_half_file(whole, tmp_path):
+    spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
+    smallest = min(len(content) for content in snapshot_bytes(whole[0]).values())
+    code, _, stderr = run(spec, out, preexec_fn=limit_files_to(smallest // 2))
+    assert code == 5
+    assert "can't write snapshots/000000.hdf" in stderr
+    assert events(out, "failure")[0]["status"] == "disk"
+    assert snapshot_bytes(out) == {} and not list(out.rglob("*.tmp")) and not (out / "result.json").exists()
+    assert run(spec, out, "--attempt", 2)[0] == 0
+    expect_as_if_never_interrupted(out, whole[0])
+
+
+def test_a_disk_that_fills_up_leaves_the_checkpoint_of_before(whole, tmp_path):
+    spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
+    assert interrupt(spec, out, signal.SIGTERM) == 3
+    before = (out / "checkpoint.hdf").read_bytes()
+    code, _, _ = run(spec, out, "--attempt", 2, "--checkpoint-seconds", 0,
+                     preexec_fn=limit_files_to(len(before) // 2))
+    assert code == 5
+    assert (out / "checkpoint.hdf").read_bytes() == before
+    assert run(spec, out, "--attempt", 3)[0] == 0
+    expect_as_if_never_interrupted(out, whole[0])
+
+
+def test_a_damaged_checkpoint_is_not_believed(whole, tmp_path):
+    spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
+    assert interrupt(spec, out, signal.SIGTERM) == 3
+    content = (out / "checkpoint.hdf").read_bytes()
+    (out / "checkpoint.hdf").write_bytes(content[:len(content) // 2])
+    code, _, stderr = run(spec, out, "--attempt", 2)
+    assert code == 0 and "starting anew" in stderr
+    expect_as_if_never_interrupted(out, whole[0])
+
+
+def test_a_line_that_was_cut_by_a_crash_is_removed(tmp_path):
+    spec, out = write_spec(tmp_path, small(duration={"seconds": 0.02})), tmp_path / "job"
+    assert run(spec, out)[0] == 0
+    (out / "result.json").unlink()
+    with open(out / "events.ndjson", "a") as log:
+        log.write('{"event":"sample","num')
+    (out / "snapshots" / "000001.hdf.tmp").write_text("half")
+    assert run(spec, out, "--attempt", 2)[0] == 0
+    assert len(events(out, "start")) == 2  # every line was read as JSON
+    assert not list(out.rglob("*.tmp"))
+
+
+def test_two_workers_do_not_write_in_one_folder(tmp_path):
+    spec, out = write_spec(tmp_path, small(duration={"revolutions": 1000}, snapshots={"interval": 0})), tmp_path / "job"
+    first = start(spec, out)
+    try:
+        wait_until(lambda: events(out, "start"))
+        code, _, stderr = run(spec, out)
+        assert code == 1 and "another worker is at work" in stderr
+        assert first.poll() is None
+    finally:
+        first.kill()
+        first.communicate()
+
+
+def test_a_complete_run_is_not_run_again(whole):
+    out = whole[0]
+    before = (out / "events.ndjson").read_bytes(), (out / "result.json").read_bytes()
+    code, stdout, _ = run(out / "spec.json", out, "--json")
+    assert code == 0 and json.loads(stdout) == json.loads(before[1])
+    assert (out / "events.ndjson").read_bytes() == before[0]
+
+
+def test_another_spec_in_the_same_folder_leaves_nothing_of_the_run_before(tmp_path):
+    long, short = small(duration={"seconds": 0.35}), small(duration={"seconds": 0.02})
+    out = tmp_path / "job"
+    assert run(write_spec(tmp_path, long), out)[0] == 0
+    assert len(snapshot_bytes(out)) == 5
+    assert run(write_spec(tmp_path, short), out)[0] == 0
+    assert len(snapshot_bytes(out)) == 2
+    assert len(events(out, "start")) == 1
+    assert json.loads((out / "spec.json").read_text())["inputs"]["duration"] == {"seconds": 0.02}
+
+
+# --- runs that fail
+
+def test_particles_that_do_not_fit_are_a_bad_spec(tmp_path):
+    # The lining takes a quarter of the diameter away from a drum that is nearly full.
+    spec = small(fill_fraction=0.95, wall={"lining": {"diameter": 0.00375}})
+    code, _, stderr = run(write_spec(tmp_path, spec), tmp_path / "job")
+    assert code == 2, stderr
+    failure = events(tmp_path / "job", "failure")[0]
+    assert failure["status"] == "does-not-fit" and failure["message"]
+
+
+def test_too_little_memory_is_said_so(tmp_path):
+    spec = small(drum={"diameter": 1.0, "length": 0.1}, particles=[{"diameter": 0.003}], particle_count=2000000,
+                 duration={"seconds": 0.01})
+    spec["inputs"]["snapshots"]["interval"] = 0
+    limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (200_000_000, 200_000_000))
+    code, _, stderr = run(write_spec(tmp_path, spec), tmp_path / "job", preexec_fn=limit)
+    assert code == 1, stderr
+    assert events(tmp_path / "job", "failure")[0]["status"] == "no-memory"
