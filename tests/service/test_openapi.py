@@ -9,18 +9,10 @@ import jsonschema
 import pytest
 import requests
 import yaml
+from conftest import SPEC
 
 ROOT = Path(__file__).resolve().parents[2]
-QUICK = {
-    "drum": {"diameter": 0.04, "length": 0.012, "rotation_rate": 6.0},
-    "particles": [{"diameter": 0.004}],
-    "fill_fraction": 0.3,
-    "contact": {"friction": 0.3, "maximum_overlap": 0.05},
-    "duration": {"seconds": 0.4},
-    "snapshots": {"interval": 0.1},
-    "seed": 7,
-}
-ENDLESS = QUICK | {"duration": {"seconds": 2000.0}, "snapshots": {"interval": 0}}
+ENDLESS = SPEC | {"duration": {"seconds": 2000.0}, "snapshots": {"interval": 0}}
 NO_JOB = "20200101-000000-00000000"
 
 
@@ -80,12 +72,6 @@ def contract():
     return Contract(yaml.safe_load((ROOT / "api/openapi.yaml").read_text()))
 
 
-def submit(url, inputs):
-    answer = requests.post(f"{url}/processes/drum/execution", json={"inputs": inputs, "label": {"of": "contract"}})
-    assert answer.status_code == 201, answer.text
-    return answer.json()["jobID"]
-
-
 def test_the_document_is_sound(contract):
     assert contract.document["openapi"] == "3.1.0"
     for reference in refs_in(contract.document):
@@ -113,8 +99,8 @@ def test_every_address_of_the_daemon_is_documented_and_no_other(contract):
 
 def test_every_documented_operation_answers_as_documented(daemon, contract):
     url = daemon.url
-    done, endless = submit(url, QUICK), submit(url, ENDLESS)
-    ended = wait_for_end(url, done)
+    done, endless = daemon.submit(of="contract"), daemon.submit(ENDLESS, of="contract")
+    ended = daemon.ended(done)
     assert ended["status"] == "successful", ended
     job = f"{url}/jobs/{done}"
     called = set()
@@ -176,13 +162,6 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     assert {link["href"] for link in landing.json()["links"]} <= addresses
 
 
-def wait_for_end(url, job):
-    while True:
-        info = requests.get(f"{url}/jobs/{job}", params={"wait": 30}).json()
-        if info["status"] not in ("accepted", "running"):
-            return info
-
-
 def test_every_error_is_a_documented_problem(daemon, contract):
     url = daemon.url
     execution, jobs = "/processes/{process}/execution", "/jobs/{id}"
@@ -221,7 +200,7 @@ def test_every_error_is_a_documented_problem(daemon, contract):
 
 
 def test_a_bad_specification_names_every_problem(daemon):
-    inputs = QUICK | {"fill_fraction": 1.4, "colour": "red", "particles": [{"diameter": -1}]}
+    inputs = SPEC | {"fill_fraction": 1.4, "colour": "red", "particles": [{"diameter": -1}]}
     answer = requests.post(f"{daemon.url}/processes/drum/execution", json={"inputs": inputs})
     pointers = {error["pointer"] for error in answer.json()["errors"]}
     assert {"/inputs/fill_fraction", "/inputs/colour", "/inputs/particles/0/diameter"} <= pointers
@@ -254,4 +233,4 @@ def test_examples_are_valid(contract):
     for example in examples:
         contract.validate(json.loads(example.read_text()), execute)
     with pytest.raises(jsonschema.ValidationError):
-        contract.validate({"inputs": QUICK | {"colour": "red"}}, execute)
+        contract.validate({"inputs": SPEC | {"colour": "red"}}, execute)
