@@ -49,3 +49,6 @@ $(BUILD)/repose: $(WORKER) $(BUILD)/libapi.a $(BUILD)/libdem.a
 	$(CC) $(LDFLAGS) -fopenmp $^ -o $@ $(shell pkg-config --libs hdf5-serial) -ljansson -lm
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
 	$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lm
+$(BUILD)/tests/bench/%: tests/bench/%.c $(BUILD)/libdem.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude $< $(BUILD)/libdem.a -fopenmp -lm -o $@

@@ -1,0 +1,88 @@
+/* The contact law as pure functions of numbers: a latching normal spring and incremental friction.
+ *
+ * Source: Walton & Braun (1993), text of "Method"; the friction's three-dimensional form after Walton (1993b)
+ * and Walton & Braun (1986). All of it free of branches, so that a loop over contacts becomes wide arithmetic. */
+#ifndef CONTACT_LAW_H
+#define CONTACT_LAW_H
+
+#include "real.h"
+
+/* What a contact remembers. All zero for a contact that has just begun. */
+typedef struct contact_history {
+    real t[3];    /* T, N: friction force on the first body */
+    real t_star;  /* T at the last turning point over mu N, signed along T */
+    real alpha_0; /* m: overlap at which the unloading branch reaches zero */
+} contact_history;
+
+enum { CUBE_ROOT_STEPS = sizeof(real) == sizeof(float) ? 1 : 2 };
+
+/* Cube root of x in (0, 2): a first guess from the exponent, then Halley steps, each of which triples the
+ * number of right digits (3 % -> 1e-5 -> 1e-15). Exact at x = 1 to rounding. */
+static inline real cube_root(real x)
+{
+    const real two_x = x + x;
+    real y = cube_root_guess(x);
+    for (int k = 0; k < CUBE_ROOT_STEPS; k++) {
+        const real y3 = y * y * y;
+        y *= (y3 + two_x) / (y3 + y3 + x);
+    }
+    return y;
+}
+
+/* Normal force, N, of the latching spring: K1 when loading beyond all before, K2 on unloading and reloading
+ * below it; never attractive. An isolated collision has e = sqrt(K1/K2).
+ * alpha: overlap, m (negative: apart); alpha_0: as in contact_history, updated; forgotten when they part. */
+static inline real normal_force(real alpha, real k_1, real k_2, real *alpha_0)
+{
+    const real latched = greater(*alpha_0, alpha * (1 - k_1 / k_2));
+    *alpha_0 = alpha > 0 ? latched : 0;
+    const real loading = k_1 * alpha, unloading = k_2 * (alpha - latched);
+    return greater(lesser(loading, unloading), 0);
+}
+
+/* Smallest 1 -+ t that a cube root sees: at full slip the stiffness falls to 1/100 of K_T0, not to zero. */
+#define SLIP_FLOOR ((real)1e-6)
+
+/* N2: a stored friction force below its root has no direction. */
+#define TINY_SQUARE ((real)1e-30)
+
+/* One increment of friction. n: unit normal, first to second; ds: tangential displacement in this step, m;
+ * mu_n: mu N; k_t0: tangential stiffness at the start of a loading, N/m. Updates t and t_star. */
+static inline void friction_increment(const real n[3], const real ds[3], real mu_n, real k_t0,
+                                      real t[3], real *t_star)
+{
+    /* Turn the friction force with the contact before adding to it: a rolling pair would otherwise store force
+     * along its normal. */
+    const real tn = t[0] * n[0] + t[1] * n[1] + t[2] * n[2];
+    const real ux = t[0] - tn * n[0], uy = t[1] - tn * n[1], uz = t[2] - tn * n[2];
+    const real tt = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+    const real uu = ux * ux + uy * uy + uz * uz;
+    const real turn = uu > TINY_SQUARE ? 1 / root(uu) : 0;
+    const real magnitude = uu > TINY_SQUARE ? root(tt) : 0;
+    const real hx = ux * turn, hy = uy * turn, hz = uz * turn;
+
+    const real inverse = mu_n > 0 ? 1 / mu_n : 0;
+    const real ratio = magnitude * inverse;
+    const real tau = lesser(ratio, 1); /* t of the formulas: |T| as a share of its limit */
+    const real s_p = ds[0] * hx + ds[1] * hy + ds[2] * hz;
+
+    /* Loading softens towards slip; after a turning point at t* the spring starts stiff again. */
+    const real sign = s_p >= 0 ? 1 : -1;
+    const real turning = lesser(sign * *t_star, sign * tau);
+    const real left = greater(1 - sign * tau, SLIP_FLOOR), left_at_turn = greater(1 - turning, SLIP_FLOOR);
+    const real k_t = k_t0 * cube_root(left / left_at_turn);
+    const real s = tau * mu_n + k_t * s_p;
+    const real star = sign * turning;
+
+    real tx = s * hx + k_t0 * (ds[0] - s_p * hx);
+    real ty = s * hy + k_t0 * (ds[1] - s_p * hy);
+    real tz = s * hz + k_t0 * (ds[2] - s_p * hz);
+    const real size2 = tx * tx + ty * ty + tz * tz;
+    const real scale = size2 > mu_n * mu_n ? mu_n / root(size2) : 1;
+    t[0] = tx * scale;
+    t[1] = ty * scale;
+    t[2] = tz * scale;
+    *t_star = mu_n > 0 ? (s < 0 ? -star : star) : 0;
+}
+
+#endif

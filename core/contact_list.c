@@ -1,0 +1,93 @@
+#include "contact_list.h"
+
+dem_status contact_list_init(contact_list *list, size_t sphere_count)
+{
+    memset(list, 0, sizeof *list);
+    list->start = array_create(sphere_count + 1, sizeof *list->start);
+    if (!list->start) return DEM_NO_MEMORY;
+    return contact_list_reserve(list, BLOCK);
+}
+
+static void slots_free(contact_list *list)
+{
+    free(list->first);
+    free(list->second);
+    free(list->friction);
+    for (int c = 0; c < 3; c++) free(list->t[c]);
+    free(list->t_star);
+    free(list->alpha_0);
+    free(list->row);
+}
+
+void contact_list_clear(contact_list *list)
+{
+    slots_free(list);
+    free(list->start);
+    memset(list, 0, sizeof *list);
+}
+
+dem_status contact_list_reserve(contact_list *list, size_t count)
+{
+    if (count <= list->capacity) return DEM_OK;
+    contact_list grown = { .start = list->start, .capacity = round_up_to_block(count + count / 4) };
+    const size_t n = grown.capacity;
+    grown.first = array_create(n, sizeof *grown.first);
+    grown.second = array_create(n, sizeof *grown.second);
+    grown.friction = array_create(n, sizeof *grown.friction);
+    for (int c = 0; c < 3; c++) grown.t[c] = array_create(n, sizeof *grown.t[c]);
+    grown.t_star = array_create(n, sizeof *grown.t_star);
+    grown.alpha_0 = array_create(n, sizeof *grown.alpha_0);
+    grown.row = array_create(n, sizeof *grown.row);
+    if (!grown.first || !grown.second || !grown.friction || !grown.t[0] || !grown.t[1] || !grown.t[2]
+        || !grown.t_star || !grown.alpha_0 || !grown.row) {
+        slots_free(&grown);
+        return DEM_NO_MEMORY;
+    }
+    slots_free(list);
+    *list = grown;
+    return DEM_OK;
+}
+
+void contact_list_forget(contact_list *list, size_t slot)
+{
+    const contact_history nothing = { .t = { 0 } };
+    contact_list_set_history(list, slot, &nothing);
+}
+
+void contact_list_pad(contact_list *list, int32_t first, int32_t second)
+{
+    for (size_t k = list->count; k < round_up_to_block(list->count); k++) {
+        list->first[k] = first;
+        list->second[k] = second;
+        list->friction[k] = 0;
+        contact_list_forget(list, k);
+    }
+}
+
+contact_history contact_list_history(const contact_list *list, size_t k)
+{
+    return (contact_history){ .t = { list->t[0][k], list->t[1][k], list->t[2][k] },
+                              .t_star = list->t_star[k], .alpha_0 = list->alpha_0[k] };
+}
+
+void contact_list_set_history(contact_list *list, size_t k, const contact_history *history)
+{
+    for (int c = 0; c < 3; c++) list->t[c][k] = history->t[c];
+    list->t_star[k] = history->t_star;
+    list->alpha_0[k] = history->alpha_0;
+}
+
+void contact_list_carry(contact_list *list, const contact_list *before, size_t i)
+{
+    /* Both are ordered by second, so one walk along each is enough. */
+    size_t old = before->start[i];
+    for (size_t k = list->start[i]; k < list->start[i + 1]; k++) {
+        while (old < before->start[i + 1] && before->second[old] < list->second[k]) old++;
+        if (old < before->start[i + 1] && before->second[old] == list->second[k]) {
+            const contact_history history = contact_list_history(before, old);
+            contact_list_set_history(list, k, &history);
+        } else {
+            contact_list_forget(list, k);
+        }
+    }
+}

@@ -1,0 +1,45 @@
+/* Contacts in reach: pairs (or sphere and wall) that touch or can touch before the list is made again, with
+ * what each remembers, and the rows of force that each writes.
+ *
+ * Order: by first sphere, then by second; the two ends of a pair are ordered by id, first < second. Each
+ * sphere's sum over its contacts therefore runs in an order that depends on ids alone, not on when a list was
+ * made or on how many threads made it: the same bits either way. */
+#ifndef CONTACT_LIST_H
+#define CONTACT_LIST_H
+
+#include "contact_law.h"
+#include "dem_types.h"
+
+/* What a contact gives to its two spheres: first += f, second -= f; both += (R - half_overlap) q. */
+typedef struct contact_row {
+    real f[3];         /* N on the first */
+    real half_overlap; /* m */
+    real q[3];         /* N: n x f */
+    real unused;
+} __attribute__((aligned(32))) contact_row;
+
+typedef struct contact_list {
+    size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
+    int32_t *first;         /* (capacity) sphere index */
+    int32_t *second;        /* (capacity) sphere index; unused for walls */
+    real *friction;         /* (capacity) mu */
+    real *t[3];             /* (capacity) N   contact_history, by component */
+    real *t_star;           /* (capacity) */
+    real *alpha_0;          /* (capacity) m */
+    contact_row *row;       /* (capacity) */
+    size_t *start;          /* (spheres + 1) where each first sphere's contacts begin */
+} contact_list;
+
+dem_status contact_list_init(contact_list *list, size_t sphere_count);
+void contact_list_clear(contact_list *list);
+/* Room for count contacts; what was in the list is lost. */
+dem_status contact_list_reserve(contact_list *list, size_t count);
+/* Fill the slots from count up to the next whole block with a pair whose result nobody reads. */
+void contact_list_pad(contact_list *list, int32_t first, int32_t second);
+void contact_list_forget(contact_list *list, size_t slot);
+contact_history contact_list_history(const contact_list *list, size_t slot);
+void contact_list_set_history(contact_list *list, size_t slot, const contact_history *history);
+/* Copy the histories of sphere i's contacts from the list before (same first, same second). */
+void contact_list_carry(contact_list *list, const contact_list *before, size_t i);
+
+#endif

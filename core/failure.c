@@ -1,0 +1,78 @@
+#include "failure.h"
+
+static dem_status fail(dem_scene *scene, const dem_failure *what)
+{
+    scene->failure = *what;
+    scene->failure.step = scene->step_count;
+    scene->failure.time = dem_scene_time(scene);
+    if (what->particle >= 0) memcpy(scene->failure.position, scene->spheres.row[what->particle].x, 3 * sizeof(double));
+    return what->status;
+}
+
+dem_status failure_check_places(dem_scene *scene)
+{
+    const spheres *s = &scene->spheres;
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        const double *x = s->row[i].x, *v = s->velocity[i];
+        const double rho = sqrt(x[0] * x[0] + x[1] * x[1]);
+        /* Written so that a NaN fails each of them. */
+        if (rho < scene->drum.radius && fabs(x[2]) <= scene->drum.length && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
+        const bool escaped = isfinite(rho) && isfinite(x[2]);
+        const dem_failure what = {
+            .status = escaped ? DEM_PARTICLE_ESCAPED : DEM_NOT_A_NUMBER, .particle = (int64_t)i, .other = -1,
+            .value = rho, .limit = scene->drum.radius, .quantity = "distance from the axis", .unit = "m",
+            .likely_cause = "the contacts are too soft for the speeds in this drum: a larger stiffness (or a smaller "
+                            "maximum_overlap) keeps particles inside the wall",
+        };
+        return fail(scene, &what);
+    }
+    return DEM_OK;
+}
+
+static dem_status overlap_failure(dem_scene *scene, int32_t i, int32_t j, double overlap, double limit)
+{
+    const dem_failure what = {
+        .status = DEM_OVERLAP_TOO_LARGE, .particle = i, .other = j, .value = overlap, .limit = limit,
+        .quantity = "overlap", .unit = "m",
+        .likely_cause = "the stiffness is too small for the loads and speeds in this drum: give a larger stiffness, or "
+                        "a smaller maximum_overlap and let it be chosen",
+    };
+    return fail(scene, &what);
+}
+
+dem_status failure_check_overlaps(dem_scene *scene)
+{
+    const spheres *s = &scene->spheres;
+    const contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
+    for (size_t k = 0; k < pairs->count; k++) {
+        const int32_t i = pairs->first[k], j = pairs->second[k];
+        const double overlap = 2 * (double)pairs->row[k].half_overlap;
+        const double limit = FAILURE_OVERLAP * fmin(s->full_radius[i], s->full_radius[j]);
+        if (!(overlap <= limit)) return overlap_failure(scene, i, (size_t)j < s->mobile_count ? j : -1, overlap, limit);
+    }
+    for (size_t k = 0; k < walls->count; k++) {
+        const double overlap = 2 * (double)walls->row[k].half_overlap;
+        const double limit = FAILURE_OVERLAP * s->full_radius[walls->first[k]];
+        if (!(overlap <= limit)) return overlap_failure(scene, walls->first[k], -1, overlap, limit);
+    }
+    return DEM_OK;
+}
+
+dem_status failure_of_settling(dem_scene *scene, double energy)
+{
+    const dem_failure what = {
+        .status = DEM_NEVER_SETTLED, .particle = -1, .other = -1, .value = energy, .limit = scene->filling.rest_energy,
+        .quantity = "kinetic energy of the bed", .unit = "J",
+        .likely_cause = "a restitution near 1 or a very low friction keeps the bed moving",
+    };
+    return fail(scene, &what);
+}
+
+dem_status failure_of_memory(dem_scene *scene)
+{
+    const dem_failure what = {
+        .status = DEM_NO_MEMORY, .particle = -1, .other = -1, .quantity = "memory", .unit = "",
+        .likely_cause = "the neighbor lists could not grow: fewer particles, or more memory",
+    };
+    return fail(scene, &what);
+}

@@ -1,0 +1,24 @@
+/* The random start of a bed: spheres placed at random in the lower part of the drum at a share of their size,
+ * grown to full size without gravity or friction, then let fall and come to rest. */
+#ifndef FILLING_H
+#define FILLING_H
+
+#include "container.h"
+#include "spheres.h"
+
+typedef struct filling {
+    double start_scale;    /* share of full size at which spheres are placed */
+    int64_t growing_steps;
+    double growing_drag;   /* 1/s */
+    double settling_drag;  /* 1/s */
+    int64_t settling_steps_least, settling_steps_most;
+    double rest_energy;    /* J: the bed is at rest when its kinetic energy is below */
+} filling;
+
+/* Mass, inertia and species of every sphere, and its place at start_scale.
+ * Errors: DEM_DOES_NOT_FIT, DEM_NO_MEMORY. */
+dem_status filling_place(filling *filling, spheres *spheres, const container *drum, const dem_drum_definition *definition);
+/* Share of full size after so many steps of growing. */
+double filling_scale(const filling *filling, int64_t steps);
+
+#endif

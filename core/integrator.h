@@ -1,0 +1,17 @@
+/* Leap-frog: positions and forces on the step, velocities at the half step (Eqns 1-4 of Walton & Braun 1993). */
+#ifndef INTEGRATOR_H
+#define INTEGRATOR_H
+
+#include "container.h"
+#include "spheres.h"
+
+typedef struct body_forces {
+    double gravity; /* m/s2 along -y */
+    double drag;    /* 1/s: velocities and spins decay at this rate; only while a bed is being made */
+} body_forces;
+
+/* One step for all mobile spheres. picked_velocity: (mobile) m/s. Returns the largest |v - picked_velocity|, m/s. */
+double integrator_advance(spheres *spheres, const container *drum, const body_forces *body,
+                          vector4 *picked_velocity, double dt, int threads);
+
+#endif

@@ -1,0 +1,38 @@
+/* What the measures share: the columns of a frame, and each measure's part of it. */
+#ifndef MEASURE_H
+#define MEASURE_H
+
+#include "scene.h"
+
+typedef enum frame_column {
+    FRAME_TIME, FRAME_SURFACE_FIT, FRAME_CENTER_OF_MASS, FRAME_THEIL_SEN, FRAME_UPPER_CHORD, FRAME_LOWER_CHORD, FRAME_CHORD,
+    FRAME_SOLID_FRACTION, FRAME_COORDINATION, FRAME_AIRBORNE, FRAME_WALL_SLIP, FRAME_WALL_COVERAGE, FRAME_FLOW_SPEED,
+    FRAME_SURFACE_LAG, FRAME_KINETIC_ENERGY, FRAME_RADIAL_INDEX
+} frame_column;
+
+/* A table of frames and the part of it that is measured. */
+typedef struct frame_window {
+    const double *frames; /* (count, width), the first row of the window */
+    size_t count, width;
+} frame_window;
+
+/* One column as a new array, freed with free(); NULL when out of memory. */
+double *frame_window_column(const frame_window *window, size_t column);
+double frame_window_mean(const frame_window *window, size_t column);
+double frame_window_deviation(const frame_window *window, size_t column);
+
+/* Angles and interface of the present configuration: frame[FRAME_SURFACE_FIT ... FRAME_SOLID_FRACTION] and the
+ * interface behind the scalars. contacts: (mobile). */
+dem_status measure_repose_frame(const dem_scene *scene, const int32_t *contacts, double *frame);
+dem_status measure_repose_results(const dem_scene *scene, const double *frames, size_t count, size_t width,
+                                  dem_repose_result *result, frame_window *window);
+
+/* Motion: frame[FRAME_AIRBORNE ... FRAME_SURFACE_LAG]; needs the frame's surface fit. */
+void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *frame);
+void measure_regime_results(const dem_scene *scene, const frame_window *window, const dem_repose_result *repose,
+                            dem_regime_result *result);
+
+double measure_radial_index(const dem_scene *scene);
+dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_result *result);
+
+#endif

@@ -1,0 +1,120 @@
+/* The flow regime, told from the motion. The thresholds and the runs that they were chosen on: core/NUMERICS.md,
+ * "Regimes". */
+#include "dem_rules.h"
+#include "density_grid.h"
+#include "measure.h"
+#include "statistics.h"
+
+/* Radius of the inner surface that the bed would have spread evenly over the wall. */
+static double inner_radius(const dem_scene *scene)
+{
+    return scene->drum.radius * sqrt(fmax(0.0, 1 - scene->definition.fill_fraction));
+}
+
+typedef struct mean {
+    double sum, count;
+} mean;
+
+static void mean_add(mean *m, double x)
+{
+    m->sum += x;
+    m->count += 1;
+}
+
+static double mean_of(const mean *m) { return m->count > 0 ? m->sum / m->count : NAN; }
+
+enum { WALL_BINS = 72 };
+
+static double share_of_bins(const bool bins[WALL_BINS])
+{
+    int covered = 0;
+    for (int b = 0; b < WALL_BINS; b++) covered += bins[b];
+    return covered / (double)WALL_BINS;
+}
+
+void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *frame)
+{
+    spheres *s = &scene->spheres;
+    const double d = mean_diameter(scene), rate = scene->definition.rotation_rate, time = dem_scene_time(scene);
+    const double wall = scene->drum.inner_radius, inner = inner_radius(scene);
+    const double angle = frame[FRAME_SURFACE_FIT] * (DEM_PI / 180), c = cos(angle), sine = sin(angle);
+    /* The surface's height in its own frame, from the chord of the fill: good to a fraction of a diameter. */
+    mean wall_spin = { 0 }, surface_spin = { 0 }, flow = { 0 }, airborne = { 0 };
+    bool bins[WALL_BINS] = { false };
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        const double *x = s->row[i].x, *v = s->velocity[i];
+        const double rho2 = x[0] * x[0] + x[1] * x[1], rho = sqrt(rho2);
+        const double spin = (x[0] * v[1] - x[1] * v[0]) / fmax(rho2, 1e-300);
+        mean_add(&airborne, contacts[i] == 0);
+        if (rho > wall - d) {
+            mean_add(&wall_spin, spin);
+            bins[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (WALL_BINS - 1e-9))] = true;
+        }
+        if (fabs(rho - inner) < d) mean_add(&surface_spin, spin);
+        if (rho < inner - 2 * d) s->fallen_time[i] = time;
+        /* Downslope speed of the flowing layer at the middle of the chord. */
+        const double along = c * x[0] + sine * x[1], downslope = -(c * v[0] + sine * v[1]);
+        if (fabs(along) < 0.25 * scene->drum.radius && downslope > 0) mean_add(&flow, downslope);
+    }
+    frame[FRAME_AIRBORNE] = mean_of(&airborne);
+    frame[FRAME_WALL_SLIP] = rate != 0 ? 1 - mean_of(&wall_spin) / rate : NAN;
+    frame[FRAME_WALL_COVERAGE] = share_of_bins(bins);
+    frame[FRAME_FLOW_SPEED] = mean_of(&flow);
+    frame[FRAME_SURFACE_LAG] = rate != 0 ? 2 * DEM_PI * (1 - mean_of(&surface_spin) / rate) : NAN;
+}
+
+/* Share of particles seen nearer the axis than R_i - 2d in the last four revolutions (or the window, if shorter). */
+static double fallen_fraction(const dem_scene *scene, const frame_window *window)
+{
+    const double revolution = 2 * DEM_PI / fabs(scene->definition.rotation_rate);
+    const double since = fmax(window->frames[FRAME_TIME], dem_scene_time(scene) - 4 * revolution);
+    double fallen = 0.0;
+    for (size_t i = 0; i < scene->spheres.mobile_count; i++) fallen += scene->spheres.fallen_time[i] >= since;
+    return fallen / (double)scene->spheres.mobile_count;
+}
+
+static void predict_boundaries(double angle_deg, dem_regime_result *r)
+{
+    const double phi = angle_deg * (DEM_PI / 180);
+    r->predicted_stationary = 1 / sin(phi);                                   /* Eq 33 */
+    r->predicted_sliding_eq35 = sqrt(0.5) * (1 + 1 / (tan(phi) + 0.125));     /* Eq 35 */
+    r->predicted_sliding_eq36 = 1 / sin(atan(0.16 + tan(phi)));               /* Eqns 36, 37 */
+}
+
+/* A bed spread over the whole wall: raining, sliding or centrifuging. */
+static dem_regime fast_regime(const dem_regime_result *r)
+{
+    if (r->fallen_fraction > 0.02) return DEM_RAINING;
+    return r->surface_lag < 0.03 ? DEM_CENTRIFUGING : DEM_SLIDING;
+}
+
+static dem_regime slow_regime(const dem_regime_result *r)
+{
+    /* Thrown clear of the bed: particles in flight. */
+    if (r->airborne_fraction > 0.10) return DEM_CATARACTING;
+    /* The bed as a whole moves against the wall: at a steady pace, or in jerks. */
+    if (r->wall_slip > 0.3 && r->wall_slip_fluctuation < 0.3) return DEM_SLIPPING;
+    if (r->wall_slip_fluctuation > 0.3 && r->angle_fluctuation_deg > 1.5) return DEM_SLUMPING;
+    /* The bed follows the wall, its surface flows: all the time, or in avalanches. */
+    if (r->flow_fluctuation > 0.5) return DEM_AVALANCHING;
+    return r->curvature_deg > 12 ? DEM_CASCADING : DEM_ROLLING;
+}
+
+void measure_regime_results(const dem_scene *scene, const frame_window *window, const dem_repose_result *repose,
+                            dem_regime_result *r)
+{
+    const double rate = scene->definition.rotation_rate, g = scene->definition.gravity;
+    r->omega2_outer = rate * rate * scene->drum.radius / g;
+    r->omega2_inner = rate * rate * inner_radius(scene) / g;
+    predict_boundaries(repose->angle[DEM_SURFACE_FIT].mean_deg, r);
+    r->wall_slip = frame_window_mean(window, FRAME_WALL_SLIP);
+    r->wall_slip_fluctuation = frame_window_deviation(window, FRAME_WALL_SLIP);
+    r->angle_fluctuation_deg = frame_window_deviation(window, FRAME_CENTER_OF_MASS);
+    r->flow_fluctuation = frame_window_deviation(window, FRAME_FLOW_SPEED) / frame_window_mean(window, FRAME_FLOW_SPEED);
+    r->airborne_fraction = frame_window_mean(window, FRAME_AIRBORNE);
+    r->wall_coverage = frame_window_mean(window, FRAME_WALL_COVERAGE);
+    r->curvature_deg = repose->angle[DEM_UPPER_CHORD].mean_deg - repose->angle[DEM_LOWER_CHORD].mean_deg;
+    r->fallen_fraction = fallen_fraction(scene, window);
+    r->surface_lag = frame_window_mean(window, FRAME_SURFACE_LAG);
+    r->regime = r->wall_coverage > 0.95 && r->omega2_outer > 1 ? fast_regime(r) : slow_regime(r);
+}

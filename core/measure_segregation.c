@@ -1,0 +1,114 @@
+/* Segregation of the species by size: radial, axial, and Lacey's mixing index. */
+#include "density_grid.h"
+#include "measure.h"
+
+static void size_extremes(const dem_scene *scene, int32_t *smallest, int32_t *largest)
+{
+    const dem_drum_definition *definition = &scene->definition;
+    *smallest = *largest = 0;
+    for (size_t k = 1; k < definition->species_count; k++) {
+        if (definition->species[k].diameter < definition->species[*smallest].diameter) *smallest = (int32_t)k;
+        if (definition->species[k].diameter > definition->species[*largest].diameter) *largest = (int32_t)k;
+    }
+    /* Equal sizes (species that differ by density alone): the first against the last. */
+    if (*smallest == *largest) *largest = (int32_t)definition->species_count - 1;
+}
+
+double measure_radial_index(const dem_scene *scene)
+{
+    int32_t smallest, largest;
+    size_extremes(scene, &smallest, &largest);
+    if (smallest == largest) return NAN;
+    double sum[2] = { 0 }, n[2] = { 0 };
+    for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
+        const int32_t species = scene->spheres.species[i];
+        if (species != smallest && species != largest) continue;
+        const double *x = scene->spheres.row[i].x;
+        sum[species == largest] += hypot(x[0], x[1]);
+        n[species == largest] += 1;
+    }
+    return n[0] > 0 && n[1] > 0 ? (sum[1] / n[1] - sum[0] / n[0]) / scene->drum.radius : NAN;
+}
+
+/* Number share of `species` in each of `cells` cells; variance between them, weighted by their particles, against
+ * that of a random mixture of as many (lacey = (s0^2 - s^2)/(s0^2 - sr^2)). */
+typedef struct mixing {
+    double variance, random_variance, share;
+} mixing;
+
+static mixing mixing_over_cells(const int32_t *cell_of, const spheres *s, int32_t species, double *count, double *of_species, size_t cells)
+{
+    memset(count, 0, cells * sizeof *count);
+    memset(of_species, 0, cells * sizeof *of_species);
+    double total = 0.0, total_of_species = 0.0;
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        count[cell_of[i]] += 1;
+        of_species[cell_of[i]] += s->species[i] == species;
+        total_of_species += s->species[i] == species;
+        total += 1;
+    }
+    mixing m = { .share = total_of_species / total };
+    double used = 0.0;
+    for (size_t c = 0; c < cells; c++) {
+        if (!(count[c] > 0)) continue;
+        const double deviation = of_species[c] / count[c] - m.share;
+        m.variance += count[c] * deviation * deviation / total;
+        used += 1;
+    }
+    /* Random mixture: variance p (1-p)/n in a cell of n; weighted by n/N and summed over the cells in use. */
+    m.random_variance = m.share * (1 - m.share) * used / total;
+    return m;
+}
+
+/* Cells three mean diameters wide across the section; whole slices, as many as along the axis, for the axial index. */
+static size_t assign_cells(const dem_scene *scene, bool slices, int32_t *cell_of)
+{
+    const double side = 3 * mean_diameter(scene), radius = scene->drum.radius, length = scene->drum.length;
+    const int across = slices ? 1 : (int)fmax(1, ceil(2 * radius / side)), along = slices ? (int)fmax(1, floor(length / side)) : 1;
+    for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
+        const double *x = scene->spheres.row[i].x;
+        const int a = (int)fmin(across - 1, fmax(0, (x[0] + radius) / (2 * radius) * across));
+        const int b = (int)fmin(across - 1, fmax(0, (x[1] + radius) / (2 * radius) * across));
+        const int c = (int)fmin(along - 1, fmax(0, (x[2] / length + 0.5) * along));
+        cell_of[i] = (a * across + b) * along + c;
+    }
+    return (size_t)across * (size_t)across * (size_t)along;
+}
+
+/* Standard deviation of the share between slices beyond chance, over that of complete segregation: 0 mixed, 1 not. */
+static double axial_index(mixing m)
+{
+    return sqrt(fmax(m.variance - m.random_variance, 0.0) / (m.share * (1 - m.share) - m.random_variance));
+}
+
+static double lacey_index(mixing m)
+{
+    const double apart = m.share * (1 - m.share);
+    return (apart - m.variance) / (apart - m.random_variance);
+}
+
+dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_result *result)
+{
+    *result = (dem_segregation_result){ NAN, NAN, NAN };
+    if (scene->definition.species_count < 2) return DEM_OK;
+    int32_t smallest, largest;
+    size_extremes(scene, &smallest, &largest);
+    result->radial_index = measure_radial_index(scene);
+    int32_t *cell_of = array_create(scene->spheres.mobile_count, sizeof *cell_of);
+    if (!cell_of) return DEM_NO_MEMORY;
+    dem_status status = DEM_OK;
+    for (int slices = 0; slices < 2 && status == DEM_OK; slices++) {
+        const size_t cells = assign_cells(scene, slices, cell_of);
+        double *count = array_create(cells, sizeof *count), *of_species = array_create(cells, sizeof *of_species);
+        if (count && of_species) {
+            const mixing m = mixing_over_cells(cell_of, &scene->spheres, largest, count, of_species, cells);
+            *(slices ? &result->axial_index : &result->lacey_index) = slices ? axial_index(m) : lacey_index(m);
+        } else {
+            status = DEM_NO_MEMORY;
+        }
+        free(count);
+        free(of_species);
+    }
+    free(cell_of);
+    return status;
+}

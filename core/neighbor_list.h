@@ -1,0 +1,60 @@
+/* Which spheres may touch: two lists, one inside the other, both exact.
+ *
+ * Outer: all pairs closer than a skin, found through the cell grid and kept until displacements could have
+ * brought an unlisted pair into reach. Inner: those of them that can touch within the next HORIZON steps,
+ * picked every few steps; only these are computed. Neither ever misses a contact: each is made again before
+ * the bound that it was made for is passed. The proof is in core/NUMERICS.md, "Neighbor lists". */
+#ifndef NEIGHBOR_LIST_H
+#define NEIGHBOR_LIST_H
+
+#include "cell_grid.h"
+#include "contact_list.h"
+#include "container.h"
+
+enum { HORIZON = 16 }; /* steps between two picks of the inner list, at most */
+
+typedef struct neighbor_list {
+    /* outer */
+    double skin;              /* m: pairs with a smaller gap are listed */
+    size_t pair_count, pair_capacity;
+    size_t *start;            /* (mobile + 1) */
+    int32_t *second;          /* (pair_capacity) ascending for each first */
+    uint8_t *in_reach;        /* (pair_capacity) picked for the inner list */
+    vector4 *built_at;        /* (mobile) m: places when the outer list was made */
+    cell_grid grid;
+    bool outer_valid;
+    /* inner */
+    double margin;            /* m: how far a sphere may stray from its straight path before the next pick */
+    double strayed;           /* m: bound on how far any sphere has, since the pick */
+    int steps_since_pick, safe_steps;
+    double turned_at_build;   /* rad: the drum's angle when the outer list was made */
+    bool inner_valid;
+    vector4 *picked_velocity; /* (mobile) m/s at the pick */
+    contact_list pairs, pairs_before;
+    contact_list walls, walls_before; /* sphere against the cylinder */
+    /* the contacts of each sphere, for its sum: slots of `pairs` where it is the second */
+    size_t *incoming_start;   /* (mobile + 1) */
+    int32_t *incoming;        /* slots, ascending */
+    size_t incoming_capacity;
+    int64_t outer_builds, inner_picks;
+} neighbor_list;
+
+dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres);
+void neighbor_list_clear(neighbor_list *list);
+void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand */
+/* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
+ * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. made_new (may be NULL): whether anything was done. */
+dem_status neighbor_list_update(neighbor_list *list, const spheres *spheres, const container *drum,
+                                const dem_contact_parameters *contact, double time_step, int threads, bool *made_new);
+/* Tell the list of a finished step: the largest |v - v at the pick| of all spheres, m/s. */
+static inline void neighbor_list_step_done(neighbor_list *list, double largest_deviation, double time_step)
+{
+    list->strayed += largest_deviation * time_step;
+    list->steps_since_pick++;
+}
+
+/* Contacts (overlap > 0) of each mobile sphere at the places of now; the list must be up to date. */
+void neighbor_list_count_contacts(const neighbor_list *list, const spheres *spheres, const container *drum,
+                                  int32_t *contacts);
+
+#endif

@@ -1,0 +1,9 @@
+/* The core's own check of a definition: the last line of defence, so that no caller can make it divide by zero. */
+#ifndef PARAMETERS_H
+#define PARAMETERS_H
+
+#include "dem_types.h"
+
+dem_status parameters_check(const dem_drum_definition *definition);
+
+#endif

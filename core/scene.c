@@ -1,0 +1,80 @@
+#include "scene.h"
+
+#include "parameters.h"
+
+dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
+{
+    *out = NULL;
+    dem_status status = parameters_check(definition);
+    if (status != DEM_OK) return status;
+    dem_scene *scene = array_create(1, sizeof *scene);
+    if (!scene) return DEM_NO_MEMORY;
+    scene->definition = *definition;
+    scene->rotation_start = -1;
+    container_init(&scene->drum, definition);
+    status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
+    if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
+    if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres);
+    if (status != DEM_OK) {
+        dem_scene_free(scene);
+        return status;
+    }
+    container_place_lining(&scene->drum, definition, &scene->spheres);
+    scene_enter_phase(scene, DEM_PHASE_GROWING);
+    *out = scene;
+    return DEM_OK;
+}
+
+void dem_scene_free(dem_scene *scene)
+{
+    if (!scene) return;
+    neighbor_list_clear(&scene->neighbors);
+    spheres_clear(&scene->spheres);
+    free(scene);
+}
+
+void scene_enter_phase(dem_scene *scene, dem_phase phase)
+{
+    const dem_drum_definition *definition = &scene->definition;
+    scene->phase = phase;
+    scene->contact = definition->contact;
+    /* Grown without friction, spheres slip into place instead of locking each other. */
+    if (phase == DEM_PHASE_GROWING) scene->contact.friction = scene->contact.wall_friction = 0.0;
+    scene->drum.rotation_rate = phase == DEM_PHASE_ROTATING ? definition->rotation_rate : 0.0;
+    container_turn_lining(&scene->drum, &scene->spheres);
+    neighbor_list_invalidate(&scene->neighbors);
+}
+
+const dem_failure *dem_scene_failure(const dem_scene *scene) { return &scene->failure; }
+dem_phase dem_scene_phase(const dem_scene *scene) { return scene->phase; }
+int64_t dem_scene_step_count(const dem_scene *scene) { return scene->step_count; }
+int64_t dem_scene_rotation_start(const dem_scene *scene) { return scene->rotation_start; }
+size_t dem_scene_particle_count(const dem_scene *scene) { return scene->spheres.mobile_count; }
+double dem_scene_kinetic_energy(const dem_scene *scene) { return spheres_kinetic_energy(&scene->spheres); }
+
+double dem_scene_time(const dem_scene *scene)
+{
+    const double dt = scene->definition.time_step;
+    return scene->rotation_start >= 0 ? (double)(scene->step_count - scene->rotation_start) * dt
+                                      : -(double)scene->step_count * dt;
+}
+
+double dem_scene_maximum_overlap(const dem_scene *scene)
+{
+    return scene->maximum_overlap / scene->spheres.smallest_diameter;
+}
+
+void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arrays)
+{
+    const spheres *s = &scene->spheres;
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        for (size_t c = 0; c < 3; c++) {
+            if (arrays->position) arrays->position[3 * i + c] = s->row[i].x[c];
+            if (arrays->velocity) arrays->velocity[3 * i + c] = s->velocity[i][c];
+            if (arrays->angular_velocity) arrays->angular_velocity[3 * i + c] = s->angular_velocity[i][c];
+        }
+        if (arrays->radius) arrays->radius[i] = (double)s->row[i].radius;
+        if (arrays->species) arrays->species[i] = s->species[i];
+    }
+    if (arrays->contacts) neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, arrays->contacts);
+}

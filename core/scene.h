@@ -1,0 +1,28 @@
+/* What a scene is made of; the inside of dem.h's dem_scene. */
+#ifndef SCENE_H
+#define SCENE_H
+
+#include "container.h"
+#include "dem.h"
+#include "filling.h"
+#include "integrator.h"
+#include "neighbor_list.h"
+#include "spheres.h"
+
+struct dem_scene {
+    dem_drum_definition definition;
+    dem_contact_parameters contact; /* those of the present phase: friction waits until spheres have grown */
+    container drum;
+    spheres spheres;
+    neighbor_list neighbors;
+    filling filling;
+    dem_phase phase;
+    int64_t step_count, phase_start, rotation_start; /* rotation_start: -1 before */
+    double maximum_overlap; /* m since rotation began */
+    dem_failure failure;
+};
+
+/* Everything that follows from the phase alone: friction, the drum's rate. */
+void scene_enter_phase(dem_scene *scene, dem_phase phase);
+
+#endif

@@ -1,0 +1,163 @@
+/* Saving and restoring: what a scene can't make again from its definition. Neighbor lists are made again, since
+ * no result depends on when they were made (core/contact_list.h). */
+#include "scene.h"
+#include "step.h"
+
+enum { STATE_INTEGERS = 4, STATE_NUMBERS = 1, HISTORY_NUMBERS = 5 };
+
+static void *state_add(dem_state *state, const char *name, dem_element element, size_t rows, size_t columns)
+{
+    static const size_t size[] = { [DEM_FLOAT64] = 8, [DEM_INT64] = 8, [DEM_INT32] = 4 };
+    void *data = array_create(rows * columns, size[element]);
+    if (data) state->array[state->array_count++] = (dem_state_array){ name, element, rows, columns, data };
+    return data;
+}
+
+static const dem_state_array *state_find(const dem_state *state, const char *name, dem_element element, size_t columns)
+{
+    for (size_t k = 0; k < state->array_count; k++) {
+        const dem_state_array *a = &state->array[k];
+        if (strcmp(a->name, name) == 0) return a->element == element && a->columns == columns ? a : NULL;
+    }
+    return NULL;
+}
+
+static bool is_remembered(const contact_history *h)
+{
+    return h->t[0] != 0 || h->t[1] != 0 || h->t[2] != 0 || h->t_star != 0 || h->alpha_0 != 0;
+}
+
+/* Two arrays: the spheres of each contact that remembers something, and what it remembers. */
+static bool save_contacts(dem_state *state, const contact_list *list, const char *ids, const char *history)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < list->count; k++) {
+        const contact_history h = contact_list_history(list, k);
+        n += is_remembered(&h);
+    }
+    int32_t *id = state_add(state, ids, DEM_INT32, n, 2);
+    double *numbers = state_add(state, history, DEM_FLOAT64, n, HISTORY_NUMBERS);
+    if (!id || !numbers) return false;
+    for (size_t k = 0; k < list->count; k++) {
+        const contact_history h = contact_list_history(list, k);
+        if (!is_remembered(&h)) continue;
+        *id++ = list->first[k];
+        *id++ = list->second[k];
+        for (int c = 0; c < 3; c++) *numbers++ = (double)h.t[c];
+        *numbers++ = (double)h.t_star;
+        *numbers++ = (double)h.alpha_0;
+    }
+    return true;
+}
+
+static bool save_vectors(dem_state *state, const char *name, vector4 *from, size_t n)
+{
+    double *to = state_add(state, name, DEM_FLOAT64, n, 3);
+    for (size_t i = 0; to && i < n; i++) memcpy(to + 3 * i, from[i], 3 * sizeof *to);
+    return to != NULL;
+}
+
+dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
+{
+    const spheres *s = &scene->spheres;
+    const size_t n = s->mobile_count;
+    memset(state, 0, sizeof *state);
+    int64_t *integers = state_add(state, "counters", DEM_INT64, 1, STATE_INTEGERS);
+    double *numbers = state_add(state, "numbers", DEM_FLOAT64, 1, STATE_NUMBERS);
+    double *position = state_add(state, "position", DEM_FLOAT64, n, 3), *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
+    if (!integers || !numbers || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
+        || !save_vectors(state, "angular_velocity", s->angular_velocity, n)
+        || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
+        || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
+        dem_state_clear(state);
+        return DEM_NO_MEMORY;
+    }
+    integers[0] = (int64_t)scene->phase;
+    integers[1] = scene->step_count;
+    integers[2] = scene->phase_start;
+    integers[3] = scene->rotation_start;
+    numbers[0] = scene->maximum_overlap;
+    for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, s->row[i].x, 3 * sizeof *position);
+    memcpy(fallen, s->fallen_time, n * sizeof *fallen);
+    return DEM_OK;
+}
+
+void dem_state_clear(dem_state *state)
+{
+    for (size_t k = 0; k < state->array_count; k++) free(state->array[k].data);
+    memset(state, 0, sizeof *state);
+}
+
+/* The contacts as a list ordered by first, from which the next list carries its histories over. */
+static dem_status restore_contacts(const dem_state *state, contact_list *list, size_t n, size_t all, const char *ids, const char *history)
+{
+    const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
+    const dem_state_array *numbers = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS);
+    if (!id || !numbers || id->rows != numbers->rows) return DEM_STATE_MISMATCH;
+    if (contact_list_reserve(list, id->rows) != DEM_OK) return DEM_NO_MEMORY;
+    list->count = id->rows;
+    memset(list->start, 0, (n + 1) * sizeof *list->start);
+    for (size_t k = 0; k < id->rows; k++) {
+        const int32_t *pair = (const int32_t *)id->data + 2 * k;
+        const double *h = (const double *)numbers->data + HISTORY_NUMBERS * k;
+        const bool ordered = k == 0 || pair[0] > list->first[k - 1]
+                          || (pair[0] == list->first[k - 1] && pair[1] > list->second[k - 1]);
+        if (pair[0] < 0 || (size_t)pair[0] >= n || pair[1] < 0 || (size_t)pair[1] >= all || !ordered) return DEM_STATE_MISMATCH;
+        list->first[k] = pair[0];
+        list->second[k] = pair[1];
+        contact_list_set_history(list, k, &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] },
+                                                              .t_star = (real)h[3], .alpha_0 = (real)h[4] });
+        list->start[pair[0] + 1]++;
+    }
+    for (size_t i = 0; i < n; i++) list->start[i + 1] += list->start[i];
+    return DEM_OK;
+}
+
+static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin, const double *fallen)
+{
+    spheres *s = &scene->spheres;
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        sphere_row *row = &s->row[i];
+        for (size_t c = 0; c < 3; c++) {
+            row->x[c] = position[3 * i + c];
+            s->velocity[i][c] = velocity[3 * i + c];
+            s->angular_velocity[i][c] = spin[3 * i + c];
+            row->v[c] = (real)velocity[3 * i + c];
+            row->omega[c] = (real)spin[3 * i + c];
+        }
+        s->fallen_time[i] = fallen[i];
+    }
+    const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
+    spheres_set_scale(s, filling_scale(&scene->filling, grown));
+}
+
+dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
+{
+    const size_t n = scene->spheres.mobile_count;
+    const dem_state_array *integers = state_find(state, "counters", DEM_INT64, STATE_INTEGERS);
+    const dem_state_array *numbers = state_find(state, "numbers", DEM_FLOAT64, STATE_NUMBERS);
+    const dem_state_array *vectors[4];
+    static const char *const name[4] = { "position", "velocity", "angular_velocity", "fallen_time" };
+    for (int k = 0; k < 4; k++) {
+        vectors[k] = state_find(state, name[k], DEM_FLOAT64, k < 3 ? 3 : 1);
+        if (!vectors[k] || vectors[k]->rows != n) return DEM_STATE_MISMATCH;
+    }
+    if (!integers || !numbers) return DEM_STATE_MISMATCH;
+    const int64_t *counter = integers->data;
+    if (counter[0] < DEM_PHASE_GROWING || counter[0] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
+
+    const size_t all = spheres_count(&scene->spheres);
+    dem_status status = restore_contacts(state, &scene->neighbors.pairs, n, all, "pair", "pair_history");
+    if (status == DEM_OK) status = restore_contacts(state, &scene->neighbors.walls, n, all, "wall_contact", "wall_history");
+    if (status != DEM_OK) return status;
+    scene->step_count = counter[1];
+    scene->phase_start = counter[2];
+    scene->rotation_start = counter[3];
+    scene->maximum_overlap = *(const double *)numbers->data;
+    scene->phase = (dem_phase)counter[0];
+    if (scene->phase == DEM_PHASE_ROTATING)
+        scene->drum.angle = scene->definition.rotation_rate * dem_scene_time(scene);
+    scene_enter_phase(scene, scene->phase);
+    restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);
+    return scene_update_neighbors(scene);
+}

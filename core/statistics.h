@@ -1,0 +1,33 @@
+/* Statistics of correlated series. NaNs are skipped everywhere. */
+#ifndef STATISTICS_H
+#define STATISTICS_H
+
+#include <stddef.h>
+
+double statistics_mean(const double *x, size_t count);
+double statistics_deviation(const double *x, size_t count); /* standard deviation, n - 1 */
+double statistics_median(double *x, size_t count);          /* reorders x */
+
+/* Standard error of the mean of a correlated series, from block averages (Flyvbjerg & Petersen 1989): the
+ * largest over block lengths 1, 2, 4, ... that leave at least 8 blocks, since the estimate rises with the
+ * block length until blocks are independent. NaN for fewer than 8 values. */
+double statistics_standard_error(const double *x, size_t count);
+
+/* Integrated correlation time in samples, (SE / naive SE)^2; 1 when uncorrelated. */
+double statistics_correlation_length(const double *x, size_t count);
+
+/* Where the initial transient of a series ends: the cut that minimises the marginal standard error of what
+ * remains, in batches of five (MSER-5, White 1997), at most half of the series. */
+size_t statistics_transient(const double *x, size_t count);
+
+/* Least-squares line y = intercept + slope x. slope_error: from the residuals, widened for their correlation
+ * over `correlation` samples. Returns the number of points used; below 2 the slope is NaN. */
+typedef struct line_fit {
+    double intercept, slope, slope_error;
+    size_t points;
+} line_fit;
+line_fit statistics_line(const double *x, const double *y, size_t count, double correlation);
+/* Median of the slopes of all pairs (Theil 1950, Sen 1968); NaN for fewer than 2 points or out of memory. */
+double statistics_theil_sen(const double *x, const double *y, size_t count);
+
+#endif

@@ -1,0 +1,116 @@
+/* The step:
+ *     neighbor lists, made again when a displacement asks for it; contact history carried over
+ *     forces of contacts between spheres, and with the container
+ *     each sphere's sum over its contacts
+ *     velocities and positions (Eqns 3, 4)
+ *     the container turns; the phase may change
+ */
+#include "step.h"
+
+#include "contact_forces.h"
+#include "failure.h"
+
+dem_status scene_update_neighbors(dem_scene *scene)
+{
+    bool made_new;
+    const dem_status status = neighbor_list_update(&scene->neighbors, &scene->spheres, &scene->drum, &scene->contact,
+                                                   scene->definition.time_step, scene->definition.threads, &made_new);
+    if (status != DEM_OK) return failure_of_memory(scene);
+    return made_new ? failure_check_places(scene) : DEM_OK;
+}
+
+static dem_status step_contacts(dem_scene *scene)
+{
+    const double dt = scene->definition.time_step;
+    const int threads = scene->definition.threads;
+    neighbor_list *list = &scene->neighbors;
+    spheres *s = &scene->spheres;
+    const double between = contact_forces_between_spheres(&list->pairs, s, &scene->drum, &scene->contact, dt, threads);
+    const double wall = contact_forces_with_wall(&list->walls, s, &scene->drum, &scene->contact, dt, threads);
+    contact_forces_sum(list, s, threads);
+    const double largest = fmax(between, wall);
+    scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
+    return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene) : DEM_OK;
+}
+
+static body_forces forces_of_phase(const dem_scene *scene)
+{
+    switch (scene->phase) {
+    case DEM_PHASE_GROWING: return (body_forces){ .drag = scene->filling.growing_drag };
+    case DEM_PHASE_SETTLING:
+        return (body_forces){ .gravity = scene->definition.gravity, .drag = scene->filling.settling_drag };
+    case DEM_PHASE_ROTATING: break;
+    }
+    return (body_forces){ .gravity = scene->definition.gravity };
+}
+
+static void turn_container(dem_scene *scene)
+{
+    if (scene->phase != DEM_PHASE_ROTATING) return;
+    const double time = (double)(scene->step_count - scene->rotation_start) * scene->definition.time_step;
+    scene->drum.angle = scene->drum.rotation_rate * time;
+    container_turn_lining(&scene->drum, &scene->spheres);
+}
+
+static void next_phase(dem_scene *scene, dem_phase phase)
+{
+    scene->phase_start = scene->step_count;
+    if (phase == DEM_PHASE_ROTATING) {
+        scene->rotation_start = scene->step_count;
+        scene->maximum_overlap = 0.0;
+    }
+    scene_enter_phase(scene, phase);
+}
+
+static dem_status continue_settling(dem_scene *scene)
+{
+    enum { STEPS_BETWEEN_LOOKS = 100 };
+    const filling *f = &scene->filling;
+    const int64_t steps = scene->step_count - scene->phase_start;
+    if (steps < f->settling_steps_least || steps % STEPS_BETWEEN_LOOKS) return DEM_OK;
+    const double energy = spheres_kinetic_energy(&scene->spheres);
+    if (energy < f->rest_energy) next_phase(scene, DEM_PHASE_ROTATING);
+    else if (steps > f->settling_steps_most) return failure_of_settling(scene, energy);
+    return DEM_OK;
+}
+
+static dem_status continue_phase(dem_scene *scene)
+{
+    const filling *f = &scene->filling;
+    const int64_t steps = scene->step_count - scene->phase_start;
+    switch (scene->phase) {
+    case DEM_PHASE_GROWING:
+        spheres_set_scale(&scene->spheres, filling_scale(f, steps));
+        if (steps >= f->growing_steps) next_phase(scene, DEM_PHASE_SETTLING);
+        return DEM_OK;
+    case DEM_PHASE_SETTLING: return continue_settling(scene);
+    case DEM_PHASE_ROTATING: break;
+    }
+    return DEM_OK;
+}
+
+dem_status scene_step(dem_scene *scene)
+{
+    const double dt = scene->definition.time_step;
+    dem_status status = scene_update_neighbors(scene);
+    if (status != DEM_OK) return status;
+    status = step_contacts(scene);
+    if (status != DEM_OK) return status;
+    const body_forces body = forces_of_phase(scene);
+    const double deviation = integrator_advance(&scene->spheres, &scene->drum, &body, scene->neighbors.picked_velocity,
+                                                dt, scene->definition.threads);
+    neighbor_list_step_done(&scene->neighbors, deviation, dt);
+    scene->step_count++;
+    turn_container(scene);
+    return continue_phase(scene);
+}
+
+dem_status dem_scene_advance(dem_scene *scene, int64_t steps)
+{
+    for (int64_t k = 0; k < steps; k++) {
+        const dem_status status = scene_step(scene);
+        if (status != DEM_OK) return status;
+    }
+    /* Whoever looks at the scene now finds lists that hold for the present places. */
+    return scene_update_neighbors(scene);
+}
