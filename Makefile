@@ -52,3 +52,8 @@ $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
 $(BUILD)/tests/bench/%: tests/bench/%.c $(BUILD)/libdem.a
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude $< $(BUILD)/libdem.a -fopenmp -lm -o $@
+# Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
+$(BUILD)/tests/unit/%: tests/unit/%.c $(BUILD)/libdem.a $(BUILD)/libapi.a $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude -Icore -Iapi -Iserver/daemon $< $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON)) \
+	  $(BUILD)/libapi.a $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
