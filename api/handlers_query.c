@@ -86,5 +86,5 @@ void run_query(api_service *service, const http_request *request, http_response 
     }
     table.out.limit += 64; /* the end always fits */
     if (!table.csv) text_buffer_print(&table.out, "],\"truncated\":%s}", table.truncated ? "true" : "false");
-    http_respond_text(response, 200, table.csv ? "text/csv; charset=utf-8; header=present" : "application/json", table.out.text, table.out.length);
+    http_respond_text(response, 200, table.csv ? "text/csv; charset=utf-8" : "application/json", table.out.text, table.out.length);
 }

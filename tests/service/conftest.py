@@ -1,0 +1,114 @@
+"""A real daemon on a free port with a fresh data folder, and a real client."""
+import os
+import signal
+import subprocess
+import time
+from pathlib import Path
+
+import pytest
+import requests
+
+ROOT = Path(__file__).resolve().parents[2]
+BUILD = Path(os.environ.get("REPOSED_BUILD", ROOT / "build"))
+FAKE_WORKER = Path(__file__).with_name("fake_worker.py")
+ENDED = ("successful", "failed", "dismissed")
+SPEC = {
+    "drum": {"diameter": 0.04, "length": 0.012, "rotation_rate": 6.0},
+    "particles": [{"diameter": 0.004}],
+    "fill_fraction": 0.3,
+    "contact": {"friction": 0.3, "maximum_overlap": 0.05},
+    "duration": {"seconds": 0.4},
+    "snapshots": {"interval": 0.1},
+    "seed": 7,
+}
+
+
+class Daemon:
+    """One data folder, and the daemon that may be running on it."""
+
+    def __init__(self, folder, worker=None, options=()):
+        self.folder, self.data = folder, folder / "data"
+        self.options = list(options) + (["--worker", str(worker)] if worker else [])
+        self.port, self.process = 0, None
+
+    @property
+    def url(self):
+        return f"http://127.0.0.1:{self.port}"
+
+    def start(self):
+        """On the port it had before, if it was running before."""
+        command = [BUILD / "reposed", "serve", "--port", str(self.port), "--data", self.data, *self.options]
+        with open(self.folder / "daemon.log", "ab") as log:
+            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
+        line = self.process.stdout.readline()
+        assert line.startswith("listening on http://"), self.log()
+        self.port = int(line.rsplit(":", 1)[1])
+        return self
+
+    def stop(self, how=signal.SIGTERM, seconds=20):
+        self.process.send_signal(how)
+        code = self.process.wait(seconds)
+        self.process.stdout.close()
+        return code
+
+    def is_running(self):
+        return self.process is not None and self.process.poll() is None
+
+    def log(self):
+        return (self.folder / "daemon.log").read_text()
+
+    def workers(self):
+        """Process ids of the daemon's children."""
+        tasks = Path(f"/proc/{self.process.pid}/task")
+        return [int(child) for task in tasks.iterdir() for child in (task / "children").read_text().split()]
+
+    # --- the client ---
+
+    def get(self, path, **options):
+        return requests.get(self.url + path, timeout=30, **options)
+
+    def post(self, inputs=SPEC, label=None, **options):
+        return requests.post(f"{self.url}/processes/drum/execution", json={"inputs": inputs, "label": label or {}},
+                             timeout=30, **options)
+
+    def submit(self, inputs=SPEC, **label):
+        answer = self.post(inputs, label)
+        assert answer.status_code == 201, answer.text
+        return answer.json()["jobID"]
+
+    def job(self, job, wait=0):
+        answer = self.get(f"/jobs/{job}?wait={wait}")
+        assert answer.status_code == 200, answer.text
+        return answer.json()
+
+    def until(self, job, accepts, seconds=30):
+        """The job's status as soon as accepts(status) is true."""
+        end = time.monotonic() + seconds
+        while True:
+            status = self.job(job)
+            if accepts(status):
+                return status
+            assert time.monotonic() < end, f"still {status}\n{self.log()}"
+            time.sleep(0.05)
+
+    def ended(self, job, seconds=60):
+        return self.until(job, lambda status: status["status"] in ENDED, seconds)
+
+
+def run_daemon(folder, **how):
+    daemon = Daemon(folder, **how).start()
+    yield daemon
+    if daemon.is_running():
+        daemon.stop(signal.SIGKILL)
+
+
+@pytest.fixture
+def daemon(tmp_path):
+    """With the real worker."""
+    yield from run_daemon(tmp_path)
+
+
+@pytest.fixture
+def fake(tmp_path):
+    """With a worker that does what the job's label says, quickly."""
+    yield from run_daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "2"])

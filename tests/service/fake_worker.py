@@ -1,0 +1,85 @@
+#!/usr/bin/python3
+"""Stands in for `repose run SPEC --out DIR`: keeps the contract of the job folder and does what the spec's label
+"fake" says, so that tests of the daemon can have any end of a worker at once."""
+import json
+import os
+import signal
+import sys
+import time
+from pathlib import Path
+
+SPEC, FOLDER = Path(sys.argv[2]), Path(sys.argv[4])
+CHECKPOINT = FOLDER / "checkpoint.hdf"
+label = json.loads(SPEC.read_text())["label"]
+what, seconds = label.get("fake", "quick"), float(label.get("seconds", 0))
+stopped = False
+
+
+def tell(event, **facts):
+    with open(FOLDER / "events.ndjson", "a") as events:
+        events.write(json.dumps({"event": event, **facts}) + "\n")
+
+
+def publish(path, text):
+    path.with_suffix(path.suffix + ".tmp").write_text(text)
+    os.rename(path.with_suffix(path.suffix + ".tmp"), path)
+
+
+def stop(*_):
+    global stopped
+    stopped = True
+
+
+def sample(number):
+    tell("sample", number=number, step=100 * number, time=0.1 * number,
+         values={"angle_deg": 20.0 + number, "wall_slip": None if number == 0 else 0.5})
+
+
+def snapshot(number):
+    (FOLDER / "snapshots").mkdir(exist_ok=True)
+    publish(FOLDER / "snapshots" / f"{number:06}.hdf", f"snapshot {number} " + "0123456789" * 10)
+    tell("snapshot", number=number, step=100 * number, time=0.1 * number, file=f"{number:06}.hdf", bytes=111, particles=41)
+
+
+def run():
+    """Twenty steps in `seconds`, from the checkpoint on."""
+    step = int(CHECKPOINT.read_text()) if CHECKPOINT.exists() else 0
+    tell("start", attempt=int(sys.argv[6]), step=step, resumed=step > 0)
+    while step < 20:
+        if stopped and what != "stubborn":
+            publish(CHECKPOINT, str(step))
+            sys.exit(3)
+        sample(step)
+        tell("progress", phase="rotating", step=step, time=0.1 * step, progress=5 * step, eta_seconds=seconds * (1 - step / 20),
+             particle_steps_per_second=1e6)
+        if step % 10 == 0:
+            snapshot(step // 10)
+            publish(CHECKPOINT, str(step))
+        time.sleep(seconds / 20)
+        step += 1
+
+
+RESULT = {
+    "repose": {"angle_deg": 23.5, "standard_error_deg": 0.3, "minimum_deg": 22, "maximum_deg": 25, "steady": True,
+               "drift_deg_per_revolution": 0.1, "method": "surface-fit", "other_methods": {"chord": 23.1},
+               "interface_fluctuation": 1e-4},
+    "regime": {"name": "rolling", "omega2_outer": 0.07, "omega2_inner": 0.01, "predicted": {}, "evidence": {}},
+    "segregation": {"radial_index": None, "axial_index": None, "lacey_index": None},
+    "packing": {"solid_fraction": 0.59, "coordination_number": 4.4},
+    "run": {"particles": 41, "steps": 2000, "time_step": 1e-4, "simulated_seconds": 0.4, "wall_seconds": 0.1,
+            "particle_steps_per_second": 8.2e5, "maximum_overlap": 0.01, "threads": 1, "seed": 7},
+}
+
+signal.signal(signal.SIGTERM, stop)
+print("a word on standard error", file=sys.stderr, flush=True)
+if what == "numerical":
+    tell("failure", status="overlap-too-large", message="overlap of 0.7 radii at step 12 between particles 3 and 4",
+         detail={"step": 12})
+    sys.exit(4)
+if what in ("fault", "disk"):
+    sys.exit({"fault": 1, "disk": 5}[what])
+if what == "dies":
+    os.kill(os.getpid(), signal.SIGKILL)
+run()
+if what != "no result":
+    publish(FOLDER / "result.json", json.dumps(RESULT))

@@ -1,0 +1,179 @@
+"""kill -9 of a worker or of the daemon in the middle of a job loses nothing."""
+import json
+import os
+import signal
+import subprocess
+import time
+
+import pytest
+
+from conftest import BUILD, SPEC
+
+LONG = SPEC | {"duration": {"seconds": 12.0}, "fill_fraction": 0.5, "snapshots": {"interval": 0.5}}
+
+
+def gone(process, seconds=5):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        try:
+            state = open(f"/proc/{process}/stat").read().rsplit(")", 1)[1].split()[0]
+        except FileNotFoundError:
+            return True
+        if state == "Z":
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def running(daemon, job):
+    return daemon.until(job, lambda info: info["status"] == "running" and info["progress"] > 0 and daemon.workers())
+
+
+def test_a_killed_worker_is_started_again(fake):
+    job = fake.submit(fake="slow", seconds="3")
+    running(fake, job)
+    os.kill(fake.workers()[0], signal.SIGKILL)
+    info = fake.until(job, lambda info: info["attempt"] == 2)
+    assert info["status"] in ("accepted", "running")
+    assert fake.ended(job)["status"] == "successful"
+    numbers = [sample["number"] for sample in fake.get(f"/jobs/{job}/samples").json()["samples"]]
+    assert numbers == list(range(20))  # what both attempts wrote is there once
+
+
+def test_three_deaths_are_enough(fake):
+    job = fake.submit(fake="dies")
+    info = fake.ended(job)
+    assert info["status"] == "failed" and info["attempt"] == 3
+    assert "signal 9" in info["message"] and "last of 3 attempts" in info["message"]
+
+
+def test_a_killed_daemon_takes_its_workers_along_and_its_successor_goes_on(fake):
+    jobs = [fake.submit(fake="slow", seconds="3") for _ in range(3)]  # one more than there are workers
+    running(fake, jobs[0])
+    workers = fake.workers()
+    fake.stop(signal.SIGKILL)
+    assert all(gone(worker) for worker in workers)
+    fake.start()
+    infos = [fake.ended(job) for job in jobs]
+    assert [info["status"] for info in infos] == ["successful"] * 3
+    assert [info["attempt"] for info in infos] == [2, 2, 1]
+
+
+def test_a_stop_in_good_order_uses_up_no_attempt(fake):
+    job = fake.submit(fake="slow", seconds="3")
+    running(fake, job)
+    workers = fake.workers()
+    assert fake.stop() == 0
+    assert all(gone(worker) for worker in workers)
+    assert (fake.data / "jobs" / job / "checkpoint.hdf").exists()
+    fake.start()
+    info = fake.ended(job)
+    assert info["status"] == "successful" and info["attempt"] == 1
+
+
+def test_a_stop_ends_although_a_client_waits_and_a_worker_does_not_listen(fake):
+    job = fake.submit(fake="stubborn", seconds="60")
+    running(fake, job)
+    waiting = subprocess.Popen(["curl", "-s", f"{fake.url}/jobs/{job}?wait=60"], stdout=subprocess.PIPE)
+    time.sleep(0.3)
+    start = time.monotonic()
+    assert fake.stop() == 0
+    assert time.monotonic() - start < 9  # 5 s of grace for the worker
+    assert json.loads(waiting.communicate()[0])["status"] in ("running", "accepted")
+
+
+def test_a_result_written_just_before_the_daemon_died_counts(fake):
+    job = fake.submit(fake="slow", seconds="30")
+    running(fake, job)
+    fake.stop(signal.SIGKILL)
+    (fake.data / "jobs" / job / "result.json").write_text(json.dumps({"repose": {"angle_deg": 30.0}, "run": {"steps": 5}}))
+    fake.start()
+    info = fake.job(job)
+    assert info["status"] == "successful" and info["attempt"] == 1 and info["summary"]["angle_deg"] == 30.0
+
+
+def test_unfinished_files_are_swept_at_start(fake):
+    job = fake.submit()
+    fake.ended(job)
+    fake.stop(signal.SIGKILL)
+    leftovers = [fake.data / "jobs" / job / "result.json.tmp", fake.data / "jobs" / job / "snapshots" / "000009.hdf.tmp"]
+    for leftover in leftovers:
+        leftover.write_text("half")
+    fake.start()
+    assert not any(leftover.exists() for leftover in leftovers)
+    assert (fake.data / "jobs" / job / "result.json").exists()
+
+
+def test_a_second_daemon_on_the_same_folder_is_refused(fake):
+    command = [BUILD / "reposed", "serve", "--port", "0", "--data", fake.data]
+    second = subprocess.run(command + fake.options, capture_output=True, text=True, timeout=10)
+    assert second.returncode == 1 and "in use by another reposed" in second.stderr
+
+
+def test_a_newer_database_is_refused(fake):
+    import sqlite3
+    fake.stop()
+    with sqlite3.connect(fake.data / "reposed.sqlite") as database:
+        database.execute("PRAGMA user_version=99")
+    command = [BUILD / "reposed", "serve", "--port", "0", "--data", fake.data]
+    second = subprocess.run(command + fake.options, capture_output=True, text=True, timeout=10)
+    assert second.returncode == 1 and "schema version 99" in second.stderr
+
+
+# --- the same with the real worker ---
+
+WALL_CLOCK = {"wall_seconds", "particle_steps_per_second", "attempt", "attempts", "threads"}
+
+
+def without_clocks(results):
+    return {key: {name: value for name, value in part.items() if name not in WALL_CLOCK} if isinstance(part, dict) else part
+            for key, part in results.items()}
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory):
+    """Results of LONG from a run without a daemon."""
+    folder = tmp_path_factory.mktemp("undisturbed")
+    (folder / "spec.json").write_text(json.dumps({"inputs": LONG}))
+    subprocess.run([BUILD / "repose", "run", folder / "spec.json", "--out", folder / "out"], check=True, timeout=300,
+                   stdout=subprocess.DEVNULL)
+    return json.loads((folder / "out" / "result.json").read_text())
+
+
+def same_results(daemon, job, undisturbed):
+    assert daemon.ended(job, 300)["status"] == "successful"
+    assert without_clocks(daemon.get(f"/jobs/{job}/results").json()) == without_clocks(undisturbed)
+    numbers = [sample["number"] for sample in daemon.get(f"/jobs/{job}/samples").json()["samples"]]
+    assert numbers == list(range(len(numbers))) and len(numbers) > 100
+
+
+def test_a_killed_real_worker_changes_no_number(daemon, undisturbed):
+    job = daemon.submit(LONG)
+    running(daemon, job)
+    os.kill(daemon.workers()[0], signal.SIGKILL)
+    assert daemon.until(job, lambda info: info["attempt"] == 2)
+    same_results(daemon, job, undisturbed)
+
+
+def test_a_killed_daemon_changes_no_number(daemon, undisturbed):
+    job = daemon.submit(LONG)
+    running(daemon, job)
+    workers = daemon.workers()
+    daemon.stop(signal.SIGKILL)
+    assert all(gone(worker) for worker in workers)
+    daemon.start()
+    assert daemon.job(job)["attempt"] == 2
+    same_results(daemon, job, undisturbed)
+
+
+def test_a_stopped_daemon_goes_on_from_the_checkpoint(daemon, undisturbed):
+    job = daemon.submit(LONG)
+    running(daemon, job)
+    assert daemon.stop() == 0
+    assert (daemon.data / "jobs" / job / "checkpoint.hdf").exists()
+    daemon.start()
+    running(daemon, job)
+    events = [json.loads(line) for line in (daemon.data / "jobs" / job / "events.ndjson").read_text().splitlines()]
+    assert [event["resumed"] for event in events if event["event"] == "start"] == [False, True]
+    same_results(daemon, job, undisturbed)
+    assert daemon.job(job)["attempt"] == 1

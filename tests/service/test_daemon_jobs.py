@@ -1,0 +1,180 @@
+"""The life of a job, told by the daemon's answers."""
+import csv
+import io
+import sqlite3
+import time
+
+import pytest
+import requests
+
+from conftest import SPEC
+
+OGC = "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/"
+
+
+def test_a_job_goes_from_accepted_to_its_results(fake):
+    answer = fake.post(label={"project": "first"}, headers={"Prefer": "respond-async"})
+    assert answer.status_code == 201
+    info = answer.json()
+    assert answer.headers["Location"] == f"/jobs/{info['jobID']}"
+    assert answer.headers["Preference-Applied"] == "respond-async"
+    assert info["status"] == "accepted" and info["type"] == "process" and info["processID"] == "drum"
+    assert info["estimate"]["memory_bytes"] > 0 and info["estimate"]["wall_seconds"] > 0
+    job = fake.job(info["jobID"], wait=20)
+    assert job["status"] == "successful" and job["progress"] == 100 and job["attempt"] == 1
+    assert job["created"] <= job["started"] <= job["finished"] <= job["updated"]
+    assert job["label"] == {"project": "first"}
+    assert job["summary"]["angle_deg"] == 23.5 and job["summary"]["regime"] == "rolling"
+    assert job["summary"]["friction"] == SPEC["contact"]["friction"]
+    results = fake.get(f"/jobs/{info['jobID']}/results").json()
+    assert results["repose"]["angle_deg"] == 23.5 and results["run"]["steps"] == 2000
+
+
+def test_results_outlive_the_job_folder(fake):
+    job = fake.submit()
+    fake.ended(job)
+    for path in sorted((fake.data / "jobs" / job).rglob("*"), reverse=True):
+        path.rmdir() if path.is_dir() else path.unlink()
+    assert fake.get(f"/jobs/{job}/results").json()["repose"]["angle_deg"] == 23.5
+    assert fake.get(f"/jobs/{job}/spec").json()["inputs"]["seed"] == 7
+    assert fake.get(f"/jobs/{job}/snapshots/0.hdf").status_code == 404
+
+
+def test_the_spec_is_on_the_disk_before_the_answer(fake):
+    job = fake.submit()
+    assert (fake.data / "jobs" / job / "spec.json").read_text() == fake.get(f"/jobs/{job}/spec").text
+
+
+def test_progress_is_told_while_it_runs(fake):
+    job = fake.submit(fake="slow", seconds="6")
+    seen = fake.until(job, lambda info: info["progress"] > 0)
+    assert seen["status"] == "running" and seen["message"] == "rotating" and 0 < seen["eta_seconds"] <= 6
+    answer = fake.get(f"/jobs/{job}/results")
+    assert answer.status_code == 404 and answer.json()["type"] == OGC + "result-not-ready"
+
+
+def test_waiting_ends_with_the_job_or_with_the_time(fake):
+    job = fake.submit(fake="slow", seconds="2")
+    start = time.monotonic()
+    assert fake.job(job, wait=1)["status"] == "running"
+    assert 0.9 < time.monotonic() - start < 1.7  # the second asked for, and no tick of the rounds on top
+    assert fake.job(job, wait=30)["status"] == "successful"
+    assert time.monotonic() - start < 10
+    assert fake.get(f"/jobs/{job}?wait=61").status_code == 400
+
+
+def test_dismissing_a_running_job_stops_its_worker(fake):
+    job = fake.submit(fake="slow", seconds="60")
+    fake.until(job, lambda info: info["status"] == "running" and fake.workers())
+    answer = requests.delete(f"{fake.url}/jobs/{job}")
+    assert answer.status_code == 200 and answer.json()["status"] == "dismissed"
+    end = time.monotonic() + 8
+    while fake.workers():
+        assert time.monotonic() < end
+        time.sleep(0.05)
+    assert fake.job(job)["status"] == "dismissed"
+    assert requests.delete(f"{fake.url}/jobs/{job}").status_code == 200  # twice is no mistake
+    assert fake.get(f"/jobs/{job}/results").status_code == 404
+
+
+def test_a_worker_that_ignores_the_request_is_killed(fake):
+    job = fake.submit(fake="stubborn", seconds="60")
+    fake.until(job, lambda info: info["progress"] > 0)
+    requests.delete(f"{fake.url}/jobs/{job}")
+    time.sleep(2)
+    assert fake.workers()  # it was asked, and stayed
+    end = time.monotonic() + 8
+    while fake.workers():
+        assert time.monotonic() < end
+        time.sleep(0.1)
+
+
+def test_an_ended_job_can_not_be_dismissed(fake):
+    job = fake.submit()
+    fake.ended(job)
+    answer = requests.delete(f"{fake.url}/jobs/{job}")
+    assert answer.status_code == 409 and "successful" in answer.json()["detail"]
+    assert fake.job(job)["status"] == "successful"
+
+
+@pytest.mark.parametrize("what, message", [("numerical", "overlap of 0.7 radii at step 12"), ("fault", "a word on standard error"),
+                                           ("no result", "no readable result.json")])
+def test_a_failed_job_says_why(fake, what, message):
+    job = fake.submit(fake=what)
+    info = fake.ended(job)
+    assert info["status"] == "failed" and message in info["message"] and info["attempt"] == 1
+    answer = fake.get(f"/jobs/{job}/results")
+    assert answer.status_code == 404 and message in answer.json()["detail"]
+    assert answer.headers["Content-Type"] == "application/problem+json"
+    if what == "numerical":
+        assert answer.json()["failure"]["detail"] == {"step": 12}
+    assert "a word on standard error" in fake.get(f"/jobs/{job}/log").text
+
+
+def test_a_full_disk_puts_the_job_off(fake):
+    job = fake.submit(fake="disk")
+    info = fake.until(job, lambda info: info["attempt"] == 2)
+    assert info["status"] == "accepted" and "disk" in info["message"]
+    time.sleep(1.5)
+    assert fake.job(job)["attempt"] == 2  # not at once again
+
+
+def test_samples_come_as_json_and_csv_a_page_at_a_time(fake):
+    job = fake.submit()
+    fake.ended(job)
+    samples = fake.get(f"/jobs/{job}/samples").json()["samples"]
+    assert [sample["number"] for sample in samples] == list(range(20))
+    assert samples[3]["values"] == {"angle_deg": 23.0, "wall_slip": 0.5} and samples[0]["values"]["wall_slip"] is None
+    page = fake.get(f"/jobs/{job}/samples?limit=15").json()
+    rest = fake.get(next(link["href"] for link in page["links"] if link["rel"] == "next")).json()
+    assert page["samples"] + rest["samples"] == samples and len(rest["links"]) == 1
+    for answer in (fake.get(f"/jobs/{job}/samples?format=csv"), fake.get(f"/jobs/{job}/samples", headers={"Accept": "text/csv"})):
+        rows = list(csv.DictReader(io.StringIO(answer.text)))
+        assert len(rows) == 20 and float(rows[3]["angle_deg"]) == 23.0 and rows[0]["wall_slip"] == ""
+    assert fake.get(f"/jobs/{job}/samples?format=xml").status_code == 400
+
+
+def test_the_list_is_newest_first_filtered_and_paged(fake):
+    jobs = [fake.submit(project=f"p{i}", fake="fault" if i % 2 else "quick") for i in range(6)]
+    for job in jobs:
+        fake.ended(job)
+    everything = fake.get("/jobs").json()
+    assert [info["jobID"] for info in everything["jobs"]] == jobs[::-1]
+    assert everything["counts"] == {"accepted": 0, "running": 0, "successful": 3, "failed": 3, "dismissed": 0}
+    assert [info["jobID"] for info in fake.get("/jobs?status=failed").json()["jobs"]] == jobs[5::-2]
+    assert [info["jobID"] for info in fake.get("/jobs?status=failed,successful&q=P4").json()["jobs"]] == [jobs[4]]
+    assert fake.get("/jobs?processID=heap").json()["jobs"] == []
+    seen, path = [], "/jobs?status=failed&limit=2&q=p"
+    while path:
+        page = fake.get(path).json()
+        seen += [info["jobID"] for info in page["jobs"]]
+        path = next((link["href"] for link in page["links"] if link["rel"] == "next"), None)
+        assert path is None or "status=failed" in path and "q=p" in path
+    assert seen == jobs[5::-2]
+    for bad in ("status=done", "limit=0", "limit=501", "cursor=x", "stauts=failed", "q=%00", "limit=1&limit=2"):
+        assert fake.get(f"/jobs?{bad}").status_code == 400, bad
+
+
+def test_jobs_of_more_threads_take_more_of_the_machine(tmp_path, fake):
+    wide = fake.submit(SPEC | {"threads": 2}, fake="slow", seconds="2")
+    narrow = fake.submit(fake="quick")
+    fake.until(wide, lambda info: info["status"] == "running")
+    assert fake.job(narrow)["status"] == "accepted"  # two workers of one thread: both threads are taken
+    assert fake.ended(wide)["finished"] <= fake.ended(narrow)["started"]
+
+
+def test_tables_bear_the_results(fake):
+    job = fake.submit(project="tables")
+    fake.ended(job)
+    fake.submit(fake="fault")
+    with sqlite3.connect(f"file:{fake.data / 'reposed.sqlite'}?mode=ro", uri=True) as database:
+        database.row_factory = sqlite3.Row
+        rows = database.execute("SELECT * FROM run_summary").fetchall()
+        assert len(rows) == 1
+        row = dict(rows[0])
+        strict = database.execute("SELECT count(*) FROM pragma_table_list WHERE type='table' AND strict=0 AND schema='main'"
+                                  " AND name NOT LIKE 'sqlite%'").fetchone()[0]
+    assert strict == 0
+    expected = {"id": job, "process": "drum", "status": "successful", "friction": 0.3, "angle_deg": 23.5, "regime": "rolling",
+                "steady": 1, "seed": 7, "solid_fraction": 0.59, "steps": 2000, "radial_index": None, "attempt": 1}
+    assert {name: row[name] for name in expected} == expected
