@@ -95,7 +95,7 @@ export function resultsInWords(results) {
   const rest = Object.fromEntries(Object.entries(repose).filter(([name]) => !hidden.includes(name)));
   return h('div', { class: 'results' },
     section('Angle of repose', { ...rest, ...repose.window }, angleTable(repose)),
-    section('Regime', regime),
+    section('Regime', { name: regime.name, ...regime }),
     isRecord(regime.predicted) ? section('Predicted boundaries of ω²R/g', regime.predicted) : null,
     isRecord(regime.evidence) ? section('Evidence for the regime', regime.evidence) : null,
     section('Segregation', segregation),

@@ -51,18 +51,19 @@ def in_slice(snapshot, thickness):
 def surface_offset(snapshot, angle, drum_radius):
     """Distance of the surface from the axis, along the line's normal, m; None without particles.
 
-    In a frame turned by the angle the surface is level: the median top of the columns in the middle of the chord,
-    each two particles wide."""
-    x, y = snapshot["position"][:, 0], snapshot["position"][:, 1]
+    In a frame turned by the angle the surface is level: the height at which the middle of the chord holds half as
+    much volume as it does inside the bed. Particles in flight above are too few to count."""
+    x, y, radius = snapshot["position"][:, 0], snapshot["position"][:, 1], snapshot["radius"]
     along = np.cos(angle) * x + np.sin(angle) * y
-    above = -np.sin(angle) * x + np.cos(angle) * y + snapshot["radius"]
-    if len(along) == 0:
+    above = -np.sin(angle) * x + np.cos(angle) * y
+    middle = np.abs(along) < 0.4 * drum_radius
+    if not middle.any():
         return None
-    width = 4.0 * snapshot["radius"].mean()
-    middle = np.abs(along) < 0.6 * drum_radius
-    column = np.floor(along / width).astype(int)
-    tops = [above[middle & (column == c)].max() for c in np.unique(column[middle])]
-    return float(np.median(tops)) if tops else float(above.max())
+    layer = 1.5 * radius.mean()
+    volume, edges = np.histogram(above[middle], np.arange(-drum_radius, drum_radius + layer, layer),
+                                 weights=radius[middle] ** 3)
+    bed = np.median(volume[volume > 0.1 * volume.max()])
+    return float(edges[np.flatnonzero(volume >= 0.5 * bed)[-1] + 1])
 
 
 def draw_wall(axes, snapshot, ink):
