@@ -29,7 +29,7 @@ void contact_list_clear(contact_list *list)
 dem_status contact_list_reserve(contact_list *list, size_t count)
 {
     if (count <= list->capacity) return DEM_OK;
-    contact_list grown = { .start = list->start, .capacity = round_up_to_block(count + count / 4) };
+    contact_list grown = { .start = list->start, .count = list->count, .capacity = round_up_to_block(count + count / 4) };
     const size_t n = grown.capacity;
     grown.first = array_create(n, sizeof *grown.first);
     grown.second = array_create(n, sizeof *grown.second);
