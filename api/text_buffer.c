@@ -21,10 +21,11 @@ static bool make_room(text_buffer *buffer, size_t extra)
 {
     if (buffer->failed) return false;
     const size_t needed = buffer->length + extra + 1;
-    if (needed <= buffer->capacity) return true;
+    const bool fits = needed - 1 <= buffer->limit;
+    if (fits && needed <= buffer->capacity) return true;
     size_t capacity = buffer->capacity ? buffer->capacity : 512;
     while (capacity < needed) capacity *= 2;
-    char *text = needed - 1 > buffer->limit ? NULL : realloc(buffer->text, capacity);
+    char *text = fits ? realloc(buffer->text, capacity) : NULL;
     if (!text) {
         buffer->failed = true;
         return false;

@@ -33,13 +33,19 @@ static bool is_listed(const char *list, const char *name)
     return strcasestr(list, wanted) != NULL;
 }
 
+/* count(*) over a WITH or a subquery comes here with the name the user gave it, and no column. */
+static bool reads_no_column(const char *table, const char *column)
+{
+    return column && column[0] == '\0' && table && strncasecmp(table, "pragma_", 7) != 0;
+}
+
 static int authorize(void *context, int action, const char *first, const char *second, const char *database, const char *trigger)
 {
     (void)context, (void)database, (void)trigger;
     switch (action) {
     case SQLITE_SELECT:
     case SQLITE_RECURSIVE: return SQLITE_OK;
-    case SQLITE_READ: return is_listed(tables, first) || first[0] == '\0' ? SQLITE_OK : SQLITE_DENY;
+    case SQLITE_READ: return is_listed(tables, first) || reads_no_column(first, second) ? SQLITE_OK : SQLITE_DENY;
     case SQLITE_FUNCTION: return is_listed(functions, second) ? SQLITE_OK : SQLITE_DENY;
     default: return SQLITE_DENY;
     }
