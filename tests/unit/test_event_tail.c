@@ -1,0 +1,99 @@
+/* Reading events.ndjson while somebody writes it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "event_tail.h"
+
+static FILE *file_with(const char *text)
+{
+    FILE *file = tmpfile();
+    assert_non_null(file);
+    fputs(text, file);
+    fflush(file);
+    return file;
+}
+
+static void a_line_counts_when_it_is_whole(void **state)
+{
+    (void)state;
+    FILE *file = file_with("{\"event\":\"sample\",\"number\":0}\n{\"event\":\"sample\",\"num");
+    event_batch batch;
+    assert_true(event_tail_read(fileno(file), 0, &batch));
+    assert_int_equal(json_array_size(batch.samples), 1);
+    const int64_t end = batch.end;
+    event_batch_clear(&batch);
+    fputs("ber\":1}\n", file);
+    fflush(file);
+    assert_true(event_tail_read(fileno(file), end, &batch));
+    assert_int_equal(json_array_size(batch.samples), 1);
+    assert_int_equal(json_integer_value(json_object_get(json_array_get(batch.samples, 0), "number")), 1);
+    event_batch_clear(&batch);
+    fclose(file);
+}
+
+static void the_latest_progress_counts_and_rubbish_does_not(void **state)
+{
+    (void)state;
+    FILE *file = file_with("{\"event\":\"progress\",\"progress\":10,\"eta_seconds\":5,\"phase\":\"settling\"}\nrubbish\n[]\n\n"
+                           "{\"event\":\"progress\",\"progress\":20.5,\"eta_seconds\":null,\"phase\":\"rotating\"}\n{\"event\":7}\n");
+    event_batch batch;
+    assert_true(event_tail_read(fileno(file), 0, &batch));
+    assert_true(batch.progress == 20.5 && isnan(batch.eta_seconds) && isnan(batch.speed));
+    assert_string_equal(batch.phase, "rotating");
+    assert_false(batch.more);
+    event_batch_clear(&batch);
+    fclose(file);
+}
+
+static void a_new_attempt_forgets_an_earlier_failure(void **state)
+{
+    (void)state;
+    FILE *file = file_with("{\"event\":\"failure\",\"message\":\"old\"}\n{\"event\":\"start\"}\n");
+    event_batch batch;
+    assert_true(event_tail_read(fileno(file), 0, &batch));
+    assert_null(batch.failure);
+    event_batch_clear(&batch);
+    fclose(file);
+}
+
+static void a_long_file_comes_in_pieces_without_loss(void **state)
+{
+    (void)state;
+    FILE *file = tmpfile();
+    const int count = 40000; /* some 2 MB, twice what one read takes */
+    for (int i = 0; i < count; i++) fprintf(file, "{\"event\":\"sample\",\"number\":%d,\"values\":{\"angle_deg\":20}}\n", i);
+    fflush(file);
+    int next = 0, reads = 0;
+    bool more = true;
+    for (int64_t offset = 0; more; reads++) {
+        event_batch batch;
+        assert_true(event_tail_read(fileno(file), offset, &batch));
+        for (size_t i = 0; i < json_array_size(batch.samples); i++)
+            assert_int_equal(json_integer_value(json_object_get(json_array_get(batch.samples, i), "number")), next++);
+        offset = batch.end;
+        more = batch.more;
+        event_batch_clear(&batch);
+    }
+    assert_int_equal(next, count);
+    assert_true(reads > 1);
+    fclose(file);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_line_counts_when_it_is_whole),
+        cmocka_unit_test(the_latest_progress_counts_and_rubbish_does_not),
+        cmocka_unit_test(a_new_attempt_forgets_an_earlier_failure),
+        cmocka_unit_test(a_long_file_comes_in_pieces_without_loss),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

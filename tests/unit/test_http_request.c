@@ -1,0 +1,147 @@
+/* Targets, parameters, Accept and routes: what a request is taken to mean. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "routes.h"
+#include "text_buffer.h"
+
+static const char *split(http_request *request, char *copy, const char *target)
+{
+    memset(request, 0, sizeof *request);
+    strcpy(copy, target);
+    return http_request_split_target(request, copy);
+}
+
+static void parameters_are_decoded_once(void **state)
+{
+    (void)state;
+    http_request request;
+    char copy[200];
+    assert_null(split(&request, copy, "/jobs?q=a%2Bb+c%26d%253D&status=&limit"));
+    assert_string_equal(request.path, "/jobs");
+    assert_string_equal(http_request_parameter(&request, "q"), "a+b c&d%3D");
+    assert_string_equal(http_request_parameter(&request, "status"), "");
+    assert_string_equal(http_request_parameter(&request, "limit"), "");
+    assert_null(http_request_parameter(&request, "cursor"));
+}
+
+static void strange_targets_are_refused(void **state)
+{
+    (void)state;
+    static const char *const targets[] = {"", "jobs", "//", "/a//b", "/./a", "/a/..", "/a/../b", "/%2e%2e", "/a%00", "/a b", "/a\\b",
+                                          "/jobs?q=%00", "/jobs?q=%4", "/jobs?q=%gg", "/jobs?q=%ff", "/jobs?a=1&a=2",
+                                          "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&q"};
+    http_request request;
+    char copy[200];
+    for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) assert_non_null(split(&request, copy, targets[i]));
+    static const char *const good[] = {"/", "/jobs/", "/web/a.b_c~d-e", "/...", "/jobs?", "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p"};
+    for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) assert_null(split(&request, copy, good[i]));
+}
+
+static void whole_numbers_have_bounds(void **state)
+{
+    (void)state;
+    http_request request;
+    char copy[200], problem[200];
+    int64_t value;
+    assert_null(split(&request, copy, "/?a=7&b=x&c=7.5&d=%207&e=99999999999999999999&f="));
+    assert_true(http_request_integer(&request, "a", 0, 10, 5, &value, problem, sizeof problem) && value == 7);
+    assert_true(http_request_integer(&request, "missing", 0, 10, 5, &value, problem, sizeof problem) && value == 5);
+    assert_false(http_request_integer(&request, "a", 0, 6, 5, &value, problem, sizeof problem));
+    assert_string_equal(problem, "parameter a is \"7\"; must be a whole number in [0, 6]");
+    for (const char *name = "b\0c\0d\0e\0f\0"; *name; name += 2)
+        assert_false(http_request_integer(&request, name, 0, INT64_MAX, 5, &value, problem, sizeof problem));
+}
+
+static void accept_names_types_not_wildcards(void **state)
+{
+    (void)state;
+    const struct { const char *accept; bool html; } cases[] = {
+        {"text/html", true}, {"application/json, text/html;q=0.5", true}, {"TEXT/HTML", true}, {"*/*", false}, {NULL, false},
+        {"text/htmlx", false}, {"text/html;q=0, application/json", false}, {"application/json", false}, {"", false}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const http_request request = {.accept = cases[i].accept};
+        assert_int_equal(http_request_accepts(&request, "text/html"), cases[i].html);
+    }
+}
+
+static void answer_nothing(api_service *service, const http_request *request, http_response *response)
+{
+    (void)service, (void)request, (void)response;
+}
+
+static const http_route table[] = {
+    {"GET", "/jobs/{}", "", answer_nothing, .open = false},
+    {"DELETE", "/jobs/{}", "", answer_nothing, .open = false},
+    {"GET", "/jobs/{}/snapshots/{}", "", answer_nothing, .open = false},
+};
+
+static const http_route *match(const char *method, const char *path, http_request *request, int *status)
+{
+    *request = (http_request){.method = method, .path = path};
+    http_response response;
+    http_response_init(&response);
+    const http_route *route = routes_match(table, 3, request, &response);
+    *status = route ? 0 : response.status;
+    if (response.status == 405) assert_string_equal(response.allow, "GET, HEAD, DELETE");
+    http_response_clear(&response);
+    return route;
+}
+
+static void routes_fill_in_segments(void **state)
+{
+    (void)state;
+    http_request request;
+    int status;
+    assert_ptr_equal(match("GET", "/jobs/abc/snapshots/7.hdf", &request, &status), &table[2]);
+    assert_string_equal(request.segment[0], "abc");
+    assert_string_equal(request.segment[1], "7.hdf");
+    assert_ptr_equal(match("HEAD", "/jobs/abc", &request, &status), &table[0]);
+    assert_ptr_equal(match("DELETE", "/jobs/abc", &request, &status), &table[1]);
+    assert_null(match("PUT", "/jobs/abc", &request, &status));
+    assert_int_equal(status, 405);
+    static const char *const unknown[] = {"/jobs", "/jobs/", "/jobs/a/b", "/jobs/a/snapshots", "/jobs/a/snapshots/b/c",
+                                          "/jobs/0123456789012345678901234567890123456789012345678901234567890123456789"};
+    for (size_t i = 0; i < sizeof unknown / sizeof unknown[0]; i++) {
+        assert_null(match("GET", unknown[i], &request, &status));
+        assert_int_equal(status, 404);
+    }
+}
+
+static void a_buffer_keeps_its_cap(void **state)
+{
+    (void)state;
+    text_buffer buffer;
+    text_buffer_init(&buffer, 10);
+    text_buffer_add(&buffer, "0123456789", 10);
+    assert_false(buffer.failed);
+    text_buffer_add(&buffer, "x", 1); /* there is room in its memory, but not in its cap */
+    assert_true(buffer.failed);
+    assert_string_equal(buffer.text, "0123456789");
+    text_buffer_clear(&buffer);
+}
+
+static void ids_have_one_shape(void **state)
+{
+    (void)state;
+    assert_true(job_id_is_valid("20261122-014455-3f9a2c71"));
+    static const char *const bad[] = {"", "..", "20261122-014455-3f9a2c7", "20261122-014455-3f9a2c711", "20261122-014455-3F9A2C71",
+                                      "20261122/014455-3f9a2c71", "2026112x-014455-3f9a2c71", "20261122-014455-3f9a2c7g"};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) assert_false(job_id_is_valid(bad[i]));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parameters_are_decoded_once), cmocka_unit_test(strange_targets_are_refused),
+        cmocka_unit_test(whole_numbers_have_bounds),   cmocka_unit_test(accept_names_types_not_wildcards),
+        cmocka_unit_test(routes_fill_in_segments),     cmocka_unit_test(a_buffer_keeps_its_cap),
+        cmocka_unit_test(ids_have_one_shape),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
