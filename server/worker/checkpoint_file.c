@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "hdf_file.h"
 #include "hdf_read.h"
@@ -118,7 +117,6 @@ static bool read_run(hid_t file, checkpoint *saved, const char *params)
 bool checkpoint_read(checkpoint *saved, const char *params)
 {
     memset(saved, 0, sizeof *saved);
-    if (access(JOB_CHECKPOINT_FILE, F_OK) != 0) return false;
     const hid_t file = H5Fopen(JOB_CHECKPOINT_FILE, H5F_ACC_RDONLY, H5P_DEFAULT);
     const bool read = file >= 0 && read_run(file, saved, params) && read_frames(file, saved)
                    && read_state(file, &saved->state);

@@ -19,7 +19,7 @@ typedef struct checkpoint {
 /* params: the canonical spec. The file of before stays whole until the new one is safe. */
 bool checkpoint_write(const checkpoint *saved, const char *params);
 
-/* False when there is no checkpoint of this spec, or none that can be read (logged). The checkpoint then owns its
+/* False when it can't be read or is of another spec (logged). The checkpoint then owns its
  * frames and the state's arrays. */
 bool checkpoint_read(checkpoint *saved, const char *params);
 void checkpoint_clear(checkpoint *saved);

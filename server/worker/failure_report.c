@@ -62,7 +62,8 @@ enum worker_exit failure_report(event_log *events, dem_status status, const dem_
 {
     const failure_kind kind = kind_of(status);
     char message[700];
-    if (failure && failure->status == status) describe(failure, message, sizeof message);
+    if (failure && failure->status != status) failure = NULL; /* of something else, or of nothing */
+    if (failure) describe(failure, message, sizeof message);
     else snprintf(message, sizeof message, "%s", dem_status_text(status));
     json_t *event = json_pack("{s:s, s:s, s:s}", "event", "failure", "status", kind.name, "message", message);
     if (event && failure) {

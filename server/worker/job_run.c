@@ -279,7 +279,8 @@ static enum worker_exit write_result(run *r)
     return written ? WORKER_DONE : fail_for_disk(r, JOB_RESULT_FILE);
 }
 
-/* Takes up where the checkpoint of an earlier attempt left off; false: there is none, the scene is as new. */
+/* Takes up where the checkpoint of an earlier attempt left off; false: there is none that can be used, and the scene
+ * may be half restored. */
 static bool resume(run *r, double *earlier_seconds)
 {
     checkpoint saved;
@@ -301,8 +302,12 @@ static bool resume(run *r, double *earlier_seconds)
     return status == DEM_OK;
 }
 
+/* A new scene, in place of the one there may be. */
 static dem_status prepare_scene(run *r)
 {
+    dem_scene_free(r->scene);
+    free(r->frames);
+    r->frames = NULL;
     const dem_status status = dem_scene_create(&r->spec->drum, &r->scene);
     if (status != DEM_OK) return status;
     r->frame_width = dem_frame_width(r->scene);
@@ -315,7 +320,10 @@ static enum worker_exit begin(run *r)
     dem_status status = prepare_scene(r);
     if (status != DEM_OK) return fail(r, status);
     double earlier_seconds = 0.0;
-    const bool resumed = resume(r, &earlier_seconds);
+    const bool has_checkpoint = access(JOB_CHECKPOINT_FILE, F_OK) == 0;
+    const bool resumed = has_checkpoint && resume(r, &earlier_seconds);
+    if (has_checkpoint && !resumed) status = prepare_scene(r);
+    if (status != DEM_OK) return fail(r, status);
     progress_init(&r->progress, r->spec, &r->plan, r->scene, earlier_seconds);
     r->last_checkpoint = monotonic_seconds();
     r->phase = dem_scene_phase(r->scene);
