@@ -80,6 +80,9 @@ if what in ("fault", "disk"):
     sys.exit({"fault": 1, "disk": 5}[what])
 if what == "dies":
     os.kill(os.getpid(), signal.SIGKILL)
-run()
-if what != "no result":
-    publish(FOLDER / "result.json", json.dumps(RESULT))
+try:
+    run()
+    if what != "no result":
+        publish(FOLDER / "result.json", json.dumps(RESULT))
+except OSError:  # the disk is full
+    sys.exit(5)

@@ -1,0 +1,61 @@
+"""A full disk: refused with 507, and nothing that was accepted is lost."""
+import os
+import subprocess
+
+import pytest
+
+from conftest import FAKE_WORKER, Daemon
+
+
+@pytest.fixture
+def small_disk(tmp_path):
+    """A daemon whose data folder is a file system of 4 MB."""
+    data = tmp_path / "data"
+    data.mkdir()
+    if subprocess.run(["mount", "-t", "tmpfs", "-o", "size=4m", "tmpfs", data], capture_output=True).returncode != 0:
+        pytest.skip("mounting a small file system is not allowed here")
+    daemon = Daemon(tmp_path, worker=FAKE_WORKER).start()
+    yield daemon
+    if daemon.is_running():
+        daemon.stop()
+    subprocess.run(["umount", "-l", data], check=True)
+
+
+def fill(daemon):
+    ballast = daemon.data / "ballast"
+    with open(ballast, "wb", buffering=0) as file:
+        for size in (65536, 512, 1):
+            try:
+                while True:
+                    file.write(b"x" * size)
+            except OSError:
+                continue
+    assert os.statvfs(daemon.data).f_bavail == 0
+    return ballast
+
+
+def test_a_job_that_finds_no_room_is_refused_and_leaves_nothing(small_disk):
+    kept = small_disk.submit(fake="fault")
+    small_disk.ended(kept)
+    ballast = fill(small_disk)
+    answer = small_disk.post()
+    assert answer.status_code == 507 and "disk is full" in answer.json()["detail"]
+    assert small_disk.get("/readyz").status_code == 503
+    assert [info["jobID"] for info in small_disk.get("/jobs").json()["jobs"]] == [kept]
+    ballast.unlink()
+    assert os.listdir(small_disk.data / "jobs") == [kept]
+    assert small_disk.ended(small_disk.submit())["status"] == "successful"
+
+
+def test_an_end_that_can_not_be_recorded_is_recorded_later(small_disk):
+    slow = small_disk.submit(fake="slow", seconds="4")
+    small_disk.until(slow, lambda info: info["progress"] > 0)
+    ballast = fill(small_disk)
+    # The worker leaves when it can't write; the daemon can't write that down either, and must not forget it.
+    small_disk.until(slow, lambda info: not small_disk.workers(), 20)
+    assert small_disk.job(slow)["status"] == "running"
+    assert small_disk.get("/healthz").status_code == 200
+    ballast.unlink()
+    info = small_disk.until(slow, lambda info: info["attempt"] == 2, 20)
+    assert info["status"] == "accepted" and "could not write to the disk" in info["message"]
+    assert "reposed_store_failures_total 0" not in small_disk.get("/metrics").text
