@@ -11,12 +11,17 @@
  *       {"event":"snapshot","number":0,"step":..,"time":..,"file":"000000.hdf","bytes":..,"particles":..}
  *       {"event":"checkpoint","step":..,"time":..}
  *       {"event":"failure","status":"overlap-too-large","message":"...","detail":{...}}
+ *           status: not-a-number, overlap-too-large, particle-escaped, never-settled (all with detail: step, time,
+ *           particle, other, position, quantity, value, limit, unit, likely_cause); does-not-fit, bad-parameter,
+ *           no-memory, disk
+ *     total_steps of start is an estimate: when rotation begins is not known before.
  *     A later attempt goes on from the checkpoint and repeats what came after it with the same numbers: readers
  *     key samples and snapshots by "number" and let the later line win.
  *   snapshots/000000.hdf ...   written as .tmp, closed, fsynced, renamed; never changed after
  *   snapshots.hdf.series       opens them in ParaView as one time series
  *   checkpoint.hdf             newest full state
- *   result.json                the document of GET /jobs/{id}/results; written last, by rename
+ *   result.json                the document of GET /jobs/{id}/results; written last, by rename. A worker that finds
+ *                              it, of the same spec, has nothing to do and ends with 0
  *   log.txt                    the worker's stderr
  */
 #ifndef JOB_FOLDER_H

@@ -1,0 +1,110 @@
+/* Claims about JSON text: what is refused on the way in, and how numbers look on the way out. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka.h needs the four above. */
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "json_text.h"
+#include "result_json.h"
+
+/* The detail of the problem, or "" when the text is read. */
+static const char *refusal(const char *text, char *detail, size_t size)
+{
+    problem_list problems;
+    problem_list_init(&problems);
+    json_t *document = json_text_load(text, strlen(text), &problems);
+    json_t *problem = json_array_get(problems.errors, 0);
+    snprintf(detail, size, "%s", problem ? json_string_value(json_object_get(problem, "detail")) : "");
+    assert_true((document == NULL) == (problem != NULL));
+    json_decref(document);
+    problem_list_clear(&problems);
+    return detail;
+}
+
+static void a_number_that_would_turn_into_0_is_refused(void **state)
+{
+    (void)state;
+    char detail[300];
+    assert_non_null(strstr(refusal("{\"a\":\n 1e-400}", detail, sizeof detail), "line 2"));
+    assert_string_not_equal(refusal("[-0.001e-330]", detail, sizeof detail), "");
+    assert_string_equal(refusal("[0, 0.0, -0, 0e5, 0.000e-400, 1e-300, 100]", detail, sizeof detail), "");
+}
+
+static void digits_inside_a_text_are_no_numbers(void **state)
+{
+    (void)state;
+    char detail[300];
+    assert_string_equal(refusal("{\"1e-400\": \"1e-400 \\\" 1e-400 \\\\\"}", detail, sizeof detail), "");
+}
+
+static void numbers_are_written_in_the_fewest_digits_that_read_back_the_same(void **state)
+{
+    (void)state;
+    const double numbers[] = {0.1, 0.00378, 1.0 / 3.0, 1e-300, 1e22, 2500, 0.30000000000000004, 5e-324, -0.05,
+                              1.7976931348623157e308};
+    const char *const written[] = {"0.1", "0.00378", NULL, "1e-300", "1e+22", "2500.0", "0.30000000000000004", NULL,
+                                   "-0.05", NULL};
+    for (size_t n = 0; n < sizeof numbers / sizeof numbers[0]; n++) {
+        json_t *document = json_pack("[f]", numbers[n]);
+        char *text = json_text_write(document);
+        json_t *again = json_loads(text, 0, NULL);
+        assert_true(json_is_real(json_array_get(again, 0)));
+        assert_true(json_real_value(json_array_get(again, 0)) == numbers[n]);
+        if (written[n]) assert_non_null(strstr(text, written[n]));
+        json_decref(again);
+        json_decref(document);
+        free(text);
+    }
+}
+
+static void what_was_not_measured_is_null(void **state)
+{
+    (void)state;
+    job_result result;
+    job_result_init(&result);
+    json_t *document = job_result_to_json(&result);
+    assert_true(json_is_null(json_object_get(json_object_get(document, "repose"), "angle_deg")));
+    assert_true(json_is_null(json_object_get(json_object_get(document, "regime"), "name")));
+    assert_true(json_is_null(json_object_get(json_object_get(document, "run"), "steps")));
+    json_decref(document);
+}
+
+static void results_stand_under_their_own_names(void **state)
+{
+    (void)state;
+    job_result result;
+    job_result_init(&result);
+    result.measured.repose.angle[DEM_SURFACE_FIT].mean_deg = 22.5;
+    result.measured.repose.angle[DEM_CHORD].mean_deg = 23.5;
+    result.measured.regime.predicted_stationary = 2.5;
+    result.measured.regime.regime = DEM_ROLLING;
+    result.has_regime = true;
+    result.run.seed = 9007199254740991.0;
+    json_t *document = job_result_to_json(&result);
+    json_t *repose = json_object_get(document, "repose"), *regime = json_object_get(document, "regime");
+    assert_true(json_real_value(json_object_get(repose, "angle_deg")) == 22.5);
+    assert_true(json_real_value(json_object_get(json_object_get(repose, "other_methods"), "chord")) == 23.5);
+    assert_null(json_object_get(json_object_get(repose, "other_methods"), "surface-fit"));
+    assert_true(json_real_value(json_object_get(json_object_get(regime, "predicted"), "stationary_eq33")) == 2.5);
+    assert_string_equal(json_string_value(json_object_get(regime, "name")), "rolling");
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(document, "run"), "seed")), 9007199254740991);
+    json_decref(document);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_number_that_would_turn_into_0_is_refused),
+        cmocka_unit_test(digits_inside_a_text_are_no_numbers),
+        cmocka_unit_test(numbers_are_written_in_the_fewest_digits_that_read_back_the_same),
+        cmocka_unit_test(what_was_not_measured_is_null),
+        cmocka_unit_test(results_stand_under_their_own_names),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
