@@ -75,18 +75,20 @@ store_status store_find_job(job_store *store, const char *id, job_record *job)
     return status;
 }
 
-/* Only fixed pieces go into the SQL; what the user gave is bound. */
+/* Only fixed pieces go into the SQL; what the user gave is bound. One status walks its index in order; for several
+ * the + keeps the walk on the jobs themselves, newest first, where an index would need a sort of all it finds. */
 static void write_list_sql(const job_filter *filter, text_buffer *sql)
 {
-    text_buffer_print(sql, SELECT_JOBS " WHERE (?1=0 OR job.number<?1) AND (?2 IS NULL OR job.process=?2)"
+    const bool single = (filter->statuses & (filter->statuses - 1U)) == 0U;
+    text_buffer_print(sql, SELECT_JOBS " WHERE job.number<?1 AND (?2 IS NULL OR job.process=?2)"
                            " AND (?3 IS NULL OR instr(lower(job.label), lower(?3)) OR instr(job.id, ?3))");
-    if (filter->statuses) {
-        text_buffer_print(sql, " AND job.status IN (''");
-        for (int i = 0; i < JOB_STATUSES; i++)
-            if (filter->statuses & (1U << i)) text_buffer_print(sql, ",'%s'", job_status_name((job_status)i));
-        text_buffer_print(sql, ")");
+    const char *before = single ? " AND job.status=" : " AND +job.status IN (";
+    for (int i = 0; i < JOB_STATUSES; i++) {
+        if (!(filter->statuses & (1U << i))) continue;
+        text_buffer_print(sql, "%s'%s'", before, job_status_name((job_status)i));
+        before = ",";
     }
-    text_buffer_print(sql, " ORDER BY job.number DESC LIMIT ?4");
+    text_buffer_print(sql, "%s ORDER BY job.number DESC LIMIT ?4", single ? "" : ")");
 }
 
 store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context)
@@ -95,7 +97,7 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
     text_buffer_init(&sql, 8192);
     write_list_sql(filter, &sql);
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "itti", filter->before, filter->process, filter->text, filter->limit);
+    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "itti", filter->before ? filter->before : INT64_MAX, filter->process, filter->text, filter->limit);
     store_status status = STORE_FAILED;
     if (statement) {
         int code;
