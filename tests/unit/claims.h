@@ -1,0 +1,62 @@
+/* What every unit test of the core starts from: cmocka, and checks that say what they saw. */
+#ifndef CLAIMS_H
+#define CLAIMS_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka.h needs the four above. */
+#include <cmocka.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "real.h"
+
+/* Rounding of the numbers that contacts are computed in: tolerances are stated in multiples of it. */
+#define ROUNDING (sizeof(real) == sizeof(float) ? (double)FLT_EPSILON : DBL_EPSILON)
+
+#define CHECK_BETWEEN(value, low, high) check_between(#value, value, low, high, __FILE__, __LINE__)
+#define CHECK_NEAR(value, expected, tolerance) check_near(#value, value, expected, tolerance, __FILE__, __LINE__)
+
+/* Written so that a NaN fails. */
+static inline void check_between(const char *what, double value, double low, double high, const char *file, int line)
+{
+    if (value >= low && value <= high) return;
+    print_error("%s is %.17g; claimed to lie in [%.10g, %.10g]\n", what, value, low, high);
+    _fail(file, line);
+}
+
+static inline void check_near(const char *what, double value, double expected, double tolerance, const char *file, int line)
+{
+    if (fabs(value - expected) <= tolerance) return;
+    print_error("%s is %.17g; claimed %.17g within %.3g, off by %.3g\n", what, value, expected, tolerance, value - expected);
+    _fail(file, line);
+}
+
+/* A test's own random numbers (a linear congruence), so that nothing under test makes its own questions. */
+typedef struct dice {
+    uint64_t state;
+} dice;
+
+static inline double dice_uniform(dice *d, double low, double high)
+{
+    d->state = d->state * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    return low + (high - low) * ((double)(d->state >> 11) * 0x1p-53);
+}
+
+/* A direction, uniform over the sphere. */
+static inline void dice_direction(dice *d, double n[3])
+{
+    const double z = dice_uniform(d, -1, 1), phi = dice_uniform(d, -M_PI, M_PI), rho = sqrt(1 - z * z);
+    n[0] = rho * cos(phi);
+    n[1] = rho * sin(phi);
+    n[2] = z;
+}
+
+#endif
