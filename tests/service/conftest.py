@@ -29,6 +29,8 @@ class Daemon:
     def __init__(self, folder, worker=None, options=()):
         self.folder, self.data = folder, folder / "data"
         self.options = list(options) + (["--worker", str(worker)] if worker else [])
+        if BUILD.parent != ROOT:  # the page and the OpenAPI document are looked for beside the build folder
+            self.options = ["--web", str(ROOT / "web"), "--api-file", str(ROOT / "api/openapi.yaml"), *self.options]
         self.port, self.process = 0, None
 
     @property

@@ -172,8 +172,7 @@ def test_a_stopped_daemon_goes_on_from_the_checkpoint(daemon, undisturbed):
     assert daemon.stop() == 0
     assert (daemon.data / "jobs" / job / "checkpoint.hdf").exists()
     daemon.start()
-    running(daemon, job)
+    same_results(daemon, job, undisturbed)
     events = [json.loads(line) for line in (daemon.data / "jobs" / job / "events.ndjson").read_text().splitlines()]
     assert [event["resumed"] for event in events if event["event"] == "start"] == [False, True]
-    same_results(daemon, job, undisturbed)
     assert daemon.job(job)["attempt"] == 1
