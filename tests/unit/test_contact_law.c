@@ -1,0 +1,340 @@
+/* Claims about the contact law alone: the scalar functions of contact_law.h against closed forms that the law's
+ * equations have (core/NUMERICS.md), with the test's own stepping. */
+#include "claims.h"
+#include "contact_law.h"
+
+static const double K_1 = 1000, MU_N = 2, K_T = 800; /* N/m, N, N/m */
+static const real UP[3] = { 0, 0, 1 };
+
+static real force_at(double alpha, double k_2, real *alpha_0) { return normal_force((real)alpha, (real)K_1, (real)k_2, alpha_0); }
+
+/* ---- normal ---- */
+
+static void the_normal_spring_loads_along_k1_and_unloads_along_k2(void **unused)
+{
+    (void)unused;
+    const double k_2 = 1600, largest = 1e-4, residual = largest * (1 - K_1 / k_2), tolerance = 8 * ROUNDING * K_1 * largest;
+    real alpha_0 = 0;
+    for (int k = 0; k <= 10; k++) CHECK_NEAR(force_at(largest * k / 10, k_2, &alpha_0), K_1 * largest * k / 10, tolerance);
+    CHECK_NEAR(alpha_0, residual, 4 * ROUNDING * largest);
+    static const double down_and_up[] = { 1.0, 0.9, 0.7, 0.5, 0.38, 0.5, 0.8, 0.95, 1.0 };
+    for (int k = 0; k < 9; k++)
+        CHECK_NEAR(force_at(largest * down_and_up[k], k_2, &alpha_0), k_2 * (largest * down_and_up[k] - residual), tolerance);
+    /* beyond all before, K1 takes over where the branches meet */
+    CHECK_NEAR(force_at(1.5 * largest, k_2, &alpha_0), K_1 * 1.5 * largest, tolerance);
+}
+
+static void the_normal_force_never_pulls_and_is_forgotten_after_parting(void **unused)
+{
+    (void)unused;
+    real alpha_0 = 0;
+    assert_true(force_at(1e-4, 1600, &alpha_0) > 0);
+    assert_true(force_at(2e-5, 1600, &alpha_0) == 0); /* within the residual overlap: no force, but not forgotten */
+    assert_true(alpha_0 > 0);
+    assert_true(force_at(-1e-9, 1600, &alpha_0) == 0);
+    assert_true(alpha_0 == 0);
+    CHECK_NEAR(force_at(1e-5, 1600, &alpha_0), K_1 * 1e-5, 4 * ROUNDING * K_1 * 1e-5); /* a new contact loads along K1 */
+}
+
+/* Leap-frog at 2000 steps a contact: its own error is (omega dt)^2/8 of either branch, below 1e-6. */
+static void a_collision_integrated_with_the_law_alone_has_the_closed_forms(void **unused)
+{
+    (void)unused;
+    static const double ratios[] = { 1.0, 1.2, 1.5625, 4.0, 25.0 }; /* K2/K1 */
+    for (int k = 0; k < 5; k++) {
+        const double e = 1 / sqrt(ratios[k]), m = 1e-4, v_0 = 0.7, t_c = M_PI / 2 * sqrt(m / K_1) * (1 + e), dt = t_c / 2000;
+        double alpha = 0, v = v_0, time = 0, largest = 0;
+        real alpha_0 = 0, f;
+        do {
+            f = force_at(alpha, K_1 * ratios[k], &alpha_0);
+            v -= dt * (double)f / m;
+            alpha += dt * v;
+            largest = fmax(largest, alpha);
+            time += dt;
+        } while (v > 0 || f > 0);
+        CHECK_NEAR(-v / v_0, e, 1e-5 + 100 * ROUNDING);
+        CHECK_NEAR(time, t_c, 3 * dt);
+        CHECK_NEAR(largest, v_0 * sqrt(m / K_1), (1e-5 + 10 * ROUNDING) * largest);
+    }
+}
+
+/* Work done on a virgin contact along any path that ends where it began, by the trapezoid rule; wrong only in
+ * increments that cross a kink, by at most K2 delta^2/8 each. */
+static void closed_normal_paths_never_give_energy(void **unused)
+{
+    (void)unused;
+    dice d = { 11 };
+    enum { LEGS = 8, STEPS = 500 };
+    for (int trial = 0; trial < 500; trial++) {
+        const double k_2 = K_1 * dice_uniform(&d, 1, 5);
+        double from = 0, work = 0, largest = 0, kinks = 0;
+        real alpha_0 = 0, before = 0;
+        for (int leg = 0; leg < LEGS; leg++) {
+            const double to = leg + 1 == LEGS ? 0 : dice_uniform(&d, -2e-5, 1e-4), delta = (to - from) / STEPS;
+            for (int k = 1; k <= STEPS; k++) {
+                const real now = force_at(from + k * delta, k_2, &alpha_0);
+                work += 0.5 * ((double)before + (double)now) * delta;
+                before = now;
+            }
+            largest = fmax(largest, to);
+            kinks += 3 * k_2 * delta * delta / 8;
+            from = to;
+        }
+        CHECK_BETWEEN(work, -kinks - 1e3 * ROUNDING * k_2 * largest * largest, INFINITY);
+    }
+}
+
+/* ---- friction at constant normal force ---- */
+
+static double slide(real t[3], real *t_star, double distance, int steps, double mu_n)
+{
+    double work = 0;
+    for (int k = 0; k < steps; k++) {
+        const real before = t[0], ds[3] = { (real)(distance / steps), 0, 0 };
+        friction_increment(UP, ds, (real)mu_n, (real)K_T, t, t_star);
+        work += 0.5 * (double)(before + t[0]) * (distance / steps);
+    }
+    return work;
+}
+
+/* dT/ds = K_T0 (1 - T/mu N)^(1/3) has T = mu N (1 - (1 - 2 K_T0 s/(3 mu N))^(3/2)): Mindlin's curve, which reaches slip
+ * at s = 3 mu N/(2 K_T0). The increments take the stiffness at their start: wrong by one increment's share, 1/1000. */
+static void the_first_slide_follows_mindlins_curve_to_slip(void **unused)
+{
+    (void)unused;
+    const double slip = 1.5 * MU_N / K_T;
+    real t[3] = { 0 }, t_star = 0;
+    for (int k = 1; k <= 12; k++) {
+        slide(t, &t_star, slip / 10, 100, MU_N);
+        const double left = fmax(0, 1 - k / 10.0);
+        CHECK_NEAR(t[0], MU_N * (1 - pow(left, 1.5)), 1.5e-3 * MU_N);
+    }
+    CHECK_NEAR(t[0], MU_N, 4 * ROUNDING * MU_N);
+}
+
+/* After a turn at t*: dT/ds = K_T0 ((1 + t)/(1 + t*))^(1/3), which reaches the opposite slip after
+ * 3 mu N (1 + t*)/(2 K_T0); with u = (1 + t)/(1 + t*), u^(2/3) = 1 - 2 K_T0 |s|/(3 mu N (1 + t*)). */
+static void after_a_reversal_the_spring_starts_stiff_and_goes_over_to_the_opposite_slip(void **unused)
+{
+    (void)unused;
+    static const double turn_at[] = { 0.3, 0.7, 1.0 }; /* t* */
+    for (int c = 0; c < 3; c++) {
+        real t[3] = { 0 }, t_star = 0;
+        const double to_turn = 1.5 * MU_N / K_T * (1 - pow(1 - turn_at[c], 2.0 / 3));
+        slide(t, &t_star, to_turn, 4000, MU_N);
+        const double t_turn = (double)t[0] / MU_N, whole = 1.5 * MU_N / K_T * (1 + t_turn);
+        CHECK_NEAR(t_turn, turn_at[c], 1e-3);
+        for (int k = 1; k <= 11; k++) {
+            slide(t, &t_star, -whole / 10, 400, MU_N);
+            const double u = pow(fmax(0, 1 - k / 10.0), 1.5);
+            CHECK_NEAR(t[0], MU_N * (u * (1 + t_turn) - 1), 2e-3 * MU_N);
+        }
+    }
+}
+
+/* Two thousand random increments a trial, some of them far beyond slip. The scale of T is one product and one root:
+ * a few roundings over the limit. */
+static void friction_never_exceeds_its_limit_and_never_leaves_the_tangent_plane(void **unused)
+{
+    (void)unused;
+    dice d = { 5 };
+    for (int trial = 0; trial < 200; trial++) {
+        double n[3];
+        dice_direction(&d, n);
+        const real normal[3] = { (real)n[0], (real)n[1], (real)n[2] };
+        real t[3] = { 0 }, t_star = 0;
+        for (int k = 0; k < 2000; k++) {
+            const double mu_n = dice_uniform(&d, 0, 2), size = pow(10, dice_uniform(&d, -7, -2));
+            double ds[3], along = 0;
+            dice_direction(&d, ds);
+            for (int c = 0; c < 3; c++) along += ds[c] * n[c];
+            real tangential[3];
+            for (int c = 0; c < 3; c++) tangential[c] = (real)(size * (ds[c] - along * n[c]));
+            friction_increment(normal, tangential, (real)mu_n, (real)K_T, t, &t_star);
+            double tt = 0, tn = 0;
+            for (int c = 0; c < 3; c++) {
+                tt += (double)t[c] * (double)t[c];
+                tn += (double)t[c] * n[c];
+            }
+            CHECK_BETWEEN(sqrt(tt), 0, mu_n * (1 + 16 * ROUNDING));
+            CHECK_NEAR(tn, 0, 8 * ROUNDING * (mu_n + K_T * size));
+            CHECK_BETWEEN(t_star, -1 - 4 * ROUNDING, 1 + 4 * ROUNDING);
+        }
+    }
+}
+
+static void a_turning_contact_turns_its_friction_and_keeps_its_magnitude(void **unused)
+{
+    (void)unused;
+    real t[3] = { (real)0.8, 0, 0 }, t_star = 0;
+    const real nothing[3] = { 0 };
+    for (int k = 0; k <= 90; k++) { /* a quarter turn about y, in steps of a degree */
+        const real n[3] = { (real)sin(k * M_PI / 180), 0, (real)cos(k * M_PI / 180) };
+        friction_increment(n, nothing, (real)MU_N, (real)K_T, t, &t_star);
+    }
+    CHECK_NEAR(t[0], 0, 100 * ROUNDING);
+    CHECK_NEAR(t[1], 0, 0);
+    CHECK_NEAR(t[2], -0.8, 200 * ROUNDING);
+}
+
+static void without_normal_force_friction_is_zero_and_forgotten(void **unused)
+{
+    (void)unused;
+    real t[3] = { (real)0.8, (real)-0.1, 0 }, t_star = (real)0.3;
+    const real ds[3] = { (real)1e-5, 0, 0 };
+    friction_increment(UP, ds, 0, (real)K_T, t, &t_star);
+    assert_true(t[0] == 0 && t[1] == 0 && t[2] == 0 && t_star == 0);
+}
+
+/* ---- energy ---- */
+
+/* A closed random path of tangential displacement, from a contact that stores nothing: net work done on it and the
+ * work moved in and out. `plane`: in both directions; `varying`: the normal force varies along the path. */
+typedef struct loop_work {
+    double net, gross;
+} loop_work;
+
+static loop_work random_loop(dice *d, bool plane, bool varying)
+{
+    enum { MOST_LEGS = 9, STEPS = 400 };
+    const int legs = 2 + (int)dice_uniform(d, 0, MOST_LEGS - 2);
+    const double size = MU_N / K_T * pow(10, dice_uniform(d, -1.7, 0.5));
+    double from[3] = { 0, 0, varying ? dice_uniform(d, 0.05, 1) : 1 }; /* x, y, share of mu N */
+    real t[3] = { 0 }, t_star = 0;
+    loop_work work = { 0, 0 };
+    for (int leg = 0; leg < legs; leg++) {
+        const bool home = leg + 1 == legs;
+        const double to[3] = { home ? 0 : dice_uniform(d, -size, size), home || !plane ? 0 : dice_uniform(d, -size, size),
+                               varying ? dice_uniform(d, 0.05, 1) : 1 };
+        const double dx = (to[0] - from[0]) / STEPS, dy = (to[1] - from[1]) / STEPS;
+        for (int k = 1; k <= STEPS; k++) {
+            const real before[3] = { t[0], t[1], t[2] }, ds[3] = { (real)dx, (real)dy, 0 };
+            friction_increment(UP, ds, (real)(MU_N * (from[2] + (to[2] - from[2]) * k / STEPS)), (real)K_T, t, &t_star);
+            const double dw = 0.5 * ((double)(before[0] + t[0]) * dx + (double)(before[1] + t[1]) * dy);
+            work.net += dw;
+            work.gross += fabs(dw);
+        }
+        memcpy(from, to, sizeof from);
+    }
+    return work;
+}
+
+/* The most that a law gives back beyond what it took, as a share of the work moved. */
+static double largest_share_created(bool plane, bool varying)
+{
+    dice d = { 23 };
+    double most = 0;
+    for (int trial = 0; trial < 4000; trial++) {
+        const loop_work w = random_loop(&d, plane, varying);
+        if (w.gross > 0) most = fmax(most, -w.net / w.gross);
+    }
+    return most;
+}
+
+/* Along a line at constant normal force the law is a hysteresis loop: nothing but the error of stepping, half an
+ * increment of 1/400 of a leg. */
+static void friction_on_a_line_never_gives_energy(void **unused)
+{
+    (void)unused;
+    CHECK_BETWEEN(largest_share_created(false, false), 0, 1e-3);
+}
+
+/* Off the line, and under a varying normal force, the incremental form is not exact: a spring loaded under a large
+ * force (where it is stiff) and unloaded under a small one (where it is soft) gives back a little more than it took.
+ * These are the shares found by searching random loops, and a bound for whoever changes the law. */
+static void friction_in_the_plane_creates_at_most_a_hundredth_of_the_work_moved(void **unused)
+{
+    (void)unused;
+    CHECK_BETWEEN(largest_share_created(true, false), 0, 0.01);
+}
+
+static void friction_under_a_varying_force_creates_at_most_seven_hundredths_of_the_work_moved(void **unused)
+{
+    (void)unused;
+    CHECK_BETWEEN(largest_share_created(false, true), 0, 0.07);
+    CHECK_BETWEEN(largest_share_created(true, true), 0, 0.07);
+}
+
+/* What the tangential spring creates is at most 11 % of T^2/(2 K_T0), what latching takes is 1 - e^2 of the largest
+ * N^2/(2 K1): for e <= 0.8 and mu <= 1 a whole contact, from touch to parting, takes more than it gives. */
+static void a_whole_contact_from_touch_to_parting_never_gives_energy(void **unused)
+{
+    (void)unused;
+    dice d = { 31 };
+    enum { LEGS = 7, STEPS = 300 };
+    for (int trial = 0; trial < 1000; trial++) {
+        const double e = dice_uniform(&d, 0.3, 0.8), k_2 = K_1 / (e * e), mu = dice_uniform(&d, 0.05, 1);
+        double from[3] = { 0 }, work = 0;
+        real alpha_0 = 0, f_before = 0, t[3] = { 0 }, t_star = 0;
+        for (int leg = 0; leg < LEGS; leg++) {
+            const bool home = leg + 1 == LEGS;
+            double step[3];
+            for (int c = 0; c < 3; c++) {
+                const double to = home && c == 0 ? 0 : dice_uniform(&d, c == 0 ? 1e-5 : -1e-4, 1e-4);
+                step[c] = (to - from[c]) / STEPS;
+            }
+            for (int k = 1; k <= STEPS; k++) {
+                const real f = force_at(from[0] + k * step[0], k_2, &alpha_0);
+                const real before[2] = { t[0], t[1] }, ds[3] = { (real)step[1], (real)step[2], 0 };
+                friction_increment(UP, ds, (real)mu * f, (real)K_T, t, &t_star);
+                work += 0.5 * ((double)(f_before + f) * step[0] + (double)(before[0] + t[0]) * step[1]
+                               + (double)(before[1] + t[1]) * step[2]);
+                f_before = f;
+            }
+            for (int c = 0; c < 3; c++) from[c] = home && c == 0 ? 0 : from[c] + STEPS * step[c];
+        }
+        CHECK_BETWEEN(work, 0, 1e3 * K_1 * 1e-8);
+        assert_true(f_before == 0 && t[0] == 0 && t[1] == 0);
+    }
+}
+
+/* ---- rolling ---- */
+
+/* Down a plane of slope theta < atan(3.5 mu): a = g sin(theta)/(1 + I/(m r_a^2)), 5/7 g sin(theta) for r_a = r. The
+ * tangential spring rings about its load by the released g sin(theta), damped by nothing but its hysteresis: over a
+ * time of many periods the mean acceleration is off by less than one amplitude of speed, g sin(theta)/omega_t. */
+static void a_sphere_rolls_down_an_incline_at_five_sevenths_of_its_weights_pull(void **unused)
+{
+    (void)unused;
+    const double r = 0.002, m = 8.4e-5, g = 9.81, theta = 0.4, mu = 0.3, inertia = 0.4 * m * r * r, dt = 1e-6, k_2 = 1.5625 * K_1;
+    double v = 0, omega = 0, alpha = m * g * cos(theta) / K_1, v_n = 0, slip = 0;
+    real alpha_0 = 0, t[3] = { 0 }, t_star = 0;
+    const int steps = 200000;
+    for (int k = 0; k < steps; k++) {
+        const double r_a = r - alpha / 2;
+        const real f_n = force_at(alpha, k_2, &alpha_0), ds[3] = { (real)(-(v - r_a * omega) * dt), 0, 0 };
+        friction_increment(UP, ds, (real)mu * f_n, (real)K_T, t, &t_star);
+        v += dt * (g * sin(theta) + (double)t[0] / m);
+        omega -= dt * r_a * (double)t[0] / inertia;
+        v_n += dt * (g * cos(theta) - (double)f_n / m);
+        alpha += dt * v_n;
+        slip = fmax(slip, fabs(v - r_a * omega));
+    }
+    const double r_a = r - m * g * cos(theta) / K_1 / 2, a = g * sin(theta) / (1 + inertia / (m * r_a * r_a));
+    const double ringing = g * sin(theta) / sqrt(3.5 * K_T / m);
+    CHECK_NEAR(a, 5.0 / 7 * g * sin(theta), 2e-4 * a);
+    CHECK_NEAR(v, a * steps * dt, ringing + 1e-5 * v);
+    CHECK_NEAR(r_a * omega, v, 2 * ringing + 1e-5 * v);
+    CHECK_BETWEEN(slip, 0, 4 * ringing); /* it did roll all the way */
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_normal_spring_loads_along_k1_and_unloads_along_k2),
+        cmocka_unit_test(the_normal_force_never_pulls_and_is_forgotten_after_parting),
+        cmocka_unit_test(a_collision_integrated_with_the_law_alone_has_the_closed_forms),
+        cmocka_unit_test(closed_normal_paths_never_give_energy),
+        cmocka_unit_test(the_first_slide_follows_mindlins_curve_to_slip),
+        cmocka_unit_test(after_a_reversal_the_spring_starts_stiff_and_goes_over_to_the_opposite_slip),
+        cmocka_unit_test(friction_never_exceeds_its_limit_and_never_leaves_the_tangent_plane),
+        cmocka_unit_test(a_turning_contact_turns_its_friction_and_keeps_its_magnitude),
+        cmocka_unit_test(without_normal_force_friction_is_zero_and_forgotten),
+        cmocka_unit_test(friction_on_a_line_never_gives_energy),
+        cmocka_unit_test(friction_in_the_plane_creates_at_most_a_hundredth_of_the_work_moved),
+        cmocka_unit_test(friction_under_a_varying_force_creates_at_most_seven_hundredths_of_the_work_moved),
+        cmocka_unit_test(a_whole_contact_from_touch_to_parting_never_gives_energy),
+        cmocka_unit_test(a_sphere_rolls_down_an_incline_at_five_sevenths_of_its_weights_pull),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
