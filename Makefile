@@ -57,3 +57,4 @@ $(BUILD)/tests/unit/%: tests/unit/%.c $(BUILD)/libdem.a $(BUILD)/libapi.a $(filt
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude -Icore -Iapi -Iserver/daemon $< $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON)) \
 	  $(BUILD)/libapi.a $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
+-include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

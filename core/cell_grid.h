@@ -7,18 +7,24 @@
 typedef struct cell_grid {
     int cells[3];
     double origin[3], inverse_size[3]; /* m, 1/m */
-    double period;
+    real period, inverse_period;
     size_t capacity_cells, capacity_spheres;
-    int32_t *start;   /* (cells + 1) where each cell's spheres begin in `sphere` */
-    int32_t *sphere;  /* (spheres) indices, cell after cell, ascending within each */
+    int32_t *start;   /* (cells + 1) where each cell's spheres begin in the arrays below; z runs fastest */
     int32_t *cell_of; /* (spheres) */
+    /* cell after cell, ascending in id within each; LANES more behind the last, so that whole vectors may be read */
+    int32_t *sphere;
+    real *x[3];       /* m, rounded */
+    real *radius;     /* m */
 } cell_grid;
 
 void cell_grid_init(cell_grid *grid);
 void cell_grid_clear(cell_grid *grid);
 /* Sort all spheres into cells no smaller than `reach`, over [-radius, radius]^2 x one period. */
 dem_status cell_grid_fill(cell_grid *grid, const spheres *spheres, double radius, double period, double reach);
-/* The up to 27 cells around cell `center`, each once, even where the period is one or two cells long. */
-int cell_grid_neighborhood(const cell_grid *grid, int32_t center, int32_t cells[27]);
+
+/* Spheres of id above i whose surfaces are within `skin` of i's, in no order: written to found, which has room for
+ * `room` and LANES more. Returns how many there are; where that exceeds room, not all were written. Never leaves
+ * one out through rounding: one whose gap is a millionth of the drum above the skin may be in, too. */
+size_t cell_grid_neighbors(const cell_grid *grid, size_t i, double skin, int32_t *found, size_t room);
 
 #endif

@@ -14,21 +14,6 @@ typedef struct contact_history {
     real alpha_0; /* m: overlap at which the unloading branch reaches zero */
 } contact_history;
 
-enum { CUBE_ROOT_STEPS = sizeof(real) == sizeof(float) ? 1 : 2 };
-
-/* Cube root of x in (0, 2): a first guess from the exponent, then Halley steps, each of which triples the
- * number of right digits (3 % -> 1e-5 -> 1e-15). Exact at x = 1 to rounding. */
-static inline real cube_root(real x)
-{
-    const real two_x = x + x;
-    real y = cube_root_guess(x);
-    for (int k = 0; k < CUBE_ROOT_STEPS; k++) {
-        const real y3 = y * y * y;
-        y *= (y3 + two_x) / (y3 + y3 + x);
-    }
-    return y;
-}
-
 /* Normal force, N, of the latching spring: K1 when loading beyond all before, K2 on unloading and reloading
  * below it; never attractive. An isolated collision has e = sqrt(K1/K2).
  * alpha: overlap, m (negative: apart); alpha_0: as in contact_history, updated; forgotten when they part. */
@@ -45,6 +30,8 @@ static inline real normal_force(real alpha, real k_1, real k_2, real *alpha_0)
 
 /* N2: a stored friction force below its root has no direction. */
 #define TINY_SQUARE ((real)1e-30)
+/* N: a limit of friction below this is none. */
+#define TINY_FORCE ((real)1e-20)
 
 /* One increment of friction. n: unit normal, first to second; ds: tangential displacement in this step, m;
  * mu_n: mu N; k_t0: tangential stiffness at the start of a loading, N/m. Updates t and t_star. */
@@ -57,32 +44,32 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
     const real ux = t[0] - tn * n[0], uy = t[1] - tn * n[1], uz = t[2] - tn * n[2];
     const real tt = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
     const real uu = ux * ux + uy * uy + uz * uz;
-    const real turn = uu > TINY_SQUARE ? 1 / root(uu) : 0;
-    const real magnitude = uu > TINY_SQUARE ? root(tt) : 0;
+    const real turn = uu > TINY_SQUARE ? inverse_root(uu) : 0;
+    const real magnitude = uu > TINY_SQUARE ? tt * inverse_root(tt) : 0;
     const real hx = ux * turn, hy = uy * turn, hz = uz * turn;
 
-    const real inverse = mu_n > 0 ? 1 / mu_n : 0;
-    const real ratio = magnitude * inverse;
-    const real tau = lesser(ratio, 1); /* t of the formulas: |T| as a share of its limit */
+    const real stored = lesser(magnitude, mu_n);
+    const real tau = mu_n > TINY_FORCE ? stored * inverse(mu_n) : 0; /* t of the formulas: |T| as a share of its limit */
     const real s_p = ds[0] * hx + ds[1] * hy + ds[2] * hz;
 
     /* Loading softens towards slip; after a turning point at t* the spring starts stiff again. */
     const real sign = s_p >= 0 ? 1 : -1;
     const real turning = lesser(sign * *t_star, sign * tau);
     const real left = greater(1 - sign * tau, SLIP_FLOOR), left_at_turn = greater(1 - turning, SLIP_FLOOR);
-    const real k_t = k_t0 * cube_root(left / left_at_turn);
-    const real s = tau * mu_n + k_t * s_p;
+    /* (a/b)^(1/3) = a (a a b)^(-1/3) */
+    const real k_t = k_t0 * (left * inverse_cube_root(left * left * left_at_turn));
+    const real s = stored + k_t * s_p;
     const real star = sign * turning;
 
     real tx = s * hx + k_t0 * (ds[0] - s_p * hx);
     real ty = s * hy + k_t0 * (ds[1] - s_p * hy);
     real tz = s * hz + k_t0 * (ds[2] - s_p * hz);
     const real size2 = tx * tx + ty * ty + tz * tz;
-    const real scale = size2 > mu_n * mu_n ? mu_n / root(size2) : 1;
+    const real scale = size2 > mu_n * mu_n ? mu_n * inverse_root(size2) : 1;
     t[0] = tx * scale;
     t[1] = ty * scale;
     t[2] = tz * scale;
-    *t_star = mu_n > 0 ? (s < 0 ? -star : star) : 0;
+    *t_star = mu_n > TINY_FORCE ? (s < 0 ? -star : star) : 0;
 }
 
 #endif

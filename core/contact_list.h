@@ -9,24 +9,24 @@
 
 #include "contact_law.h"
 #include "dem_types.h"
+#include "wide.h"
 
-/* What a contact gives to its two spheres: first += f, second -= f; both += (R - half_overlap) q. */
+/* What a contact gives to its two spheres, ready to be added: force N, 0, torque N m, 0. */
 typedef struct contact_row {
-    real f[3];         /* N on the first */
-    real half_overlap; /* m */
-    real q[3];         /* N: n x f */
-    real unused;
-} __attribute__((aligned(32))) contact_row;
+    row8 end[2]; /* on the first, on the second */
+} contact_row;
 
 typedef struct contact_list {
     size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
     int32_t *first;         /* (capacity) sphere index */
     int32_t *second;        /* (capacity) sphere index; unused for walls */
     real *friction;         /* (capacity) mu */
+    real *first_radius;     /* (capacity) m, at full size */
     real *t[3];             /* (capacity) N   contact_history, by component */
     real *t_star;           /* (capacity) */
     real *alpha_0;          /* (capacity) m */
-    contact_row *row;       /* (capacity) */
+    contact_row *row;       /* (capacity) part of the neighbor list's rows */
+    real *overlap;          /* (capacity) m at the last step; negative: apart */
     size_t *start;          /* (spheres + 1) where each first sphere's contacts begin */
 } contact_list;
 

@@ -35,12 +35,12 @@ void container_place_lining(const container *drum, const dem_drum_definition *de
     const size_t around = lining_around(definition), along = lining_along(definition);
     for (size_t k = 0; k < s->lining_count; k++) {
         const double angle = 2 * DEM_PI * (double)(k / along) / (double)around;
-        double *place = s->lining_place[k];
-        place[0] = lining_radius(definition) * cos(angle);
-        place[1] = lining_radius(definition) * sin(angle);
-        place[2] = drum->length * (((double)(k % along) + 0.5) / (double)along - 0.5);
-        s->full_radius[s->mobile_count + k] = 0.5 * definition->lining.diameter;
-        sphere_row_set_radius(&s->row[s->mobile_count + k], 0.5 * definition->lining.diameter);
+        vector4 *place = &s->lining_place[k];
+        (*place)[0] = lining_radius(definition) * cos(angle);
+        (*place)[1] = lining_radius(definition) * sin(angle);
+        (*place)[2] = drum->length * (((double)(k % along) + 0.5) / (double)along - 0.5);
+        s->row[s->mobile_count + k].radius = (real)(0.5 * definition->lining.diameter);
+        s->full_radius[s->mobile_count + k] = (double)s->row[s->mobile_count + k].radius;
     }
     container_turn_lining(drum, s);
 }
@@ -50,12 +50,13 @@ void container_turn_lining(const container *drum, spheres *s)
     const double c = cos(drum->angle), sine = sin(drum->angle);
     for (size_t k = 0; k < s->lining_count; k++) {
         sphere_row *row = &s->row[s->mobile_count + k];
-        const double *place = s->lining_place[k];
+        const vector4 place = s->lining_place[k];
         row->x[0] = c * place[0] - sine * place[1];
         row->x[1] = sine * place[0] + c * place[1];
         row->x[2] = place[2];
         row->v[0] = (real)(-drum->rotation_rate * row->x[1]);
         row->v[1] = (real)(drum->rotation_rate * row->x[0]);
         row->omega[2] = (real)drum->rotation_rate;
+        row->r_omega[2] = row->radius * row->omega[2];
     }
 }

@@ -13,7 +13,8 @@ dem_status failure_check_places(dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *x = s->row[i].x, *v = s->velocity[i];
+        const double *x = s->row[i].x;
+        const vector4 v = s->velocity[i];
         const double rho = sqrt(x[0] * x[0] + x[1] * x[1]);
         /* Written so that a NaN fails each of them. */
         if (rho < scene->drum.radius && fabs(x[2]) <= scene->drum.length && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
@@ -46,12 +47,12 @@ dem_status failure_check_overlaps(dem_scene *scene)
     const contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
     for (size_t k = 0; k < pairs->count; k++) {
         const int32_t i = pairs->first[k], j = pairs->second[k];
-        const double overlap = 2 * (double)pairs->row[k].half_overlap;
+        const double overlap = (double)pairs->overlap[k];
         const double limit = FAILURE_OVERLAP * fmin(s->full_radius[i], s->full_radius[j]);
         if (!(overlap <= limit)) return overlap_failure(scene, i, (size_t)j < s->mobile_count ? j : -1, overlap, limit);
     }
     for (size_t k = 0; k < walls->count; k++) {
-        const double overlap = 2 * (double)walls->row[k].half_overlap;
+        const double overlap = (double)walls->overlap[k];
         const double limit = FAILURE_OVERLAP * s->full_radius[walls->first[k]];
         if (!(overlap <= limit)) return overlap_failure(scene, walls->first[k], -1, overlap, limit);
     }

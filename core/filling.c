@@ -18,7 +18,7 @@ static void assign_species(spheres *s, const dem_drum_definition *definition)
         const size_t end = k + 1 == definition->species_count ? s->mobile_count
                                                               : (size_t)floor(share * (double)s->mobile_count + 0.5);
         for (; i < end; i++) {
-            const double mass = dem_sphere_mass(species->diameter, species->density), r = 0.5 * species->diameter;
+            const double mass = dem_sphere_mass(species->diameter, species->density), r = (double)(real)(0.5 * species->diameter);
             s->species[i] = (int32_t)k;
             s->full_radius[i] = r;
             s->inverse_mass[i] = 1.0 / mass;

@@ -1,38 +1,45 @@
 #include "integrator.h"
 
+/* What one step does to every sphere alike. */
+typedef struct leap_frog {
+    vector4 gravity_dt, period, inverse_period; /* the last two along z alone */
+    double dt, keep;
+} leap_frog;
+
 /* Eqns 3 and 4 for one sphere. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish
  * and its spin advances as its velocity does. */
-static inline void sphere_advance(spheres *s, size_t i, const body_forces *body, double dt, double keep,
-                                  double length, double inverse_length)
+static inline void sphere_advance(const leap_frog *leap, const row8 *load, double inverse_mass, double inverse_inertia,
+                                  vector4 *velocity, vector4 *spin, sphere_row *row)
 {
-    double *v = s->velocity[i], *omega = s->angular_velocity[i];
-    sphere_row *row = &s->row[i];
-    const double dt_m = dt * s->inverse_mass[i], dt_i = dt * s->inverse_inertia[i];
-    for (int c = 0; c < 3; c++) {
-        v[c] = keep * v[c] + dt_m * s->force[i][c];
-        omega[c] = keep * omega[c] + dt_i * s->torque[i][c];
-    }
-    v[1] -= dt * body->gravity;
-    for (int c = 0; c < 3; c++) {
-        row->x[c] += dt * v[c];
-        row->v[c] = (real)v[c];
-        row->omega[c] = (real)omega[c];
-    }
-    row->x[2] = wrap_axial(row->x[2], length, inverse_length);
+    const vector4 v = leap->keep * *velocity + (leap->dt * inverse_mass) * vector4_low(load) - leap->gravity_dt;
+    const vector4 omega = leap->keep * *spin + (leap->dt * inverse_inertia) * vector4_high(load);
+    *velocity = v;
+    *spin = omega;
+    vector4 x = vector4_place(row->x) + leap->dt * v;
+    x -= leap->period * vector4_rint(x * leap->inverse_period);
+    sphere_row_store(row, x, v, omega);
 }
 
+static inline double largest_of(double a, double b) { return a > b ? a : b; }
+
 double integrator_advance(spheres *s, const container *drum, const body_forces *body,
-                          vector4 *picked_velocity, double dt, int threads)
+                          const vector4 *picked_velocity, double dt, int threads)
 {
-    const double keep = 1.0 - body->drag * dt, inverse_length = 1.0 / drum->length;
-    double largest2 = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : largest2) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        sphere_advance(s, i, body, dt, keep, drum->length, inverse_length);
-        const double *v = s->velocity[i], *p = picked_velocity[i];
-        const double d0 = v[0] - p[0], d1 = v[1] - p[1], d2 = v[2] - p[2];
-        const double deviation2 = d0 * d0 + d1 * d1 + d2 * d2;
-        largest2 = deviation2 > largest2 ? deviation2 : largest2;
+    const leap_frog leap = { .gravity_dt = { 0.0, body->gravity * dt }, .period = { 0.0, 0.0, drum->length },
+                        .inverse_period = { 0.0, 0.0, 1.0 / drum->length }, .dt = dt, .keep = 1.0 - body->drag * dt };
+    const row8 *restrict load = s->load;
+    const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
+    vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity;
+    sphere_row *restrict row = s->row;
+    const size_t count = s->mobile_count;
+    double largest_x = 0.0, largest_y = 0.0, largest_z = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : largest_x, largest_y, largest_z) num_threads(threads) if (threads > 1)
+    for (size_t i = 0; i < count; i++) {
+        sphere_advance(&leap, &load[i], inverse_mass[i], inverse_inertia[i], &velocity[i], &spin[i], &row[i]);
+        const vector4 d = velocity[i] - picked_velocity[i], d2 = d * d;
+        largest_x = largest_of(largest_x, d2[0]);
+        largest_y = largest_of(largest_y, d2[1]);
+        largest_z = largest_of(largest_z, d2[2]);
     }
-    return sqrt(largest2);
+    return sqrt(largest_x + largest_y + largest_z);
 }

@@ -10,8 +10,9 @@ typedef struct body_forces {
     double drag;    /* 1/s: velocities and spins decay at this rate; only while a bed is being made */
 } body_forces;
 
-/* One step for all mobile spheres. picked_velocity: (mobile) m/s. Returns the largest |v - picked_velocity|, m/s. */
+/* One step for all mobile spheres. picked_velocity: (mobile) m/s. Returns a bound on |v - picked_velocity| of every
+ * sphere, m/s: from the largest of each component. */
 double integrator_advance(spheres *spheres, const container *drum, const body_forces *body,
-                          vector4 *picked_velocity, double dt, int threads);
+                          const vector4 *picked_velocity, double dt, int threads);
 
 #endif

@@ -3,7 +3,7 @@
 #include <stdbool.h>
 
 /* Shares of the smallest diameter, chosen by measurement: core/NUMERICS.md, "Neighbor lists". */
-static const double SKIN = 0.4, MARGIN = 0.015;
+static const double SKIN = 0.4, MARGIN = 0.006;
 
 dem_status neighbor_list_init(neighbor_list *list, const spheres *s)
 {
@@ -15,8 +15,9 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s)
     list->start = array_create(n + 1, sizeof *list->start);
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
-    list->incoming_start = array_create(n + 1, sizeof *list->incoming_start);
-    bool enough = list->start && list->built_at && list->picked_velocity && list->incoming_start;
+    list->ends_start = array_create(n + 1, sizeof *list->ends_start);
+    list->ends_filled = array_create(n, sizeof *list->ends_filled);
+    bool enough = list->start && list->built_at && list->picked_velocity && list->ends_start && list->ends_filled;
     contact_list *const all[] = { &list->pairs, &list->pairs_before, &list->walls, &list->walls_before };
     for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n) == DEM_OK && enough;
     if (enough) return DEM_OK;
@@ -27,12 +28,16 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s)
 void neighbor_list_clear(neighbor_list *list)
 {
     free(list->start);
+    free(list->first);
     free(list->second);
+    for (int p = 0; p < MOST_PARTS; p++) free(list->part[p].second);
     free(list->in_reach);
     free(list->built_at);
     free(list->picked_velocity);
-    free(list->incoming_start);
-    free(list->incoming);
+    free(list->rows);
+    free(list->ends_start);
+    free(list->ends_filled);
+    free(list->ends);
     cell_grid_clear(&list->grid);
     contact_list_clear(&list->pairs);
     contact_list_clear(&list->pairs_before);
@@ -55,43 +60,74 @@ static inline double squared_distance(const double a[3], const double b[3], doub
     return dx * dx + dy * dy + dz * dz;
 }
 
-/* Spheres after i within the skin of it; written to `second` when that is not NULL. */
-static size_t outer_neighbors(const neighbor_list *list, const spheres *s, size_t i, double period, int32_t *second)
+static inline vector4 place_of(const sphere_row *row) { return (vector4){ row->x[0], row->x[1], row->x[2] }; }
+
+static void sort_ascending(int32_t *x, size_t count)
 {
-    int32_t cells[27];
-    const int cell_count = cell_grid_neighborhood(&list->grid, list->grid.cell_of[i], cells);
-    const double own = s->full_radius[i] + list->skin, inverse_period = 1.0 / period;
-    size_t count = 0;
-    for (int c = 0; c < cell_count; c++) {
-        for (int32_t m = list->grid.start[cells[c]]; m < list->grid.start[cells[c] + 1]; m++) {
-            const int32_t j = list->grid.sphere[m];
-            if ((size_t)j <= i) continue;
-            const double reach = own + s->full_radius[j];
-            if (squared_distance(s->row[i].x, s->row[j].x, period, inverse_period) >= reach * reach) continue;
-            if (second) {
-                size_t k = count; /* insertion keeps the seconds ascending */
-                for (; k > 0 && second[k - 1] > j; k--) second[k] = second[k - 1];
-                second[k] = j;
-            }
-            count++;
-        }
+    for (size_t k = 1; k < count; k++) {
+        const int32_t value = x[k];
+        size_t at = k;
+        for (; at > 0 && x[at - 1] > value; at--) x[at] = x[at - 1];
+        x[at] = value;
     }
-    return count;
+}
+
+static dem_status part_reserve(pair_part *part, size_t capacity)
+{
+    if (capacity <= part->capacity) return DEM_OK;
+    int32_t *second = array_create(capacity + capacity / 2, sizeof *second);
+    if (!second) return DEM_NO_MEMORY;
+    if (part->count) memcpy(second, part->second, part->count * sizeof *second);
+    free(part->second);
+    part->second = second;
+    part->capacity = capacity + capacity / 2;
+    return DEM_OK;
+}
+
+/* Spheres after i within the skin of it, ascending, appended to the part. */
+static dem_status append_neighbors(pair_part *part, const cell_grid *grid, size_t i, double skin, size_t *count)
+{
+    enum { USUAL_ROOM = 64 };
+    size_t room = USUAL_ROOM;
+    for (;; room = *count) {
+        if (part_reserve(part, part->count + room + LANES) != DEM_OK) return DEM_NO_MEMORY;
+        *count = cell_grid_neighbors(grid, i, skin, part->second + part->count, room);
+        if (*count <= room) break;
+    }
+    sort_ascending(part->second + part->count, *count);
+    part->count += *count;
+    return DEM_OK;
+}
+
+/* Each part of the spheres lists its neighbors into memory of its own, so that threads need not wait for each other. */
+static dem_status outer_part(neighbor_list *list, const spheres *s, int which, int parts)
+{
+    const size_t n = s->mobile_count, from = n * (size_t)which / (size_t)parts, to = n * (size_t)(which + 1) / (size_t)parts;
+    list->part[which].count = 0;
+    for (size_t i = from; i < to; i++) {
+        const dem_status status = append_neighbors(&list->part[which], &list->grid, i, list->skin, &list->start[i + 1]);
+        if (status != DEM_OK) return status;
+        list->built_at[i] = place_of(&s->row[i]);
+    }
+    return DEM_OK;
 }
 
 static dem_status outer_reserve(neighbor_list *list, size_t count)
 {
     if (count <= list->pair_capacity) return DEM_OK;
-    const size_t capacity = count + count / 4;
-    int32_t *second = array_create(capacity, sizeof *second);
-    uint8_t *in_reach = array_create(capacity, sizeof *in_reach);
-    if (!second || !in_reach) {
+    const size_t capacity = round_up_to_block(count + count / 4);
+    int32_t *first = array_create(capacity, sizeof *first), *second = array_create(capacity, sizeof *second);
+    uint16_t *in_reach = array_create(capacity / LANES, sizeof *in_reach);
+    if (!first || !second || !in_reach) {
+        free(first);
         free(second);
         free(in_reach);
         return DEM_NO_MEMORY;
     }
+    free(list->first);
     free(list->second);
     free(list->in_reach);
+    list->first = first;
     list->second = second;
     list->in_reach = in_reach;
     list->pair_capacity = capacity;
@@ -101,20 +137,32 @@ static dem_status outer_reserve(neighbor_list *list, size_t count)
 static dem_status outer_build(neighbor_list *list, const spheres *s, const container *drum, int threads)
 {
     const size_t n = s->mobile_count;
-    const double reach = fmax(s->largest_diameter, 2 * s->full_radius[spheres_count(s) - 1]) + list->skin;
-    dem_status status = cell_grid_fill(&list->grid, s, drum->radius, drum->length, reach);
+    const double largest = fmax(s->largest_diameter, 2 * s->full_radius[spheres_count(s) - 1]);
+    const int parts = threads < MOST_PARTS ? threads : MOST_PARTS;
+    dem_status status = cell_grid_fill(&list->grid, s, drum->radius, drum->length, largest + list->skin), of_part[MOST_PARTS];
     if (status != DEM_OK) return status;
-    list->start[0] = 0;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < n; i++) list->start[i + 1] = outer_neighbors(list, s, i, drum->length, NULL);
-    for (size_t i = 0; i < n; i++) list->start[i + 1] += list->start[i];
-    list->pair_count = list->start[n];
-    status = outer_reserve(list, list->pair_count);
+#pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
+    for (int p = 0; p < parts; p++) of_part[p] = outer_part(list, s, p, parts);
+    size_t count = 0;
+    for (int p = 0; p < parts; p++) {
+        if (of_part[p] != DEM_OK) return of_part[p];
+        count += list->part[p].count;
+    }
+    status = outer_reserve(list, count);
     if (status != DEM_OK) return status;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    list->start[0] = list->pair_count = 0;
+    for (int p = 0; p < parts; p++) {
+        if (list->part[p].count) memcpy(list->second + list->pair_count, list->part[p].second, list->part[p].count * sizeof *list->second);
+        list->pair_count += list->part[p].count;
+    }
     for (size_t i = 0; i < n; i++) {
-        outer_neighbors(list, s, i, drum->length, list->second + list->start[i]);
-        for (int c = 0; c < 3; c++) list->built_at[i][c] = s->row[i].x[c];
+        const size_t end = list->start[i + 1] + list->start[i];
+        for (size_t k = list->start[i]; k < end; k++) list->first[k] = (int32_t)i;
+        list->start[i + 1] = end;
+    }
+    for (size_t k = count; k < round_up_to_block(count); k++) {
+        list->first[k] = sphere_of_zeros(s);
+        list->second[k] = sphere_far_away(s);
     }
     list->turned_at_build = drum->angle;
     list->outer_valid = true;
@@ -134,9 +182,11 @@ static outlook outlook_measure(const neighbor_list *list, const spheres *s, cons
     double displacement2 = 0.0, speed2 = 0.0;
     const double inverse_length = 1.0 / drum->length;
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *v = s->velocity[i];
-        displacement2 = fmax(displacement2, squared_distance(list->built_at[i], s->row[i].x, drum->length, inverse_length));
-        speed2 = fmax(speed2, v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        const vector4 v = s->velocity[i];
+        const double moved2 = squared_distance((const double *)&list->built_at[i], s->row[i].x, drum->length, inverse_length);
+        const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        displacement2 = moved2 > displacement2 ? moved2 : displacement2;
+        speed2 = v2 > speed2 ? v2 : speed2;
     }
     outlook out = { sqrt(displacement2), sqrt(speed2) };
     if (s->lining_count) {
@@ -154,17 +204,28 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
     return (int)fmin(HORIZON, 1 + room / (now->largest_speed * time_step + 1e-300));
 }
 
-/* Could the pair touch within `duration`, both ends straying at most `margin` from straight paths? Along the
- * line of centres now, the distance is never less than gap + duration * (closing speed): a bound from below. */
-static inline bool pair_in_reach(const sphere_row *a, const sphere_row *b, double radii, double duration,
-                                 double margin, double period, double inverse_period)
+/* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths? Along the line
+ * of centres now, the distance is never less than gap + duration * (parting speed): a bound from below. In contact
+ * arithmetic, whose rounding `margin` is widened for. */
+static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, double length, real duration)
 {
-    const double dx = b->x[0] - a->x[0], dy = b->x[1] - a->x[1];
-    const double dz = wrap_axial(b->x[2] - a->x[2], period, inverse_period);
-    const double distance = sqrt(dx * dx + dy * dy + dz * dz);
-    const double parting = ((double)(b->v[0] - a->v[0]) * dx + (double)(b->v[1] - a->v[1]) * dy
-                            + (double)(b->v[2] - a->v[2]) * dz) / distance;
-    return distance - radii + duration * fmin(parting, 0.0) < 2 * margin;
+    static const float sign[16] = { [7] = -0.0f, -0.0f, -0.0f };
+    const int32_t *first = list->first + pair, *second = list->second + pair;
+    const wide_double period = wide_double_all(length), inverse_period = wide_double_all(1.0 / length);
+    wide sum[ROW_NUMBERS];
+    wide_double x[HALVES], y[HALVES], z[HALVES];
+    wide_row_sums(s->row, sizeof *s->row, first, second, sign, sum);
+    for (int h = 0; h < HALVES; h++) {
+        wide_place_differences(s->row, sizeof *s->row, first + 8 * h, second + 8 * h, &x[h], &y[h], &z[h]);
+        z[h] -= period * wide_double_rint(z[h] * inverse_period);
+    }
+    const wide dx = wide_from_doubles(x), dy = wide_from_doubles(y), dz = wide_from_doubles(z);
+    const wide distance2 = dx * dx + dy * dy + dz * dz, to_unit = wide_inverse_root(distance2);
+    const wide parting = (sum[1] * dx + sum[2] * dy + sum[3] * dz) * to_unit;
+    const wide nearest = distance2 * to_unit + wide_all(duration) * wide_lesser(parting, wide_all(0));
+    /* at full size, also while they grow */
+    const wide radii = sum[0] * wide_all((real)((1 + 4e-6) / s->scale));
+    return wide_mask_bits(wide_exceeds(radii + wide_all((real)(2 * list->margin)), nearest));
 }
 
 /* A straight path's distance from the axis is largest at one of its ends. */
@@ -176,22 +237,16 @@ static inline bool wall_in_reach(const sphere_row *a, double radius, double dura
     return limit < 0 || rho2 > limit * limit;
 }
 
-static void mark_pairs_in_reach(neighbor_list *list, const spheres *s, const container *drum, double duration, int threads)
+static void mark_in_reach(neighbor_list *list, const spheres *s, const container *drum, double duration, int threads)
 {
-    const size_t n = s->mobile_count;
-    const double inverse_length = 1.0 / drum->length;
+    const size_t groups = (list->pair_count + LANES - 1) / LANES;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < n; i++) {
-        size_t count = 0;
-        for (size_t p = list->start[i]; p < list->start[i + 1]; p++) {
-            const int32_t j = list->second[p];
-            list->in_reach[p] = pair_in_reach(&s->row[i], &s->row[j], s->full_radius[i] + s->full_radius[j], duration,
-                                              list->margin, drum->length, inverse_length);
-            count += list->in_reach[p];
-        }
-        list->pairs.start[i + 1] = count;
+    for (size_t g = 0; g < groups; g++)
+        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, drum->length, (real)duration);
+#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
+    for (size_t i = 0; i < s->mobile_count; i++) {
         list->walls.start[i + 1] = wall_in_reach(&s->row[i], s->full_radius[i], duration, list->margin, drum->radius);
-        for (int c = 0; c < 3; c++) list->picked_velocity[i][c] = s->velocity[i][c];
+        list->picked_velocity[i] = s->velocity[i];
     }
 }
 
@@ -209,44 +264,98 @@ static void starts_from_counts(contact_list *list, size_t n)
     list->count = list->start[n];
 }
 
-/* The slots in which each mobile sphere is the second of a pair, ascending: by id of the first. */
-static dem_status incoming_build(neighbor_list *list, size_t n)
+/* One run of rows for pairs and walls, so that one index names any of them. */
+static dem_status rows_reserve(neighbor_list *list)
 {
-    if (list->pairs.count > list->incoming_capacity) {
-        int32_t *incoming = array_create(list->pairs.capacity, sizeof *incoming);
-        if (!incoming) return DEM_NO_MEMORY;
-        free(list->incoming);
-        list->incoming = incoming;
-        list->incoming_capacity = list->pairs.capacity;
+    const size_t pairs = round_up_to_block(list->pairs.count), walls = round_up_to_block(list->walls.count);
+    const size_t needed = pairs + walls + 1;
+    if (needed > list->row_capacity) {
+        contact_row *rows = array_create(needed + needed / 4, sizeof *rows);
+        if (!rows) return DEM_NO_MEMORY;
+        free(list->rows);
+        list->rows = rows;
+        list->row_capacity = needed + needed / 4;
     }
-    memset(list->incoming_start, 0, (n + 1) * sizeof *list->incoming_start);
-    for (size_t k = 0; k < list->pairs.count; k++)
-        if ((size_t)list->pairs.second[k] < n) list->incoming_start[list->pairs.second[k] + 1]++;
-    for (size_t i = 0; i < n; i++) list->incoming_start[i + 1] += list->incoming_start[i];
-    for (size_t k = 0; k < list->pairs.count; k++)
-        if ((size_t)list->pairs.second[k] < n) list->incoming[list->incoming_start[list->pairs.second[k]]++] = (int32_t)k;
-    memmove(list->incoming_start + 1, list->incoming_start, n * sizeof *list->incoming_start);
-    list->incoming_start[0] = 0;
+    list->pairs.row = list->rows;
+    list->walls.row = list->rows + pairs;
+    list->rows[needed - 1] = (contact_row){ .end = { { 0 } } };
+    return DEM_OK;
+}
+
+static dem_status ends_reserve(neighbor_list *list, size_t count)
+{
+    if (count <= list->ends_capacity) return DEM_OK;
+    int32_t *ends = array_create(count + count / 4, sizeof *ends);
+    if (!ends) return DEM_NO_MEMORY;
+    free(list->ends);
+    list->ends = ends;
+    list->ends_capacity = count + count / 4;
+    return DEM_OK;
+}
+
+/* Ends in a fixed order: contacts with spheres of lower id, then of higher id, then the wall. */
+static dem_status ends_build(neighbor_list *list, size_t n)
+{
+    const contact_list *pairs = &list->pairs, *walls = &list->walls;
+    size_t *start = list->ends_start, *filled = list->ends_filled;
+    memset(filled, 0, n * sizeof *filled);
+    for (size_t k = 0; k < pairs->count; k++)
+        if ((size_t)pairs->second[k] < n) filled[pairs->second[k]]++;
+    start[0] = 0;
+    for (size_t i = 0; i < n; i++) {
+        const size_t ends = filled[i] + (pairs->start[i + 1] - pairs->start[i]) + (walls->start[i + 1] - walls->start[i]);
+        const size_t groups = ends ? (ends + ENDS_A_GROUP - 1) / ENDS_A_GROUP : 1;
+        start[i + 1] = start[i] + groups * ENDS_A_GROUP;
+        filled[i] = start[i];
+    }
+    if (ends_reserve(list, start[n]) != DEM_OK) return DEM_NO_MEMORY;
+    int32_t *ends = list->ends;
+    for (size_t k = 0; k < pairs->count; k++)
+        if ((size_t)pairs->second[k] < n) ends[filled[pairs->second[k]]++] = (int32_t)(2 * k + 1);
+    const size_t wall_rows = round_up_to_block(pairs->count), zeros = wall_rows + round_up_to_block(walls->count);
+    for (size_t i = 0; i < n; i++) {
+        size_t at = filled[i];
+        for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) ends[at++] = (int32_t)(2 * k);
+        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) ends[at++] = (int32_t)(2 * (wall_rows + k));
+        while (at < start[i + 1]) ends[at++] = (int32_t)(2 * zeros);
+    }
+    return DEM_OK;
+}
+
+/* The pairs in reach, in the outer list's order. */
+static dem_status pairs_pick(neighbor_list *list, size_t n)
+{
+    const size_t groups = (list->pair_count + LANES - 1) / LANES;
+    contact_list *pairs = &list->pairs;
+    size_t count = 0;
+    for (size_t g = 0; g < groups; g++) count += (size_t)__builtin_popcount(list->in_reach[g]);
+    /* whole vectors are written, also at the end */
+    if (contact_list_reserve(pairs, count + LANES) != DEM_OK) return DEM_NO_MEMORY;
+    pairs->count = 0;
+    for (size_t g = 0; g < groups; g++) {
+        wide_compress(pairs->second + pairs->count, list->in_reach[g], list->second + g * LANES);
+        pairs->count += wide_compress(pairs->first + pairs->count, list->in_reach[g], list->first + g * LANES);
+    }
+    memset(pairs->start, 0, (n + 1) * sizeof *pairs->start);
+    for (size_t k = 0; k < pairs->count; k++) pairs->start[pairs->first[k] + 1]++;
+    for (size_t i = 0; i < n; i++) pairs->start[i + 1] += pairs->start[i];
     return DEM_OK;
 }
 
 static void fill_slots_of(neighbor_list *list, const spheres *s, const dem_contact_parameters *contact, size_t i)
 {
-    size_t k = list->pairs.start[i];
-    for (size_t p = list->start[i]; p < list->start[i + 1]; p++) {
-        if (!list->in_reach[p]) continue;
-        const int32_t j = list->second[p];
-        list->pairs.first[k] = (int32_t)i;
-        list->pairs.second[k] = j;
-        list->pairs.friction[k] = (real)((size_t)j < s->mobile_count ? contact->friction : contact->wall_friction);
-        k++;
+    contact_list *pairs = &list->pairs, *walls = &list->walls;
+    for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
+        pairs->friction[k] = (real)((size_t)pairs->second[k] < s->mobile_count ? contact->friction : contact->wall_friction);
+        pairs->first_radius[k] = (real)s->full_radius[i];
     }
-    contact_list_carry(&list->pairs, &list->pairs_before, i);
-    for (size_t w = list->walls.start[i]; w < list->walls.start[i + 1]; w++) {
-        list->walls.first[w] = (int32_t)i;
-        list->walls.friction[w] = (real)contact->wall_friction;
+    contact_list_carry(pairs, &list->pairs_before, i);
+    for (size_t w = walls->start[i]; w < walls->start[i + 1]; w++) {
+        walls->first[w] = (int32_t)i;
+        walls->friction[w] = (real)contact->wall_friction;
+        walls->first_radius[w] = (real)s->full_radius[i];
     }
-    contact_list_carry(&list->walls, &list->walls_before, i);
+    contact_list_carry(walls, &list->walls_before, i);
 }
 
 static dem_status inner_pick(neighbor_list *list, const spheres *s, const container *drum,
@@ -255,21 +364,21 @@ static dem_status inner_pick(neighbor_list *list, const spheres *s, const contai
     const size_t n = s->mobile_count;
     swap_lists(&list->pairs, &list->pairs_before);
     swap_lists(&list->walls, &list->walls_before);
-    mark_pairs_in_reach(list, s, drum, duration, threads);
-    starts_from_counts(&list->pairs, n);
+    mark_in_reach(list, s, drum, duration, threads);
+    dem_status status = pairs_pick(list, n);
     starts_from_counts(&list->walls, n);
-    if (contact_list_reserve(&list->pairs, list->pairs.count) != DEM_OK
-        || contact_list_reserve(&list->walls, list->walls.count) != DEM_OK) return DEM_NO_MEMORY;
+    if (status != DEM_OK || contact_list_reserve(&list->walls, list->walls.count) != DEM_OK) return DEM_NO_MEMORY;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t i = 0; i < n; i++) fill_slots_of(list, s, contact, i);
-    contact_list_pad(&list->pairs, (int32_t)spheres_count(s), 0);
-    contact_list_pad(&list->walls, 0, 0);
+    contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s));
+    contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
     list->strayed = s->lining_count ? 0.5 * drum->rotation_rate * drum->rotation_rate * drum->radius * duration * duration : 0.0;
     list->steps_since_pick = 0;
     list->inner_valid = true;
     list->inner_picks++;
-    return incoming_build(list, n);
+    status = rows_reserve(list);
+    return status == DEM_OK ? ends_build(list, n) : status;
 }
 
 dem_status neighbor_list_update(neighbor_list *list, const spheres *s, const container *drum,

@@ -11,15 +11,23 @@
 #include "contact_list.h"
 #include "container.h"
 
-enum { HORIZON = 16 }; /* steps between two picks of the inner list, at most */
+enum { ENDS_A_GROUP = 8 };
+enum { HORIZON = 24 }; /* steps between two picks of the inner list, at most */
+
+enum { MOST_PARTS = 64 };
+typedef struct pair_part {
+    size_t count, capacity;
+    int32_t *second;
+} pair_part;
 
 typedef struct neighbor_list {
     /* outer */
     double skin;              /* m: pairs with a smaller gap are listed */
     size_t pair_count, pair_capacity;
     size_t *start;            /* (mobile + 1) */
-    int32_t *second;          /* (pair_capacity) ascending for each first */
-    uint8_t *in_reach;        /* (pair_capacity) picked for the inner list */
+    int32_t *first, *second;  /* (pair_capacity) by first, then by second; padded with a pair far apart */
+    uint16_t *in_reach;       /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
+    pair_part part[MOST_PARTS];
     vector4 *built_at;        /* (mobile) m: places when the outer list was made */
     cell_grid grid;
     bool outer_valid;
@@ -32,10 +40,14 @@ typedef struct neighbor_list {
     vector4 *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against the cylinder */
-    /* the contacts of each sphere, for its sum: slots of `pairs` where it is the second */
-    size_t *incoming_start;   /* (mobile + 1) */
-    int32_t *incoming;        /* slots, ascending */
-    size_t incoming_capacity;
+    contact_row *rows;        /* of pairs, then of walls, then one of zeros */
+    size_t row_capacity;
+    /* the ends of contacts at each sphere, for its sum: indices into the rows' ends, by id of the other sphere, the
+     * wall last, filled up to whole groups with the row of zeros */
+    size_t *ends_start;       /* (mobile + 1) */
+    size_t *ends_filled;      /* (mobile) */
+    int32_t *ends;
+    size_t ends_capacity;
     int64_t outer_builds, inner_picks;
 } neighbor_list;
 

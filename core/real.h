@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef DEM_SINGLE
-typedef float real;
-#else
+#ifdef DEM_DOUBLE
 typedef double real;
+#else
+typedef float real;
 #endif
 
 /* Contacts are computed in blocks of this many: a multiple of every vector width, so that each contact goes
@@ -23,16 +23,64 @@ enum { BLOCK = 64, ALIGNMENT = 64 };
 
 static inline size_t round_up_to_block(size_t count) { return (count + BLOCK - 1) / BLOCK * BLOCK; }
 
-static inline real root(real x) { return sizeof(real) == sizeof(float) ? (real)sqrtf((float)x) : (real)sqrt((double)x); }
 static inline real greater(real a, real b) { return a > b ? a : b; }
 static inline real lesser(real a, real b) { return a < b ? a : b; }
 
-/* Cube root of x > 0 within 4 %: a third of the exponent, as the bits of a float have it. */
-static inline real cube_root_guess(real x)
+/* Powers without division or root, which are slow where there are many: a guess from the bits of a float, good to
+ * 3 to 12 %, then Newton steps, each of which squares the error. Only products and sums of normal numbers, so the
+ * result has the same bits on every processor; wide.h does the same for many at once. x: 1e-37 to 1e37. */
+enum {
+    INVERSE_ROOT_MAGIC = 0x5f3759df,
+    INVERSE_MAGIC = 0x7ef311c3,
+    INVERSE_CUBE_ROOT_MAGIC = 0x54a21d2a,
+    NEWTON_STEPS = sizeof(real) == sizeof(float) ? 3 : 5,
+};
+
+typedef union float_bits { float f; int32_t i; } float_bits;
+
+static inline real inverse_root_guess(real x)
 {
-    union { float f; int32_t i; } bits = { .f = (float)x };
-    bits.i = (int32_t)((float)bits.i * (1.0f / 3.0f)) + 0x2a5137a0;
+    float_bits bits = { .f = (float)x };
+    bits.i = INVERSE_ROOT_MAGIC - (int32_t)((uint32_t)bits.i >> 1);
     return bits.f;
+}
+
+static inline real inverse_guess(real x)
+{
+    float_bits bits = { .f = (float)x };
+    bits.i = (int32_t)((uint32_t)INVERSE_MAGIC - (uint32_t)bits.i);
+    return bits.f;
+}
+
+static inline real inverse_cube_root_guess(real x)
+{
+    float_bits bits = { .f = (float)x };
+    bits.i = INVERSE_CUBE_ROOT_MAGIC - (int32_t)((float)bits.i * (1.0f / 3.0f));
+    return bits.f;
+}
+
+/* 1/sqrt(x); a large finite number for x = 0, so that x times it is the root of x there, too. */
+static inline real inverse_root(real x)
+{
+    const real half = (real)0.5 * x;
+    real y = inverse_root_guess(x);
+    for (int k = 0; k < NEWTON_STEPS; k++) y = y * ((real)1.5 - half * y * y);
+    return y;
+}
+
+static inline real inverse(real x)
+{
+    real y = inverse_guess(x);
+    for (int k = 0; k < NEWTON_STEPS; k++) y = y * (2 - x * y);
+    return y;
+}
+
+static inline real inverse_cube_root(real x)
+{
+    const real third = (real)(1.0 / 3.0) * x;
+    real y = inverse_cube_root_guess(x);
+    for (int k = 0; k < NEWTON_STEPS; k++) y = y * ((real)(4.0 / 3.0) - third * y * y * y);
+    return y;
 }
 
 /* Zeroed, aligned to a cache line; NULL when out of memory; freed with free(). */

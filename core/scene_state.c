@@ -50,10 +50,10 @@ static bool save_contacts(dem_state *state, const contact_list *list, const char
     return true;
 }
 
-static bool save_vectors(dem_state *state, const char *name, vector4 *from, size_t n)
+static bool save_vectors(dem_state *state, const char *name, const vector4 *from, size_t n)
 {
     double *to = state_add(state, name, DEM_FLOAT64, n, 3);
-    for (size_t i = 0; to && i < n; i++) memcpy(to + 3 * i, from[i], 3 * sizeof *to);
+    for (size_t i = 0; to && i < n; i++) memcpy(to + 3 * i, &from[i], 3 * sizeof *to);
     return to != NULL;
 }
 
@@ -116,6 +116,8 @@ static dem_status restore_contacts(const dem_state *state, contact_list *list, s
 static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin, const double *fallen)
 {
     spheres *s = &scene->spheres;
+    const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
+    spheres_set_scale(s, filling_scale(&scene->filling, grown));
     for (size_t i = 0; i < s->mobile_count; i++) {
         sphere_row *row = &s->row[i];
         for (size_t c = 0; c < 3; c++) {
@@ -124,11 +126,10 @@ static void restore_spheres(dem_scene *scene, const double *position, const doub
             s->angular_velocity[i][c] = spin[3 * i + c];
             row->v[c] = (real)velocity[3 * i + c];
             row->omega[c] = (real)spin[3 * i + c];
+            row->r_omega[c] = row->radius * row->omega[c];
         }
         s->fallen_time[i] = fallen[i];
     }
-    const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
-    spheres_set_scale(s, filling_scale(&scene->filling, grown));
 }
 
 dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
