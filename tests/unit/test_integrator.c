@@ -14,12 +14,13 @@ static double error_of_overlap(int steps)
     d.time_step = end / steps;
     dem_scene *scene = weightless_scene(&d);
     double x[6];
+    const double touch = scene->spheres.full_radius[0] + scene->spheres.full_radius[1];
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-        .position = (double[]){ 0.03, 0, 0, 0.03 + 0.004, 0, 0 }, .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
+        .position = (double[]){ 0.03, 0, 0, 0.03 + touch, 0, 0 }, .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
     advance(scene, steps);
     look_at(scene, x, NULL, NULL);
     dem_scene_free(scene);
-    return (0.004 - (x[3] - x[0])) - v / omega * sin(M_PI / 3);
+    return (touch - (x[3] - x[0])) - v / omega * sin(M_PI / 3);
 }
 
 /* Single precision: overlaps of 1e-5 m with 1e-7 of rounding, against an error of 1e-4 of them. */

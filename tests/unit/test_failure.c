@@ -1,0 +1,155 @@
+/* Claims about numerical failure: a run that can't be right stops, and says which particle, where and why. */
+#include "failure.h"
+#include "neighbor_list.h"
+#include "scene_by_hand.h"
+#include "small_drum.h"
+
+static void check_description(const dem_scene *scene, dem_status status)
+{
+    const dem_failure *f = dem_scene_failure(scene);
+    assert_int_equal(f->status, status);
+    CHECK_BETWEEN(f->particle, 0, (double)dem_scene_particle_count(scene) - 1);
+    CHECK_BETWEEN(f->other, -1, (double)dem_scene_particle_count(scene) - 1);
+    assert_int_equal(f->step, dem_scene_step_count(scene));
+    CHECK_NEAR(f->time, dem_scene_time(scene), 0);
+    assert_non_null(f->quantity);
+    assert_non_null(f->unit);
+    assert_true(strlen(f->likely_cause) > 20);
+}
+
+/* A drum whose contacts are 300 times too soft. */
+static void a_drum_that_is_too_soft_stops_and_says_so(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = small_drum();
+    d.rotation_rate = 15;
+    follow_rules(&d, 0.03);
+    d.contact.stiffness /= 300;
+    dem_scene *scene = drum_scene(&d);
+    dem_status status = DEM_OK;
+    for (int k = 0; k < 600 && status == DEM_OK; k++) status = dem_scene_advance(scene, 50);
+    assert_true(status == DEM_OVERLAP_TOO_LARGE || status == DEM_PARTICLE_ESCAPED);
+    check_description(scene, status);
+    const dem_failure *f = dem_scene_failure(scene);
+    CHECK_BETWEEN(f->value, f->limit, INFINITY);
+    assert_string_equal(f->unit, "m");
+    CHECK_BETWEEN(hypot(f->position[0], f->position[1]), 0, 1.5 * d.diameter);
+    assert_non_null(strstr(f->likely_cause, "stiffness"));
+    dem_scene_free(scene);
+}
+
+/* A collision at a speed that must end with an overlap of v sqrt(m_eff/K1) = 0.6 radii stops on the way there. */
+static void an_overlap_beyond_half_a_radius_is_a_failure_of_those_two(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = hand_definition(3);
+    const double r = 0.002, m_eff = species_mass(&d.species[0]) / 2, v = 0.6 * r / sqrt(m_eff / d.contact.stiffness);
+    dem_scene *scene = weightless_scene(&d);
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 }, .velocity = (double[]){ 0, 0, 0, v, 0, 0, 0, 0, 0 } });
+    assert_int_equal(dem_scene_advance(scene, 1000), DEM_OVERLAP_TOO_LARGE);
+    check_description(scene, DEM_OVERLAP_TOO_LARGE);
+    const dem_failure *f = dem_scene_failure(scene);
+    assert_int_equal(f->particle, 1);
+    assert_int_equal(f->other, 2);
+    CHECK_NEAR(f->limit, 0.5 * r, 1e-6 * r);
+    CHECK_BETWEEN(f->value, 0.5 * r, 0.5 * r + 2 * v * d.time_step); /* found at once */
+    dem_scene_free(scene);
+    /* and nine tenths of that speed is none */
+    scene = weightless_scene(&d);
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 }, .velocity = (double[]){ 0, 0, 0, 0.75 * v, 0, 0, 0, 0, 0 } });
+    advance(scene, 300);
+    CHECK_NEAR(dem_scene_maximum_overlap(scene), 0.75 * 0.6 * r / 0.004, 1e-3);
+    dem_scene_free(scene);
+}
+
+/* A particle thrown at the wall so fast that it is through before a force acts. */
+static void a_particle_beyond_the_wall_has_escaped(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = hand_definition(2);
+    dem_scene *scene = weightless_scene(&d);
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0, 0, 0.09, 0, 0.01 },
+        .velocity = (double[]){ 0, 0, 0, 3000, 0, 0 } });
+    assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
+    check_description(scene, DEM_PARTICLE_ESCAPED);
+    const dem_failure *f = dem_scene_failure(scene);
+    assert_int_equal(f->particle, 1);
+    CHECK_NEAR(f->limit, 0.1, 1e-12);
+    CHECK_BETWEEN(f->value, 0.1, 0.2);
+    assert_string_equal(f->quantity, "distance from the axis");
+    dem_scene_free(scene);
+}
+
+/* A NaN from wherever is found at the next pick of contacts, at most HORIZON steps on, wherever it sits. */
+static void a_velocity_that_is_not_a_number_is_found_within_the_horizon(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = small_drum();
+    follow_rules(&d, 0.03);
+    for (int component = 0; component < 4; component++) {
+        dem_scene *scene = drum_scene(&d);
+        run(scene, 107);
+        if (component < 3) scene->spheres.velocity[17][component] = NAN;
+        else scene->spheres.row[17].x[1] = NAN;
+        const dem_status status = dem_scene_advance(scene, HORIZON + 1);
+        assert_int_equal(status, DEM_NOT_A_NUMBER);
+        check_description(scene, DEM_NOT_A_NUMBER);
+        CHECK_BETWEEN(dem_scene_step_count(scene), 107, 107 + HORIZON);
+        dem_scene_free(scene);
+    }
+}
+
+/* What a failed scene does next is fail again, not go on. */
+static void a_failed_scene_stays_failed(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = hand_definition(1);
+    dem_scene *scene = weightless_scene(&d);
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.09, 0, 0 },
+        .velocity = (double[]){ 3000, 0, 0 } });
+    assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
+    assert_int_not_equal(dem_scene_advance(scene, 100), DEM_OK);
+    dem_scene_free(scene);
+}
+
+static void a_definition_out_of_range_is_refused(void **unused)
+{
+    (void)unused;
+    dem_drum_definition good = small_drum();
+    follow_rules(&good, 0.03);
+    dem_scene *scene = NULL;
+    assert_int_equal(dem_scene_create(&good, &scene), DEM_OK);
+    dem_scene_free(scene);
+    struct { size_t offset; double bad; } cases[] = {
+        { offsetof(dem_drum_definition, diameter), -0.1 }, { offsetof(dem_drum_definition, diameter), NAN },
+        { offsetof(dem_drum_definition, diameter), 0.005 }, { offsetof(dem_drum_definition, length), 0.005 },
+        { offsetof(dem_drum_definition, rotation_rate), INFINITY }, { offsetof(dem_drum_definition, gravity), 0 },
+        { offsetof(dem_drum_definition, time_step), 0 }, { offsetof(dem_drum_definition, species[0].diameter), 0 },
+        { offsetof(dem_drum_definition, species[0].density), -1 }, { offsetof(dem_drum_definition, species[0].share), 0.9 },
+        { offsetof(dem_drum_definition, contact.stiffness), 0 }, { offsetof(dem_drum_definition, contact.restitution), 0 },
+        { offsetof(dem_drum_definition, contact.restitution), 1.01 }, { offsetof(dem_drum_definition, contact.friction), -0.1 },
+        { offsetof(dem_drum_definition, contact.wall_friction), NAN }, { offsetof(dem_drum_definition, lining.diameter), 0.02 },
+        { offsetof(dem_drum_definition, contact.tangential_stiffness_ratio), 0 }, { offsetof(dem_drum_definition, lining.diameter), NAN },
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        dem_drum_definition bad = good;
+        memcpy((char *)&bad + cases[k].offset, &cases[k].bad, sizeof(double));
+        if (dem_scene_create(&bad, &scene) != DEM_BAD_PARAMETER) fail_msg("case %zu was not refused", k);
+        assert_null(scene);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_drum_that_is_too_soft_stops_and_says_so),
+        cmocka_unit_test(an_overlap_beyond_half_a_radius_is_a_failure_of_those_two),
+        cmocka_unit_test(a_particle_beyond_the_wall_has_escaped),
+        cmocka_unit_test(a_velocity_that_is_not_a_number_is_found_within_the_horizon),
+        cmocka_unit_test(a_failed_scene_stays_failed),
+        cmocka_unit_test(a_definition_out_of_range_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
