@@ -1,0 +1,154 @@
+/* Claims about the grid of cells: it finds every pair within reach, once, however few cells the period has. */
+#include "cell_grid.h"
+#include "claims.h"
+
+/* Spheres of two sizes at random places of a box; `spheres` is filled as far as the grid looks at it. */
+static void scatter(spheres *s, size_t count, double radius, double period, double largest, dice *d)
+{
+    memset(s, 0, sizeof *s);
+    s->mobile_count = count;
+    s->row = array_create(count + 1, sizeof *s->row);
+    s->full_radius = array_create(count + 1, sizeof *s->full_radius);
+    assert_non_null(s->row);
+    assert_non_null(s->full_radius);
+    for (size_t i = 0; i < count; i++) {
+        s->row[i].x[0] = dice_uniform(d, -radius, radius);
+        s->row[i].x[1] = dice_uniform(d, -radius, radius);
+        s->row[i].x[2] = dice_uniform(d, -period / 2, period / 2);
+        s->full_radius[i] = (double)(real)(i % 3 ? largest : largest / 3);
+    }
+    /* the corners of the box and its seam */
+    for (int c = 0; c < 3; c++) s->row[0].x[c] = c < 2 ? radius : -period / 2;
+    for (int c = 0; c < 3; c++) s->row[1].x[c] = c < 2 ? -radius : nextafter(period / 2, 0);
+}
+
+static void discard(cell_grid *grid, spheres *s)
+{
+    cell_grid_clear(grid);
+    free(s->row);
+    free(s->full_radius);
+}
+
+static double gap_between(const spheres *s, size_t i, size_t j, double period)
+{
+    double dz = fabs(s->row[i].x[2] - s->row[j].x[2]);
+    dz = fmin(dz, period - dz);
+    return hypot(hypot(s->row[i].x[0] - s->row[j].x[0], s->row[i].x[1] - s->row[j].x[1]), dz) - s->full_radius[i] - s->full_radius[j];
+}
+
+static size_t times_found(const int32_t *found, size_t count, size_t j)
+{
+    size_t times = 0;
+    for (size_t k = 0; k < count; k++) times += found[k] == (int32_t)j;
+    return times;
+}
+
+enum { COUNT = 300, SPARE = 64 };
+
+static void check_box(double radius, double period, double largest, double skin)
+{
+    dice d = { 97 };
+    spheres s;
+    cell_grid grid;
+    cell_grid_init(&grid);
+    scatter(&s, COUNT, radius, period, largest, &d);
+    assert_int_equal(cell_grid_fill(&grid, &s, radius, period, 2 * largest + skin), DEM_OK);
+    size_t near = 0;
+    /* rounding may let in, but never leave out */
+    const double rounding = 1e-5 * (2 * radius + period);
+    for (size_t i = 0; i < COUNT; i++) {
+        int32_t found[COUNT + SPARE];
+        const size_t count = cell_grid_neighbors(&grid, i, skin, found, COUNT);
+        for (size_t j = 0; j < COUNT; j++) {
+            const double gap = gap_between(&s, i, j, period);
+            const size_t times = times_found(found, count, j);
+            if (j <= i || gap > skin + rounding) assert_int_equal(times, 0);
+            else if (gap < skin) assert_int_equal(times, 1);
+            near += times;
+        }
+    }
+    CHECK_BETWEEN(near, 1, INFINITY);
+    discard(&grid, &s);
+}
+
+static void every_pair_within_the_skin_is_found_once(void **unused)
+{
+    (void)unused;
+    static const double periods_in_reach[] = { 1.0, 1.7, 2.0, 2.9, 3.0, 3.5, 4.0, 11.3 };
+    for (int k = 0; k < 8; k++)
+        for (double reach = 0.05; reach < 2.5; reach *= 1.7)
+            check_box(0.5, periods_in_reach[k] * reach, 0.4 * reach, 0.2 * reach);
+}
+
+/* Too little room: what was asked for is counted all the same, and nothing behind the LANES to spare is touched. */
+static void with_too_little_room_the_count_is_still_right(void **unused)
+{
+    (void)unused;
+    dice d = { 107 };
+    spheres s;
+    cell_grid grid;
+    cell_grid_init(&grid);
+    scatter(&s, COUNT, 0.5, 0.9, 0.2, &d);
+    assert_int_equal(cell_grid_fill(&grid, &s, 0.5, 0.9, 0.5), DEM_OK);
+    for (size_t i = 0; i < COUNT; i++) {
+        int32_t all[COUNT + SPARE], few[10 + LANES + 1];
+        for (int k = 0; k <= 10 + LANES; k++) few[k] = -7;
+        assert_int_equal(cell_grid_neighbors(&grid, i, 0.1, few, 10), cell_grid_neighbors(&grid, i, 0.1, all, COUNT));
+        assert_int_equal(few[10 + LANES], -7);
+    }
+    discard(&grid, &s);
+}
+
+static void every_sphere_is_in_its_cell_once_and_in_order(void **unused)
+{
+    (void)unused;
+    dice d = { 101 };
+    spheres s;
+    cell_grid grid;
+    cell_grid_init(&grid);
+    scatter(&s, COUNT, 0.5, 0.7, 0.01, &d);
+    for (double reach = 0.3; reach > 0.04; reach *= 0.6) { /* a grid that is used again grows */
+        assert_int_equal(cell_grid_fill(&grid, &s, 0.5, 0.7, reach), DEM_OK);
+        const int cells = grid.cells[0] * grid.cells[1] * grid.cells[2];
+        bool seen[COUNT] = { false };
+        assert_int_equal(grid.start[0], 0);
+        assert_int_equal(grid.start[cells], COUNT);
+        for (int c = 0; c < cells; c++)
+            for (int32_t k = grid.start[c]; k < grid.start[c + 1]; k++) {
+                assert_int_equal(grid.cell_of[grid.sphere[k]], c);
+                assert_false(seen[grid.sphere[k]]);
+                seen[grid.sphere[k]] = true;
+                assert_true(k == grid.start[c] || grid.sphere[k] > grid.sphere[k - 1]);
+            }
+        for (int i = 0; i < COUNT; i++) assert_true(seen[i]);
+    }
+    discard(&grid, &s);
+}
+
+/* A place that is not a number, or far outside, gets some cell and is found by the checks of places. */
+static void a_place_outside_or_not_a_number_gets_a_cell_of_the_grid(void **unused)
+{
+    (void)unused;
+    dice d = { 103 };
+    spheres s;
+    cell_grid grid;
+    cell_grid_init(&grid);
+    scatter(&s, 5, 0.5, 0.7, 0.01, &d);
+    s.row[2].x[0] = NAN;
+    s.row[3].x[1] = 1e300;
+    s.row[4].x[2] = -INFINITY;
+    assert_int_equal(cell_grid_fill(&grid, &s, 0.5, 0.7, 0.1), DEM_OK);
+    for (int i = 0; i < 5; i++) CHECK_BETWEEN(grid.cell_of[i], 0, grid.cells[0] * grid.cells[1] * grid.cells[2] - 1);
+    discard(&grid, &s);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_pair_within_the_skin_is_found_once),
+        cmocka_unit_test(with_too_little_room_the_count_is_still_right),
+        cmocka_unit_test(every_sphere_is_in_its_cell_once_and_in_order),
+        cmocka_unit_test(a_place_outside_or_not_a_number_gets_a_cell_of_the_grid),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,215 @@
+/* Claims about the neighbor lists: against a search of all pairs at every step, no contact is ever missed. */
+#include "scene.h"
+#include "small_drum.h"
+
+/* All pairs that touch now and are not in the list that the next step computes. */
+typedef struct census {
+    size_t touching, missed, steps; /* steps looked at */
+} census;
+
+/* Which pairs are listed, and all spheres in the order of x, so that "all pairs" need not take all day. */
+typedef struct listed {
+    uint8_t *pair;   /* (mobile, all) */
+    size_t *order;   /* (all) */
+    size_t mobile, all;
+} listed;
+
+static listed listed_create(const dem_scene *scene)
+{
+    listed l = { .mobile = scene->spheres.mobile_count, .all = spheres_count(&scene->spheres) };
+    l.pair = calloc(l.mobile * l.all, 1);
+    l.order = calloc(l.all, sizeof *l.order);
+    assert_non_null(l.pair);
+    assert_non_null(l.order);
+    for (size_t k = 0; k < l.all; k++) l.order[k] = k;
+    return l;
+}
+
+/* Nearly sorted from the step before: by insertion. */
+static void listed_sort(listed *l, const sphere_row *row)
+{
+    for (size_t k = 1; k < l->all; k++) {
+        const size_t moving = l->order[k];
+        size_t m = k;
+        for (; m > 0 && row[l->order[m - 1]].x[0] > row[moving].x[0]; m--) l->order[m] = l->order[m - 1];
+        l->order[m] = moving;
+    }
+}
+
+static void listed_mark(listed *l, const contact_list *pairs, uint8_t mark)
+{
+    for (size_t k = 0; k < pairs->count; k++) {
+        assert_true(pairs->first[k] < pairs->second[k]);
+        l->pair[(size_t)pairs->first[k] * l->all + (size_t)pairs->second[k]] = mark;
+    }
+}
+
+static void count_pairs(const dem_scene *scene, listed *l, census *c)
+{
+    const spheres *s = &scene->spheres;
+    listed_sort(l, s->row);
+    const double widest = fmax(s->largest_diameter, scene->definition.lining.diameter);
+    for (size_t a = 0; a < l->all; a++)
+        for (size_t b = a + 1; b < l->all && s->row[l->order[b]].x[0] - s->row[l->order[a]].x[0] < widest; b++) {
+            const size_t i = l->order[a] < l->order[b] ? l->order[a] : l->order[b], j = l->order[a] + l->order[b] - i;
+            const double *x = s->row[i].x, *y = s->row[j].x, reach = (double)s->row[i].radius + (double)s->row[j].radius;
+            const double dx = y[0] - x[0], dy = y[1] - x[1];
+            if (i >= l->mobile || fabs(dy) > reach) continue;
+            const double dz = remainder(y[2] - x[2], scene->drum.length);
+            if (dx * dx + dy * dy + dz * dz >= reach * reach) continue;
+            c->touching++;
+            c->missed += !l->pair[i * l->all + j];
+        }
+}
+
+static void count_walls(const dem_scene *scene, census *c)
+{
+    const contact_list *walls = &scene->neighbors.walls;
+    for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
+        const sphere_row *row = &scene->spheres.row[i];
+        if (hypot(row->x[0], row->x[1]) + (double)row->radius <= scene->drum.radius) continue;
+        bool found = false;
+        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) found = found || walls->first[k] == (int32_t)i;
+        c->touching++;
+        c->missed += !found;
+    }
+}
+
+/* `most` censuses, one every `stride` steps, or until the phase after `last`. A stride that shares no factor with the
+ * life of a list meets every age of it. */
+static census take_census(dem_scene *scene, dem_phase last, int64_t stride, int64_t most)
+{
+    census c = { 0 };
+    listed l = listed_create(scene);
+    for (; dem_scene_phase(scene) <= last && (int64_t)c.steps < most; c.steps++) {
+        run(scene, stride);
+        listed_mark(&l, &scene->neighbors.pairs, 1);
+        count_pairs(scene, &l, &c);
+        count_walls(scene, &c);
+        listed_mark(&l, &scene->neighbors.pairs, 0);
+    }
+    free(l.pair);
+    free(l.order);
+    return c;
+}
+
+static void check_run(dem_drum_definition *d)
+{
+    enum { EVERY = 800, FIFTH = 1200 };
+    follow_rules(d, 0.03);
+    dem_scene *scene = drum_scene(d);
+    const census growing = take_census(scene, DEM_PHASE_GROWING, 1, 600);
+    run_to_phase(scene, DEM_PHASE_ROTATING);
+    const int64_t picks = scene->neighbors.inner_picks;
+    const census start = take_census(scene, DEM_PHASE_ROTATING, 1, EVERY);
+    const census later = take_census(scene, DEM_PHASE_ROTATING, 5, FIFTH);
+    assert_int_equal(growing.missed, 0);
+    assert_int_equal(start.missed, 0);
+    assert_int_equal(later.missed, 0);
+    assert_int_equal(start.steps + later.steps, EVERY + FIFTH);
+    CHECK_BETWEEN(later.touching / (double)later.steps, 0.2 * (double)d->particle_count, INFINITY); /* a bed, if a wild one */
+    /* and lists do outlive a step: missing nothing by picking always would prove nothing */
+    CHECK_BETWEEN((double)(scene->neighbors.inner_picks - picks) / (EVERY + 5 * FIFTH), 0, 0.5);
+    dem_scene_free(scene);
+}
+
+/* Omega^2 = omega^2 R/g of 2.2 from rest: the bed is thrown about the whole drum. */
+static double fast_rate(const dem_drum_definition *d) { return sqrt(2.2 * d->gravity / (0.5 * d->diameter)); }
+
+static void no_contact_is_missed_in_a_fast_start_of_two_sizes(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = two_sizes_drum();
+    d.rotation_rate = fast_rate(&d);
+    check_run(&d);
+}
+
+static void no_contact_is_missed_with_a_lining(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = two_sizes_drum();
+    d.lining = (dem_lining){ .diameter = 0.003, .pitch = 0.0035 };
+    d.fill_fraction = 0.3;
+    d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 2);
+    d.rotation_rate = fast_rate(&d);
+    check_run(&d);
+}
+
+/* The other way round, and slow. */
+static void no_contact_is_missed_in_a_slow_drum_turning_backwards(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = small_drum();
+    d.rotation_rate = -1.5;
+    check_run(&d);
+}
+
+/* A period of little more than two diameters: neighbors on both sides along the axis are the same few. */
+static void no_contact_is_missed_along_a_very_short_axis(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = small_drum();
+    d.length = 2.05 * 0.003;
+    d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 1);
+    d.rotation_rate = fast_rate(&d);
+    check_run(&d);
+}
+
+/* The order by which every sphere's sum is the same whenever a list was made. */
+static void contacts_are_listed_in_the_order_of_their_ids(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = two_sizes_drum();
+    follow_rules(&d, 0.03);
+    dem_scene *scene = drum_scene(&d);
+    run_to_phase(scene, DEM_PHASE_SETTLING);
+    for (int k = 0; k < 200; k++) {
+        run(scene, 7);
+        const contact_list *pairs = &scene->neighbors.pairs;
+        for (size_t m = 1; m < pairs->count; m++)
+            assert_true(pairs->first[m] > pairs->first[m - 1]
+                        || (pairs->first[m] == pairs->first[m - 1] && pairs->second[m] > pairs->second[m - 1]));
+        for (size_t i = 0; i < d.particle_count; i++)
+            for (size_t m = pairs->start[i]; m < pairs->start[i + 1]; m++) assert_int_equal(pairs->first[m], i);
+    }
+    dem_scene_free(scene);
+}
+
+static void contacts_of_each_particle_are_counted_as_by_all_pairs(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = two_sizes_drum();
+    d.lining = (dem_lining){ .diameter = 0.003, .pitch = 0.0035 };
+    d.particle_count = 200;
+    follow_rules(&d, 0.03);
+    dem_scene *scene = drum_scene(&d);
+    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run(scene, 300);
+    const spheres *s = &scene->spheres;
+    int32_t counted[200], expected[200] = { 0 };
+    dem_scene_particles(scene, &(dem_particle_arrays){ .contacts = counted });
+    for (size_t i = 0; i < 200; i++) {
+        const double *x = s->row[i].x;
+        for (size_t j = 0; j < spheres_count(s); j++) {
+            const double *y = s->row[j].x, dz = remainder(y[2] - x[2], d.length);
+            const double distance = sqrt((y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + dz * dz);
+            expected[i] += j != i && distance < s->full_radius[i] + s->full_radius[j];
+        }
+        expected[i] += hypot(x[0], x[1]) + s->full_radius[i] > 0.5 * d.diameter;
+    }
+    assert_memory_equal(counted, expected, sizeof counted);
+    dem_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(no_contact_is_missed_in_a_fast_start_of_two_sizes),
+        cmocka_unit_test(no_contact_is_missed_with_a_lining),
+        cmocka_unit_test(no_contact_is_missed_in_a_slow_drum_turning_backwards),
+        cmocka_unit_test(no_contact_is_missed_along_a_very_short_axis),
+        cmocka_unit_test(contacts_are_listed_in_the_order_of_their_ids),
+        cmocka_unit_test(contacts_of_each_particle_are_counted_as_by_all_pairs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
