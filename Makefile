@@ -2,20 +2,26 @@
 
 PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-requests python3-h5py python3-vtk9 python3-jsonschema \
-                 python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver
+                 python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core
+PEER_PACKAGES := lammps liggghts
+LINT_PACKAGES := clang-format clang-tidy cppcheck bear
+
 PYTHON := /usr/bin/python3
 BUILD := build
+DATA := data
+PORT := 8080
 # The processor's own instructions: the program is built where it runs. MARCH=x86-64-v3 for another machine.
 MARCH := native
 CC := gcc
 OPT := -O2
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wundef -Wvla $(if $(CI),-Werror)
-HARDENING := -D_FORTIFY_SOURCE=2 -fstack-protector-strong
+HARDENING := $(if $(SANITIZE),,-D_FORTIFY_SOURCE=2) -fstack-protector-strong
 CFLAGS := -std=c17 -g $(OPT) $(WARNINGS) -MMD -MP $(SANITIZE)
 LDFLAGS := $(SANITIZE)
 
 # Contraction off: an expression has the same bits wherever the compiler inlines it.
-CORE_FLAGS := -O3 -march=$(MARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp -Iinclude -Icore
+CORE_FLAGS := -O3 -march=$(MARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp $(if $(DOUBLE),-DDEM_DOUBLE) \
+              -Iinclude -Icore
 API_FLAGS := -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi
 WORKER_FLAGS = -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi -Iserver/worker $(shell pkg-config --cflags hdf5-serial)
 DAEMON_FLAGS := -D_GNU_SOURCE $(HARDENING) -pthread -Iinclude -Iapi -Iserver/daemon
@@ -24,20 +30,24 @@ CORE := $(patsubst %.c,$(BUILD)/%.o,$(wildcard core/*.c))
 API := $(patsubst %.c,$(BUILD)/%.o,$(wildcard api/*.c))
 WORKER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/worker/*.c))
 DAEMON := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/daemon/*.c))
+DAEMON_PARTS := $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
 UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(wildcard tests/unit/test_*.c))
 
-all: $(BUILD)/repose $(BUILD)/reposed ## build both programs
+programs: $(BUILD)/repose $(BUILD)/reposed
+all: packages ## install what is missing and build both programs
+	@$(MAKE) --no-print-directory programs
+.DEFAULT_GOAL := all
 
-$(BUILD)/core/%.o: core/%.c
+$(BUILD)/core/%.o: core/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(CORE_FLAGS) -c $< -o $@
-$(BUILD)/api/%.o: api/%.c
+$(BUILD)/api/%.o: api/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(API_FLAGS) -c $< -o $@
-$(BUILD)/server/worker/%.o: server/worker/%.c
+$(BUILD)/server/worker/%.o: server/worker/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(WORKER_FLAGS) -c $< -o $@
-$(BUILD)/server/daemon/%.o: server/daemon/%.c
+$(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(DAEMON_FLAGS) -c $< -o $@
 
@@ -51,10 +61,75 @@ $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
 	$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lm
 $(BUILD)/tests/bench/%: tests/bench/%.c $(BUILD)/libdem.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude $< $(BUILD)/libdem.a -fopenmp -lm -o $@
+	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude $< $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -lm -o $@
 # Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
-$(BUILD)/tests/unit/%: tests/unit/%.c $(BUILD)/libdem.a $(BUILD)/libapi.a $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
+$(BUILD)/tests/unit/%: tests/unit/%.c $(BUILD)/libdem.a $(BUILD)/libapi.a $(DAEMON_PARTS)
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude -Icore -Iapi -Iserver/daemon $< $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON)) \
+	$(CC) $(CFLAGS) -D_GNU_SOURCE $(if $(DOUBLE),-DDEM_DOUBLE) -march=$(MARCH) -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
 	  $(BUILD)/libapi.a $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
+
+demo: all ## the paper's drum from curl to an angle of repose, with nothing prepared
+	@sh tests/demo.sh $(BUILD)
+
+serve: all ## the daemon in the foreground: PORT=8080 DATA=data
+	@$(BUILD)/reposed serve --port $(PORT) --data $(DATA)
+
+test: test-packages ## unit, short physics and service tests; closes with a line that counts them
+	@$(MAKE) --no-print-directory check programs $(UNIT_TESTS)
+	@PYTHON=$(PYTHON) sh tests/run.sh $(BUILD)
+
+physics: test-packages ## long physics: the drum's angles against the paper's
+	@$(MAKE) --no-print-directory programs
+	@$(PYTHON) -m pytest -q -p no:cacheprovider tests/physics
+
+check: programs ## the layers: the core needs nothing but libc, libm and OpenMP
+	@sh tests/check_layers.sh $(BUILD)
+
+bench: all ## particle-steps per second of the core on the paper's drum
+	@$(MAKE) --no-print-directory $(BUILD)/tests/bench/bench_drum
+	@sh tests/bench/bench.sh $(BUILD)
+
+asan: test-packages ## unit and worker tests under the address and undefined-behavior sanitizers, in build/asan
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan SANITIZE="-fsanitize=address,undefined -fno-omit-frame-pointer" asan-run
+asan-run: programs $(UNIT_TESTS)
+	@PYTHON=$(PYTHON) sh tests/run.sh $(BUILD) unit
+
+tsan: test-packages ## unit tests of the daemon under the thread sanitizer, in build/tsan
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan SANITIZE="-fsanitize=thread" asan-run
+
+format: lint-packages ## clang-format over all C
+	@git ls-files '*.c' '*.h' | xargs clang-format -i
+
+lint: lint-packages ## clang-tidy and cppcheck
+	@rm -rf $(BUILD)/lint && mkdir -p $(BUILD)/lint
+	@bear --output $(BUILD)/lint/compile_commands.json -- $(MAKE) --no-print-directory BUILD=$(BUILD)/lint/objects programs >/dev/null
+	@clang-tidy --quiet -p $(BUILD)/lint $(wildcard core/*.c api/*.c server/*/*.c) 2>/dev/null
+	@cppcheck --quiet --enable=warning,performance,portability --inline-suppr --error-exitcode=1 -Iinclude -Icore -Iapi -Iserver/daemon -Iserver/worker core api server
+
+clean: ## remove what was built
+	rm -rf $(BUILD)
+
+help: ## this list
+	@grep -hE '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:[^#]*## /\t/' | expand -t 10
+
+# $(call install,PACKAGES): by apt-get, with sudo when not root, only what is missing.
+define install
+	@missing=$$(for p in $(1); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
+	if [ -n "$$missing" ]; then \
+	  echo "installing:" $$missing; \
+	  as=; [ "$$(id -u)" = 0 ] || as=sudo; \
+	  $$as apt-get update -qq && $$as env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing >/dev/null; \
+	fi
+endef
+packages:
+	$(call install,$(PACKAGES))
+test-packages: packages
+	$(call install,$(TEST_PACKAGES))
+lint-packages: packages
+	$(call install,$(LINT_PACKAGES))
+peer-packages: packages
+	$(call install,$(PEER_PACKAGES))
+
+.PHONY: all programs demo serve test physics check bench asan asan-run tsan format lint clean help packages test-packages lint-packages peer-packages
+.SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

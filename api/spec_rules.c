@@ -22,7 +22,7 @@
 #define MOST_SIZE_RATIO 20.0
 #define LEAST_DRUM_DIAMETERS 8.0  /* a bed a few particles deep has no surface to speak of */
 #define LEAST_LENGTH_DIAMETERS 3.0 /* below, a particle would feel its own periodic image */
-#define MOST_OVERLAP 0.1          /* of the smallest diameter: beyond, spheres squeeze past each other */
+#define MOST_OVERLAP 0.25         /* of the smallest diameter: beyond half a radius a run is stopped */
 
 static double of_species(const drum_inputs *inputs, double (*number)(const species_inputs *), bool largest)
 {
@@ -151,8 +151,8 @@ static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition
 static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     const double heaviest = of_species(inputs, species_mass, true), lightest = of_species(inputs, species_mass, false);
-    const double smallest = of_species(inputs, species_diameter, false);
-    const double speed = dem_impact_speed(drum->diameter, drum->gravity, inputs->friction, drum->rotation_rate);
+    const double smallest = of_species(inputs, species_diameter, false), largest = of_species(inputs, species_diameter, true);
+    const double speed = dem_impact_speed(drum->diameter, largest, drum->gravity, inputs->friction, drum->rotation_rate);
     const double least = dem_stiffness_for_overlap(speed, heaviest, MOST_OVERLAP * smallest);
     if (inputs->stiffness < least)
         problem_list_add(problems, "/inputs/contact/stiffness", "is %g N/m, too soft: overlaps would pass %g of the "

@@ -32,17 +32,6 @@ static void assign_species(spheres *s, const dem_drum_definition *definition)
     }
 }
 
-/* Share of a unit circle's area below the height y. */
-static double area_below(double y) { return (acos(-y) + y * sqrt(1 - y * y)) / DEM_PI; }
-
-/* Height below which the drum holds `share` of its area. */
-static double level_of(double share)
-{
-    double low = -1.0, high = 1.0;
-    for (int k = 0; k < 60; k++) *(area_below(0.5 * (low + high)) < share ? &low : &high) = 0.5 * (low + high);
-    return 0.5 * (low + high);
-}
-
 /* Spheres placed so far, in linked cells. */
 typedef struct placing {
     int cells[3];
@@ -166,7 +155,7 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
     const double fraction = total_volume(s) / (DEM_PI * room * room * drum->length);
     if (room < 1.5 * s->largest_diameter || fraction > 0.62) return DEM_DOES_NOT_FIT;
     const double share = fmin(1.0, fraction / REGION_FRACTION), region_fraction = fmax(REGION_FRACTION, fraction);
-    const double level = share < 1 ? level_of(share) : 1.0;
+    const double level = share < 1 ? circle_level(share) : 1.0;
 
     random_stream random;
     random_seed(&random, definition->seed);

@@ -152,7 +152,7 @@ typedef struct dem_regime_result {
     double wall_slip_fluctuation;       /* its standard deviation in time */
     double angle_fluctuation_deg;       /* standard deviation in time of the centre of mass's direction */
     double flow_fluctuation;            /* standard deviation over mean of the surface flow's speed */
-    double airborne_fraction;           /* share of particles without any contact, mean */
+    double airborne_fraction;           /* share of particles in flight: no contact, 3 d above the surface; mean */
     double wall_coverage;               /* share of the wall's circumference that has particles against it */
     double curvature_deg;               /* upper less lower half of the chord */
     double fallen_fraction;             /* share of particles lately nearer the axis than R_i - 2d */

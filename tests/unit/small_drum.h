@@ -22,14 +22,16 @@ static inline dem_drum_definition small_drum(void)
 /* Stiffness and time step from the rules, for this overlap as a share of the smallest diameter. */
 static inline void follow_rules(dem_drum_definition *d, double overlap)
 {
-    double smallest = INFINITY, lightest = INFINITY, heaviest = 0;
+    double smallest = INFINITY, largest = 0, lightest = INFINITY, heaviest = 0;
     for (size_t k = 0; k < d->species_count; k++) {
         const double mass = dem_sphere_mass(d->species[k].diameter, d->species[k].density);
         smallest = fmin(smallest, d->species[k].diameter);
+        largest = fmax(largest, d->species[k].diameter);
+        largest = fmax(largest, d->species[k].diameter);
         lightest = fmin(lightest, mass);
         heaviest = fmax(heaviest, mass);
     }
-    const double speed = dem_impact_speed(d->diameter, d->gravity, d->contact.friction, d->rotation_rate);
+    const double speed = dem_impact_speed(d->diameter, largest, d->gravity, d->contact.friction, d->rotation_rate);
     d->contact.stiffness = dem_stiffness_for_overlap(speed, heaviest, overlap * smallest);
     d->time_step = dem_time_step(d->contact.stiffness, lightest, d->contact.restitution);
 }

@@ -1,0 +1,21 @@
+#!/bin/sh
+# The layers hold: the core needs nothing but libc, libm and OpenMP; the daemon links neither the core nor HDF5; the
+# worker neither libmicrohttpd nor SQLite. Reads the symbols, not the sources.
+build=${1:-build}
+undefined=$(nm -u "$build/libdem.a" | awk '$1 == "U" {print $2}' | sort -u)
+defined=$(nm --defined-only "$build/libdem.a" | awk 'NF == 3 {print $3}' | sort -u)
+outside=$(printf '%s\n' "$undefined" | grep -vxF "$defined" | grep -vE '^(GOMP_|omp_)' |
+  grep -vxE '__(asan|ubsan|tsan|stack_chk|sanitizer)_?.*|_GLOBAL_OFFSET_TABLE_' |
+  grep -vxE 'acos|atan2?|cbrt|ceil|cos|exp|floor|fmaxf?|fminf?|hypot|log|pow|rint|sin|sincos|sqrt|tan|trunc' |
+  grep -vxE 'aligned_alloc|malloc|calloc|free|memcpy|memmove|memset|memcmp|qsort|strcmp|__assert_fail')
+printed=$(printf '%s\n' "$undefined" | grep -xE 'f?printf|puts|fopen|open|read|write|exit|abort|time|clock_gettime|socket')
+status=0
+if [ -n "$outside$printed" ]; then
+  echo "core reaches outside its layer:" $outside $printed
+  status=1
+fi
+ldd "$build/reposed" | grep -E 'hdf5|gomp' && { echo "reposed links what only a worker may"; status=1; }
+nm "$build/reposed" | grep -E ' T dem_scene_' && { echo "reposed links the core"; status=1; }
+ldd "$build/repose" | grep -E 'microhttpd|sqlite' && { echo "repose links what only the daemon may"; status=1; }
+[ $status = 0 ] && echo "layers hold"
+exit $status
