@@ -27,7 +27,6 @@ static inline void follow_rules(dem_drum_definition *d, double overlap)
         const double mass = dem_sphere_mass(d->species[k].diameter, d->species[k].density);
         smallest = fmin(smallest, d->species[k].diameter);
         largest = fmax(largest, d->species[k].diameter);
-        largest = fmax(largest, d->species[k].diameter);
         lightest = fmin(lightest, mass);
         heaviest = fmax(heaviest, mass);
     }

@@ -1,5 +1,7 @@
 /* Claims about a whole scene: the same bits however it is run, saved or restored; rest stays rest; the axis has no
  * beginning. */
+#include <unistd.h>
+
 #include "scene_by_hand.h"
 #include "small_drum.h"
 
@@ -48,30 +50,48 @@ static dem_scene *run_in_calls(const dem_drum_definition *d, int64_t steps, int6
     return scene;
 }
 
-static void a_run_gives_the_same_bits_for_any_threads_and_any_division_into_calls(void **unused)
+static void a_run_gives_the_same_bits_for_any_division_into_calls(void **unused)
 {
     (void)unused;
     dem_drum_definition d = quick_drum();
     const int64_t steps = whole_run(&d);
     dem_scene *once = run_in_calls(&d, steps, steps);
-    static const int64_t strides[] = { 1000000, 1, 7, 100 };
+    static const int64_t strides[] = { 1000000, 1, 7, 100 /* steps a call */ };
     for (int k = 0; k < 4; k++) {
         dem_scene *again = run_in_calls(&d, steps, strides[k]);
         assert_true(are_equal(once, again));
         dem_scene_free(again);
     }
+    /* the comparison can tell: one step more is another state */
+    dem_scene *again = run_in_calls(&d, steps, steps);
+    run(once, 1);
+    assert_false(are_equal(once, again));
+    dem_scene_free(again);
+    dem_scene_free(once);
+}
+
+/* From the start, and in a bed that turns; in growing the lists change the most, in the bed they are the longest. */
+static void a_run_gives_the_same_bits_for_any_number_of_threads(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = quick_drum();
+    dem_scene *start = drum_scene(&d), *bed = drum_scene(&d);
+    run_to_phase(bed, DEM_PHASE_ROTATING);
+    dem_state turning = state_of(bed);
+    run(start, 150);
+    run(bed, 150);
     for (d.threads = 2; d.threads <= 3; d.threads++) {
-        dem_scene *threaded = run_in_calls(&d, steps, steps);
-        assert_true(are_equal(once, threaded));
+        dem_scene *threaded = drum_scene(&d);
+        run(threaded, 150);
+        assert_true(are_equal(start, threaded));
+        assert_int_equal(dem_scene_restore(threaded, &turning), DEM_OK);
+        run(threaded, 150);
+        assert_true(are_equal(bed, threaded));
         dem_scene_free(threaded);
     }
-    /* the comparison can tell: one step more is another state */
-    run(once, 1);
-    d.threads = 1;
-    dem_scene *one_less = run_in_calls(&d, steps, steps);
-    assert_false(are_equal(once, one_less));
-    dem_scene_free(one_less);
-    dem_scene_free(once);
+    dem_state_clear(&turning);
+    dem_scene_free(start);
+    dem_scene_free(bed);
 }
 
 /* ---- save and restore ---- */
@@ -187,8 +207,8 @@ static void a_state_of_another_shape_is_refused(void **unused)
 
 /* ---- rest ---- */
 
-/* Ten spheres in a column of lead upon the lowest line would buckle; a pyramid of three in the groove does not. The
- * bed is one of the drum's own: settled, left for as long again, then watched. */
+/* Settled, left alone for 0.2 s, then watched for as long. What still moves is the last ringing of contacts, which
+ * nothing damps but their hysteresis: 1e-4 of a diameter here, and a bound of ten times that. */
 static void a_settled_bed_in_a_standing_drum_keeps_still(void **unused)
 {
     (void)unused;
@@ -211,7 +231,6 @@ static void a_settled_bed_in_a_standing_drum_keeps_still(void **unused)
         furthest = fmax(furthest, sqrt(dx * dx + dy * dy + dz * dz));
     }
     free(before);
-    print_message("furthest %.3g d, energy per particle %.3g mgd\n", furthest / 0.003, dem_scene_kinetic_energy(scene) / (double)n / (dem_sphere_mass(.003,2500)*9.81*.003));
     CHECK_BETWEEN(furthest / 0.003, 0, 1e-3);
     dem_scene_free(scene);
 }
@@ -234,8 +253,8 @@ static void a_block_of_touching_spheres_without_weight_stays_where_it_is(void **
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x });
     advance(scene, 2000);
     look_at(scene, after, NULL, NULL);
-    /* places are rounded, so some pairs overlap by 1e-17 m: their springs push them apart at 1e-13 m/s at most */
-    for (int k = 0; k < 3 * N; k++) CHECK_NEAR(after[k], x[k], 1e-14);
+    /* places are rounded, so some pairs overlap by 1e-17 m: their springs push them apart at 1e-12 m/s at most */
+    for (int k = 0; k < 3 * N; k++) CHECK_NEAR(after[k], x[k], 1e-13);
     dem_scene_free(scene);
 }
 
@@ -253,7 +272,7 @@ static void a_sphere_at_rest_on_the_wall_stays_at_rest(void **unused)
         advance(scene, 100); /* 0.02 s: the parked spheres have fallen 2 mm */
         look_at(scene, now, v, w);
         for (int c = 0; c < 3; c++) {
-            CHECK_NEAR(now[c], x[c], 2 * alpha * ROUNDING + 1e-15);
+            CHECK_NEAR(now[c], x[c], 10 * alpha * ROUNDING + 1e-15); /* the balance is as exact as the force */
             CHECK_NEAR(w[c], 0, 1e-9);
         }
     }
@@ -341,10 +360,21 @@ static void a_drum_turned_backwards_leans_the_other_way(void **unused)
     CHECK_NEAR(angle[1], -angle[0], 6); /* one instant of one start each: the spread from frame to frame is 1 to 2 */
 }
 
-int main(void)
+/* Threads that wait by spinning take ages where cores are busy; how they wait is read before main. */
+static void wait_without_spinning(char **arguments)
 {
+    if (getenv("OMP_WAIT_POLICY")) return;
+    setenv("OMP_WAIT_POLICY", "passive", 1);
+    execv("/proc/self/exe", arguments);
+}
+
+int main(int count, char **arguments)
+{
+    (void)count;
+    wait_without_spinning(arguments);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_run_gives_the_same_bits_for_any_threads_and_any_division_into_calls),
+        cmocka_unit_test(a_run_gives_the_same_bits_for_any_division_into_calls),
+        cmocka_unit_test(a_run_gives_the_same_bits_for_any_number_of_threads),
         cmocka_unit_test(a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit),
         cmocka_unit_test(a_run_saved_at_the_very_change_of_phase_goes_on_bit_for_bit),
         cmocka_unit_test(a_state_of_another_shape_is_refused),
