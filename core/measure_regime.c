@@ -38,8 +38,8 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     const double d = mean_diameter(scene), rate = scene->definition.rotation_rate, time = dem_scene_time(scene);
     const double wall = scene->drum.inner_radius, inner = inner_radius(scene);
     const double angle = frame[FRAME_SURFACE_FIT] * (DEM_PI / 180), c = cos(angle), sine = sin(angle);
-    /* Thrown clear: without contact, and well above the chord that the fill makes in the frame of the surface. */
-    const double clear = circle_level(fmin(scene->definition.fill_fraction, 1.0)) * scene->drum.radius + 3 * d;
+    /* The chord that the fill makes in the frame of the surface: in flight is what is well above it without contact. */
+    const double chord = circle_level(fmin(scene->definition.fill_fraction, 1.0)) * scene->drum.radius;
     mean wall_spin = { 0 }, surface_spin = { 0 }, flow = { 0 }, airborne = { 0 };
     bool bins[WALL_BINS] = { false };
     for (size_t i = 0; i < s->mobile_count; i++) {
@@ -47,9 +47,10 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
         const vector4 v = s->velocity[i];
         const double rho2 = x[0] * x[0] + x[1] * x[1], rho = sqrt(rho2);
         const double spin = (x[0] * v[1] - x[1] * v[0]) / fmax(rho2, 1e-300);
-        mean_add(&airborne, contacts[i] == 0 && c * x[1] - sine * x[0] > clear);
+        const double above_chord = c * x[1] - sine * x[0] - chord;
+        mean_add(&airborne, contacts[i] == 0 && above_chord > 3 * d);
         if (rho > wall - d) {
-            mean_add(&wall_spin, spin);
+            if (!(above_chord > -3 * d)) mean_add(&wall_spin, spin); /* the bed's own, not what falls at its ends */
             bins[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (WALL_BINS - 1e-9))] = true;
         }
         if (fabs(rho - inner) < d) mean_add(&surface_spin, spin);
@@ -93,7 +94,7 @@ static dem_regime fast_regime(const dem_regime_result *r)
 static dem_regime slow_regime(const dem_regime_result *r)
 {
     /* Thrown clear of the bed: particles in flight. */
-    if (r->airborne_fraction > 0.02) return DEM_CATARACTING;
+    if (r->airborne_fraction > 0.002) return DEM_CATARACTING;
     /* The bed as a whole moves against the wall: at a steady pace, or in jerks. */
     if (r->wall_slip > 0.3 && r->wall_slip_fluctuation < 0.3) return DEM_SLIPPING;
     if (r->wall_slip_fluctuation > 0.3 && r->angle_fluctuation_deg > 1.5) return DEM_SLUMPING;
