@@ -1,0 +1,197 @@
+/* Claims about the results that a table of frames gives, with tables written by hand: means and their errors, what is
+ * left out, drift, regimes. */
+#include "measure.h"
+#include "scene_by_hand.h"
+
+enum { FRAMES = 400 };
+static const double INTERVAL = 0.05, RADIUS = 0.06; /* s, m */
+
+/* A drum at 2 rad/s and a table of frames of a steady rolling bed: 25 degrees, +-0.5 alternating, a level interface. */
+static double *steady_table(const dem_scene *scene)
+{
+    const size_t width = dem_frame_width(scene);
+    double *table = calloc(FRAMES * width, sizeof *table);
+    assert_non_null(table);
+    for (size_t k = 0; k < FRAMES; k++) {
+        double *f = table + k * width;
+        const double angle = 25 + (k % 2 ? 0.5 : -0.5);
+        f[FRAME_TIME] = (double)k * INTERVAL;
+        f[FRAME_SURFACE_FIT] = f[FRAME_CENTER_OF_MASS] = f[FRAME_THEIL_SEN] = angle;
+        f[FRAME_UPPER_CHORD] = angle + 2;
+        f[FRAME_LOWER_CHORD] = angle - 2;
+        f[FRAME_SOLID_FRACTION] = 0.58;
+        f[FRAME_COORDINATION] = 4.5;
+        f[FRAME_WALL_COVERAGE] = 0.5;
+        f[FRAME_FLOW_SPEED] = 0.1 + (k % 2 ? 0.01 : -0.01);
+    }
+    return table;
+}
+
+static dem_drum_results results_of(const dem_scene *scene, const double *table, size_t count)
+{
+    dem_drum_results r;
+    assert_int_equal(dem_drum_results_measure(scene, table, count, &r), DEM_OK);
+    return r;
+}
+
+static dem_scene *any_scene(double rate)
+{
+    dem_drum_definition d = hand_definition(100);
+    d.diameter = 2 * RADIUS;
+    d.length = 0.018;
+    d.rotation_rate = rate;
+    return hand_scene(&d);
+}
+
+static void a_steady_table_has_its_mean_error_and_range(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(2);
+    double *table = steady_table(scene);
+    const dem_drum_results r = results_of(scene, table, FRAMES);
+    const dem_angle *a = &r.repose.angle[DEM_SURFACE_FIT];
+    CHECK_NEAR(a->mean_deg, 25, 0.01);
+    CHECK_NEAR(a->minimum_deg, 24.5, 1e-12);
+    CHECK_NEAR(a->maximum_deg, 25.5, 1e-12);
+    CHECK_BETWEEN(a->standard_error_deg, 0, 0.5 / sqrt(0.5 * FRAMES)); /* +-0.5, alternating: no more than independent */
+    assert_true(r.repose.steady);
+    CHECK_NEAR(r.repose.drift_deg_per_revolution, 0, 0.01);
+    CHECK_BETWEEN(r.repose.window_start, 0.25 * 2 * M_PI / 2, 0.5 * FRAMES * INTERVAL); /* after a quarter turn */
+    CHECK_NEAR(r.repose.window_end, (FRAMES - 1) * INTERVAL, 1e-12);
+    CHECK_NEAR(r.regime.curvature_deg, 4, 1e-9);
+    CHECK_NEAR(r.packing.solid_fraction, 0.58, 1e-12);
+    CHECK_NEAR(r.packing.coordination_number, 4.5, 1e-12);
+    assert_int_equal(r.regime.regime, DEM_ROLLING);
+    free(table);
+    dem_scene_free(scene);
+}
+
+static void a_transient_is_left_out_and_a_drift_is_told(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(2);
+    const size_t width = dem_frame_width(scene);
+    double *table = steady_table(scene);
+    for (size_t k = 0; k < FRAMES; k++) table[k * width + FRAME_SURFACE_FIT] -= 25 * exp(-(double)k * INTERVAL / 1.0);
+    dem_drum_results r = results_of(scene, table, FRAMES);
+    CHECK_NEAR(r.repose.angle[DEM_SURFACE_FIT].mean_deg, 25, 0.1);
+    CHECK_BETWEEN(r.repose.window_start, 2.5, 8); /* 25 exp(-t): 2 degrees left after 2.5 s, 0.01 after 8 s */
+    assert_true(r.repose.steady);
+    free(table);
+    table = steady_table(scene);
+    const double rise = 1.2; /* degrees a revolution, 3.14 s */
+    for (size_t k = 0; k < FRAMES; k++) table[k * width + FRAME_SURFACE_FIT] += rise * (double)k * INTERVAL / M_PI;
+    r = results_of(scene, table, FRAMES);
+    CHECK_NEAR(r.repose.drift_deg_per_revolution, rise, 0.02);
+    assert_false(r.repose.steady);
+    free(table);
+    dem_scene_free(scene);
+}
+
+static void too_few_frames_are_refused_and_missing_values_left_out(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(2);
+    const size_t width = dem_frame_width(scene);
+    double *table = steady_table(scene);
+    dem_drum_results r;
+    assert_int_equal(dem_drum_results_measure(scene, table, 7, &r), DEM_TOO_FEW_FRAMES);
+    for (size_t k = 0; k < FRAMES; k++) {
+        if (k % 3 == 0) table[k * width + FRAME_SURFACE_FIT] = NAN;
+        table[k * width + FRAME_THEIL_SEN] = NAN;
+    }
+    r = results_of(scene, table, FRAMES);
+    CHECK_NEAR(r.repose.angle[DEM_SURFACE_FIT].mean_deg, 25, 0.05);
+    assert_true(isnan(r.repose.angle[DEM_THEIL_SEN].mean_deg) && isnan(r.repose.angle[DEM_THEIL_SEN].standard_error_deg));
+    free(table);
+    dem_scene_free(scene);
+}
+
+/* The interface that a GranuDrum would average: its slope between +-D/10, and how much it fluctuates. */
+static void the_chord_and_the_fluctuation_are_those_of_the_mean_interface(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(2);
+    const size_t width = dem_frame_width(scene), cells = width - DEM_FRAME_SCALARS;
+    double *table = steady_table(scene);
+    for (size_t k = 0; k < FRAMES; k++)
+        for (size_t a = 0; a < cells; a++) {
+            const double x = 2 * RADIUS * (((double)a + 0.5) / (double)cells - 0.5);
+            table[k * width + DEM_FRAME_SCALARS + a] = tan(0.4) * x + (k % 2 ? 0.001 : -0.001);
+        }
+    const dem_drum_results r = results_of(scene, table, FRAMES);
+    CHECK_NEAR(r.repose.angle[DEM_CHORD].mean_deg, 0.4 * 180 / M_PI, 1e-6);
+    CHECK_NEAR(r.repose.interface_fluctuation, 0.001, 1e-5); /* n - 1 for n: 0.2 % */
+    free(table);
+    dem_scene_free(scene);
+}
+
+/* ---- regimes ---- */
+
+/* A column of the table: mean and alternating swing about it. */
+static void set_column(double *table, size_t width, frame_column column, double mean, double swing)
+{
+    for (size_t k = 0; k < FRAMES; k++) table[k * width + column] = mean + (k / 4 % 2 ? swing : -swing);
+}
+
+static void regimes_are_told_from_how_the_bed_moves(void **unused)
+{
+    (void)unused;
+    struct { dem_regime regime; frame_column column; double mean, swing; frame_column second; double second_mean, second_swing; } cases[] = {
+        { DEM_SLIPPING, FRAME_WALL_SLIP, 0.8, 0.02, FRAME_TIME, 0, 0 },       /* the bed lies still in a turning drum */
+        { DEM_SLUMPING, FRAME_WALL_SLIP, 0.4, 0.6, FRAME_CENTER_OF_MASS, 20, 4 }, /* carried up, slides back, as a whole */
+        { DEM_AVALANCHING, FRAME_FLOW_SPEED, 0.1, 0.09, FRAME_TIME, 0, 0 },   /* the surface flows by bursts */
+        { DEM_CASCADING, FRAME_UPPER_CHORD, 45, 0.1, FRAME_LOWER_CHORD, 20, 0.1 }, /* S-shaped */
+        { DEM_CATARACTING, FRAME_AIRBORNE, 0.3, 0.01, FRAME_TIME, 0, 0 },
+    };
+    dem_scene *scene = any_scene(2);
+    const size_t width = dem_frame_width(scene);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        double *table = steady_table(scene);
+        set_column(table, width, cases[k].column, cases[k].mean, cases[k].swing);
+        if (cases[k].second != FRAME_TIME) set_column(table, width, cases[k].second, cases[k].second_mean, cases[k].second_swing);
+        const dem_drum_results r = results_of(scene, table, FRAMES);
+        assert_string_equal(dem_regime_name(r.regime.regime), dem_regime_name(cases[k].regime));
+        free(table);
+    }
+    dem_scene_free(scene);
+}
+
+/* Eqns 33, 35, 36-37 at phi = 25 degrees, and Omega^2 at the wall and at R_i = R sqrt(1 - fill), by hand. */
+static void fast_beds_rain_slide_or_turn_with_the_drum(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(30);
+    const size_t width = dem_frame_width(scene), n = dem_scene_particle_count(scene);
+    double *table = steady_table(scene);
+    set_column(table, width, FRAME_WALL_COVERAGE, 1, 0);
+    set_column(table, width, FRAME_SURFACE_LAG, 0.01, 0);
+    dem_drum_results r = results_of(scene, table, FRAMES);
+    assert_int_equal(r.regime.regime, DEM_CENTRIFUGING);
+    CHECK_NEAR(r.regime.omega2_outer, 900 * 0.06 / 9.81, 1e-9);
+    CHECK_NEAR(r.regime.omega2_inner, 900 * 0.06 * sqrt(0.5) / 9.81, 1e-9);
+    CHECK_NEAR(r.regime.predicted_stationary, 2.366, 0.002);
+    CHECK_NEAR(r.regime.predicted_sliding_eq35, 1.903, 0.002);  /* 0.7071 (1 + 1/(0.4663 + 0.125)) */
+    CHECK_NEAR(r.regime.predicted_sliding_eq36, 1.884, 0.001);  /* 1/sin(atan(0.6263)) */
+    set_column(table, width, FRAME_SURFACE_LAG, 0.5, 0);
+    assert_int_equal(results_of(scene, table, FRAMES).regime.regime, DEM_SLIDING);
+    for (size_t i = 0; i < n / 10; i++) scene->spheres.fallen_time[i] = FRAMES * INTERVAL; /* a tenth were seen falling */
+    r = results_of(scene, table, FRAMES);
+    assert_int_equal(r.regime.regime, DEM_RAINING);
+    CHECK_NEAR(r.regime.fallen_fraction, (double)(n / 10) / (double)n, 1e-12);
+    free(table);
+    dem_scene_free(scene);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_steady_table_has_its_mean_error_and_range),
+        cmocka_unit_test(a_transient_is_left_out_and_a_drift_is_told),
+        cmocka_unit_test(too_few_frames_are_refused_and_missing_values_left_out),
+        cmocka_unit_test(the_chord_and_the_fluctuation_are_those_of_the_mean_interface),
+        cmocka_unit_test(regimes_are_told_from_how_the_bed_moves),
+        cmocka_unit_test(fast_beds_rain_slide_or_turn_with_the_drum),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
