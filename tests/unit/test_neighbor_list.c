@@ -95,8 +95,8 @@ static census take_census(dem_scene *scene, dem_phase last, int64_t stride, int6
 
 static void check_run(dem_drum_definition *d)
 {
-    enum { EVERY = 800, FIFTH = 1200 };
-    follow_rules(d, 0.03);
+    enum { EVERY = 600, FIFTH = 800 };
+    follow_rules(d, 0.06);
     dem_scene *scene = drum_scene(d);
     const census growing = take_census(scene, DEM_PHASE_GROWING, 1, 600);
     run_to_phase(scene, DEM_PHASE_ROTATING);
@@ -107,7 +107,7 @@ static void check_run(dem_drum_definition *d)
     assert_int_equal(start.missed, 0);
     assert_int_equal(later.missed, 0);
     assert_int_equal(start.steps + later.steps, EVERY + FIFTH);
-    CHECK_BETWEEN(later.touching / (double)later.steps, 0.2 * (double)d->particle_count, INFINITY); /* a bed, if a wild one */
+    CHECK_BETWEEN((double)(start.touching + later.touching), 20.0 * (EVERY + FIFTH), INFINITY); /* there was something to miss */
     /* and lists do outlive a step: missing nothing by picking always would prove nothing */
     CHECK_BETWEEN((double)(scene->neighbors.inner_picks - picks) / (EVERY + 5 * FIFTH), 0, 0.5);
     dem_scene_free(scene);
