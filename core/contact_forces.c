@@ -46,8 +46,8 @@ static void gather_spheres(contact_block *restrict block, const sphere_row *rest
         for (int h = 0; h < HALVES; h++) {
             wide_place_differences(row, sizeof *row, first + k + 8 * h, second + k + 8 * h, &dx[h], &dy[h], &dz[h]);
             dz[h] -= period * wide_double_rint(dz[h] * inverse_period);
-            d2[h] = dx[h] * dx[h] + dy[h] * dy[h] + dz[h] * dz[h];
-            gap2[h] = radii[h] * radii[h] - d2[h];
+            d2[h] = wide_double_fused(dz[h], dz[h], wide_double_fused(dy[h], dy[h], dx[h] * dx[h]));
+            gap2[h] = wide_double_fused(radii[h], radii[h], -d2[h]);
         }
         const wide d[3] = { wide_from_doubles(dx), wide_from_doubles(dy), wide_from_doubles(dz) };
         store_vector(block->n, k, d);
@@ -101,10 +101,16 @@ static void normals(contact_block *restrict block)
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide distance2 = wide_load(block->distance2 + k), to_unit = wide_inverse_root(distance2);
         for (int c = 0; c < 3; c++) wide_store(block->n[c] + k, wide_load(block->n[c] + k) * to_unit);
-        wide_store(block->distance2 + k, distance2 * to_unit + wide_load(block->reach + k));
+        const wide sum = wide_fused(distance2, to_unit, wide_load(block->reach + k));
+        wide_store(block->overlap + k, wide_load(block->gap2 + k) * wide_inverse(sum));
     }
-    for (int k = 0; k < BLOCK; k += LANES)
-        wide_store(block->overlap + k, wide_load(block->gap2 + k) * wide_inverse(wide_load(block->distance2 + k)));
+}
+
+/* a x b, one component */
+WIDE_INLINE wide cross(const wide a[3], const wide b[3], int c)
+{
+    const int d = (c + 1) % 3, e = (c + 2) % 3;
+    return wide_fused(a[d], b[e], -(a[e] * b[d]));
 }
 
 /* ds = (v_r - (v_r.n) n) dt, v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n, r = R - overlap/2. */
@@ -113,15 +119,12 @@ static void displacements(contact_block *restrict block, real time_step)
     const wide dt = wide_all(time_step), half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
-        const wide less = half * wide_load(block->overlap + k);
+        const wide less = -half * wide_load(block->overlap + k);
         wide s[3], v_r[3];
-        for (int c = 0; c < 3; c++) s[c] = wide_load(block->r_omega[c] + k) - less * wide_load(block->omega[c] + k);
-        for (int c = 0; c < 3; c++) {
-            const int a = (c + 1) % 3, b = (c + 2) % 3;
-            v_r[c] = wide_load(block->v[c] + k) - (s[a] * n[b] - s[b] * n[a]);
-        }
-        const wide v_n = v_r[0] * n[0] + v_r[1] * n[1] + v_r[2] * n[2];
-        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, (v_r[c] - v_n * n[c]) * dt);
+        for (int c = 0; c < 3; c++) s[c] = wide_fused(less, wide_load(block->omega[c] + k), wide_load(block->r_omega[c] + k));
+        for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
+        const wide v_n = -wide_dot(v_r, n);
+        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_fused(v_n, n[c], v_r[c]) * dt);
     }
 }
 
@@ -145,21 +148,21 @@ static void turn_friction(contact_block *restrict block, const real *restrict t_
 {
     const wide zero = wide_all(0), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
-        const wide nx = wide_load(block->n[0] + k), ny = wide_load(block->n[1] + k), nz = wide_load(block->n[2] + k);
-        const wide tx = wide_load(t_x + k), ty = wide_load(t_y + k), tz = wide_load(t_z + k);
-        const wide tn = tx * nx + ty * ny + tz * nz;
-        const wide ux = tx - tn * nx, uy = ty - tn * ny, uz = tz - tn * nz;
-        const wide tt = tx * tx + ty * ty + tz * tz;
-        const wide uu = ux * ux + uy * uy + uz * uz;
+        const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
+        const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
+        const wide ds[3] = { wide_load(block->ds[0] + k), wide_load(block->ds[1] + k), wide_load(block->ds[2] + k) };
+        const wide tn = -wide_dot(t, n);
+        const wide u[3] = { wide_fused(tn, n[0], t[0]), wide_fused(tn, n[1], t[1]), wide_fused(tn, n[2], t[2]) };
+        const wide tt = wide_dot(t, t), uu = wide_dot(u, u);
         const wide_mask has_direction = wide_exceeds(uu, tiny);
         const wide turn = wide_select(has_direction, wide_inverse_root(uu), zero);
         const wide magnitude = wide_select(has_direction, tt * wide_inverse_root(tt), zero);
-        const wide h[3] = { ux * turn, uy * turn, uz * turn };
+        const wide h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
         const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k);
         store_vector(block->h, k, h);
         wide_store(block->mu_n + k, mu_n);
         wide_store(block->stored + k, wide_lesser(magnitude, mu_n));
-        wide_store(block->s_p + k, wide_load(block->ds[0] + k) * h[0] + wide_load(block->ds[1] + k) * h[1] + wide_load(block->ds[2] + k) * h[2]);
+        wide_store(block->s_p + k, wide_dot(ds, h));
     }
 }
 
@@ -174,7 +177,7 @@ static void friction_stiffness(contact_block *restrict block, real *restrict t_s
         const wide turning = wide_lesser(sign * wide_load(t_star + k), sign * tau);
         const wide left = wide_greater(one - sign * tau, floor), left_at_turn = wide_greater(one - turning, floor);
         const wide k_t = k_t0 * (left * wide_inverse_cube_root(left * left * left_at_turn));
-        const wide s = stored + k_t * s_p, star = sign * turning;
+        const wide s = wide_fused(k_t, s_p, stored), star = sign * turning;
         wide_store(block->stored + k, s);
         wide_store(t_star + k, wide_select(pressed, wide_select(wide_exceeds(zero, s), -star, star), zero));
     }
@@ -188,9 +191,9 @@ static void friction_forces(const contact_block *restrict block, real *restrict 
         wide f[3];
         for (int c = 0; c < 3; c++) {
             const wide h = wide_load(block->h[c] + k);
-            f[c] = s * h + k_t0 * (wide_load(block->ds[c] + k) - s_p * h);
+            f[c] = wide_fused(s, h, k_t0 * wide_fused(-s_p, h, wide_load(block->ds[c] + k)));
         }
-        const wide size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+        const wide size2 = wide_dot(f, f);
         const wide scale = wide_select(wide_exceeds(size2, mu_n * mu_n), mu_n * wide_inverse_root(size2), one);
         wide_store(t_x + k, f[0] * scale);
         wide_store(t_y + k, f[1] * scale);
@@ -205,13 +208,16 @@ static void write_rows(const contact_block *restrict block, const real *restrict
 {
     const wide half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
-        const wide nx = wide_load(block->n[0] + k), ny = wide_load(block->n[1] + k), nz = wide_load(block->n[2] + k);
-        const wide tx = wide_load(t_x + k), ty = wide_load(t_y + k), tz = wide_load(t_z + k), f_n = wide_load(block->f_n + k);
-        const wide less = half * wide_load(block->overlap + k);
+        const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
+        const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
+        const wide f_n = -wide_load(block->f_n + k), less = half * wide_load(block->overlap + k);
         const wide r_first = wide_load(first_radius + k);
         const wide r_a = r_first - less, r_b = wide_load(block->radii + k) - r_first - less;
-        const wide f[3] = { tx - f_n * nx, ty - f_n * ny, tz - f_n * nz };
-        const wide q[3] = { ny * tz - nz * ty, nz * tx - nx * tz, nx * ty - ny * tx };
+        wide f[3], q[3];
+        for (int c = 0; c < 3; c++) {
+            f[c] = wide_fused(f_n, n[c], t[c]);
+            q[c] = cross(n, t, c);
+        }
         const wide on_first[3] = { r_a * q[0], r_a * q[1], r_a * q[2] }, on_second[3] = { r_b * q[0], r_b * q[1], r_b * q[2] };
         wide_store_ends((real *)(row + k), f, on_first, on_second);
     }

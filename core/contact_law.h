@@ -40,17 +40,16 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
 {
     /* Turn the friction force with the contact before adding to it: a rolling pair would otherwise store force
      * along its normal. */
-    const real tn = t[0] * n[0] + t[1] * n[1] + t[2] * n[2];
-    const real ux = t[0] - tn * n[0], uy = t[1] - tn * n[1], uz = t[2] - tn * n[2];
-    const real tt = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
-    const real uu = ux * ux + uy * uy + uz * uz;
+    const real tn = dot(t, n);
+    const real u[3] = { fused(-tn, n[0], t[0]), fused(-tn, n[1], t[1]), fused(-tn, n[2], t[2]) };
+    const real tt = dot(t, t), uu = dot(u, u);
     const real turn = uu > TINY_SQUARE ? inverse_root(uu) : 0;
     const real magnitude = uu > TINY_SQUARE ? tt * inverse_root(tt) : 0;
-    const real hx = ux * turn, hy = uy * turn, hz = uz * turn;
+    const real h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
 
     const real stored = lesser(magnitude, mu_n);
     const real tau = mu_n > TINY_FORCE ? stored * inverse(mu_n) : 0; /* t of the formulas: |T| as a share of its limit */
-    const real s_p = ds[0] * hx + ds[1] * hy + ds[2] * hz;
+    const real s_p = dot(ds, h);
 
     /* Loading softens towards slip; after a turning point at t* the spring starts stiff again. */
     const real sign = s_p >= 0 ? 1 : -1;
@@ -58,17 +57,13 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
     const real left = greater(1 - sign * tau, SLIP_FLOOR), left_at_turn = greater(1 - turning, SLIP_FLOOR);
     /* (a/b)^(1/3) = a (a a b)^(-1/3) */
     const real k_t = k_t0 * (left * inverse_cube_root(left * left * left_at_turn));
-    const real s = stored + k_t * s_p;
+    const real s = fused(k_t, s_p, stored);
     const real star = sign * turning;
 
-    real tx = s * hx + k_t0 * (ds[0] - s_p * hx);
-    real ty = s * hy + k_t0 * (ds[1] - s_p * hy);
-    real tz = s * hz + k_t0 * (ds[2] - s_p * hz);
-    const real size2 = tx * tx + ty * ty + tz * tz;
+    for (int c = 0; c < 3; c++) t[c] = fused(s, h[c], k_t0 * fused(-s_p, h[c], ds[c]));
+    const real size2 = dot(t, t);
     const real scale = size2 > mu_n * mu_n ? mu_n * inverse_root(size2) : 1;
-    t[0] = tx * scale;
-    t[1] = ty * scale;
-    t[2] = tz * scale;
+    for (int c = 0; c < 3; c++) t[c] *= scale;
     *t_star = mu_n > TINY_FORCE ? (s < 0 ? -star : star) : 0;
 }
 

@@ -26,15 +26,30 @@ static inline size_t round_up_to_block(size_t count) { return (count + BLOCK - 1
 static inline real greater(real a, real b) { return a > b ? a : b; }
 static inline real lesser(real a, real b) { return a < b ? a : b; }
 
-/* Powers without division or root, which are slow where there are many: a guess from the bits of a float, good to
- * 3 to 12 %, then Newton steps, each of which squares the error. Only products and sums of normal numbers, so the
- * result has the same bits on every processor; wide.h does the same for many at once. x: 1e-37 to 1e37. */
+/* a b + c, rounded once. Written out everywhere, and left to no compiler's choice, so that every build has the same
+ * bits. */
+static inline real fused(real a, real b, real c)
+{
+    return sizeof(real) == sizeof(float) ? (real)__builtin_fmaf((float)a, (float)b, (float)c)
+                                         : (real)__builtin_fma((double)a, (double)b, (double)c);
+}
+static inline real dot(const real a[3], const real b[3]) { return fused(a[2], b[2], fused(a[1], b[1], a[0] * b[0])); }
+
+/* Powers without division or root, which are slow where there are many: a guess from the bits of a float, then
+ * Newton steps, each of which squares the error: from 0.07 % (a first step is in the guess already) for 1/sqrt, 12 %
+ * for 1/x, 3 % for x^(-1/3) to below 1e-6 in single. wide.h does the same for many at once. x: 1e-37 to 1e37. */
 enum {
-    INVERSE_ROOT_MAGIC = 0x5f3759df,
+    INVERSE_ROOT_MAGIC = 0x5f1ffff9,
     INVERSE_MAGIC = 0x7ef311c3,
     INVERSE_CUBE_ROOT_MAGIC = 0x54a21d2a,
-    NEWTON_STEPS = sizeof(real) == sizeof(float) ? 3 : 5,
+    EXTRA_STEPS = sizeof(real) == sizeof(float) ? 0 : 2, /* in double */
+    INVERSE_ROOT_STEPS = 1 + EXTRA_STEPS,
+    INVERSE_STEPS = 3 + EXTRA_STEPS,
+    INVERSE_CUBE_ROOT_STEPS = 3 + EXTRA_STEPS,
 };
+/* A Newton step bent so that its error is even about zero (J. Kadlec): y *= factor (offset - x y^2). */
+#define INVERSE_ROOT_FACTOR ((real)0.703952253)
+#define INVERSE_ROOT_OFFSET ((real)2.38924456)
 
 typedef union float_bits { float f; int32_t i; } float_bits;
 
@@ -62,24 +77,24 @@ static inline real inverse_cube_root_guess(real x)
 /* 1/sqrt(x); a large finite number for x = 0, so that x times it is the root of x there, too. */
 static inline real inverse_root(real x)
 {
-    const real half = (real)0.5 * x;
     real y = inverse_root_guess(x);
-    for (int k = 0; k < NEWTON_STEPS; k++) y = y * ((real)1.5 - half * y * y);
+    y *= INVERSE_ROOT_FACTOR * fused(-(x * y), y, INVERSE_ROOT_OFFSET);
+    for (int k = 0; k < INVERSE_ROOT_STEPS; k++) y *= fused((real)-0.5 * x * y, y, (real)1.5);
     return y;
 }
 
 static inline real inverse(real x)
 {
     real y = inverse_guess(x);
-    for (int k = 0; k < NEWTON_STEPS; k++) y = y * (2 - x * y);
+    for (int k = 0; k < INVERSE_STEPS; k++) y *= fused(-x, y, 2);
     return y;
 }
 
 static inline real inverse_cube_root(real x)
 {
-    const real third = (real)(1.0 / 3.0) * x;
+    const real third = (real)(-1.0 / 3.0) * x;
     real y = inverse_cube_root_guess(x);
-    for (int k = 0; k < NEWTON_STEPS; k++) y = y * ((real)(4.0 / 3.0) - third * y * y * y);
+    for (int k = 0; k < INVERSE_CUBE_ROOT_STEPS; k++) y *= fused(third * y, y * y, (real)(4.0 / 3.0));
     return y;
 }
 

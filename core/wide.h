@@ -51,6 +51,13 @@ WIDE_INLINE wide wide_lesser(wide a, wide b) { return (wide)_mm512_min_ps((__m51
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GT_OQ); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a); }
 
+/* a b + c, rounded once */
+WIDE_INLINE wide wide_fused(wide a, wide b, wide c) { return (wide)_mm512_fmadd_ps((__m512)a, (__m512)b, (__m512)c); }
+WIDE_INLINE wide_double wide_double_fused(wide_double a, wide_double b, wide_double c)
+{
+    return (wide_double)_mm512_fmadd_pd((__m512d)a, (__m512d)b, (__m512d)c);
+}
+
 WIDE_INLINE wide wide_from_doubles(const wide_double x[HALVES])
 {
     return (wide)_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps((__m512d)x[0])), _mm512_cvtpd_ps((__m512d)x[1]), 1);
@@ -181,6 +188,17 @@ WIDE_INLINE void wide_store_ends(real *rows, const wide f[3], const wide torque_
 #else
 
 typedef struct { uint8_t lane[LANES]; } wide_mask;
+
+WIDE_INLINE wide wide_fused(wide a, wide b, wide c)
+{
+    for (int k = 0; k < LANES; k++) c[k] = fused(a[k], b[k], c[k]);
+    return c;
+}
+WIDE_INLINE wide_double wide_double_fused(wide_double a, wide_double b, wide_double c)
+{
+    for (int k = 0; k < 8; k++) c[k] = __builtin_fma(a[k], b[k], c[k]);
+    return c;
+}
 
 WIDE_INLINE wide wide_greater(wide a, wide b)
 {
@@ -328,29 +346,30 @@ WIDE_INLINE void half_row_weave(real radius, half_row v, half_row a, half_row b,
 
 /* ---- powers ---- */
 
-/* 1/sqrt(x), 1/x and x^(-1/3) for x > 0 by Newton steps from a guess in the bits, as real.h has them for one. */
+/* 1/sqrt(x), 1/x and x^(-1/3) for x > 0, as real.h has them for one. */
 WIDE_INLINE wide wide_inverse_root(wide x)
 {
-    const wide half = wide_all((real)0.5) * x, three_halves = wide_all((real)1.5);
     wide y = wide_inverse_root_guess(x);
-    for (int k = 0; k < NEWTON_STEPS; k++) y = y * (three_halves - half * y * y);
+    y *= wide_all(INVERSE_ROOT_FACTOR) * wide_fused(-(x * y), y, wide_all(INVERSE_ROOT_OFFSET));
+    for (int k = 0; k < INVERSE_ROOT_STEPS; k++) y *= wide_fused(wide_all((real)-0.5) * x * y, y, wide_all((real)1.5));
     return y;
 }
 
 WIDE_INLINE wide wide_inverse(wide x)
 {
-    const wide two = wide_all(2);
     wide y = wide_inverse_guess(x);
-    for (int k = 0; k < NEWTON_STEPS; k++) y = y * (two - x * y);
+    for (int k = 0; k < INVERSE_STEPS; k++) y *= wide_fused(-x, y, wide_all(2));
     return y;
 }
 
 WIDE_INLINE wide wide_inverse_cube_root(wide x)
 {
-    const wide third = wide_all((real)(1.0 / 3.0)) * x, four_thirds = wide_all((real)(4.0 / 3.0));
+    const wide third = wide_all((real)(-1.0 / 3.0)) * x;
     wide y = wide_inverse_cube_root_guess(x);
-    for (int k = 0; k < NEWTON_STEPS; k++) y = y * (four_thirds - third * y * y * y);
+    for (int k = 0; k < INVERSE_CUBE_ROOT_STEPS; k++) y *= wide_fused(third * y, y * y, wide_all((real)(4.0 / 3.0)));
     return y;
 }
+
+WIDE_INLINE wide wide_dot(const wide a[3], const wide b[3]) { return wide_fused(a[2], b[2], wide_fused(a[1], b[1], a[0] * b[0])); }
 
 #endif
