@@ -22,7 +22,7 @@ static void cross(const double a[3], const double b[3], double out[3])
     for (int c = 0; c < 3; c++) out[c] = a[(c + 1) % 3] * b[(c + 2) % 3] - a[(c + 2) % 3] * b[(c + 1) % 3];
 }
 
-static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static double scalar_product(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* A unit vector at right angles to n. */
 static void tangent_to(dice *d, const double n[3], double t[3])
@@ -30,7 +30,7 @@ static void tangent_to(dice *d, const double n[3], double t[3])
     double other[3];
     dice_direction(d, other);
     cross(n, other, t);
-    const double size = sqrt(dot(t, t));
+    const double size = sqrt(scalar_product(t, t));
     for (int c = 0; c < 3; c++) t[c] /= size;
 }
 
@@ -100,7 +100,7 @@ static answer scalar_answer(const questions *q, size_t p, const double radius[2]
     const double k_1 = law->stiffness, k_2 = k_1 / (law->restitution * law->restitution), k_t = k_1 * law->tangential_stiffness_ratio;
     double n[3], rolling[3], s[3], v_r[3], speed = 0;
     for (int c = 0; c < 3; c++) n[c] = x[3 + c] - x[c];
-    const double distance = sqrt(dot(n, n)), overlap = radius[0] + radius[1] - distance;
+    const double distance = sqrt(scalar_product(n, n)), overlap = radius[0] + radius[1] - distance;
     answer a = { .arm = { radius[0] - overlap / 2, radius[1] - overlap / 2 } };
     for (int c = 0; c < 3; c++) {
         n[c] /= distance;
@@ -109,7 +109,7 @@ static answer scalar_answer(const questions *q, size_t p, const double radius[2]
     }
     cross(s, n, rolling);
     for (int c = 0; c < 3; c++) v_r[c] = v[3 + c] - v[c] - rolling[c];
-    const double v_n = dot(v_r, n);
+    const double v_n = scalar_product(v_r, n);
     real normal[3], ds[3];
     for (int c = 0; c < 3; c++) {
         normal[c] = (real)n[c];
@@ -120,11 +120,11 @@ static answer scalar_answer(const questions *q, size_t p, const double radius[2]
     a.memory.alpha_0 = (real)memory[HISTORY_ALPHA_0];
     const double f_n = normal_force((real)overlap, (real)k_1, (real)k_2, &a.memory.alpha_0), mu_n = law->friction * f_n;
     const double t_before[3] = { a.memory.t[0], a.memory.t[1], a.memory.t[2] };
-    const double moved[3] = { ds[0], ds[1], ds[2] }, s_p = dot(t_before, moved);
+    const double moved[3] = { ds[0], ds[1], ds[2] }, s_p = scalar_product(t_before, moved);
     friction_increment(normal, ds, (real)mu_n, (real)k_t, a.memory.t, &a.memory.t_star);
     const double t_after[3] = { a.memory.t[0], a.memory.t[1], a.memory.t[2] };
-    const double size2 = dot(t_before, t_before);
-    a.is_turning = fabs(s_p) < 1e-3 * sqrt(size2 * dot(moved, moved)) || fabs(dot(t_before, t_after)) < 1e-3 * size2;
+    const double size2 = scalar_product(t_before, t_before);
+    a.is_turning = fabs(s_p) < 1e-3 * sqrt(size2 * scalar_product(moved, moved)) || fabs(scalar_product(t_before, t_after)) < 1e-3 * size2;
     a.mu_n = mu_n;
     for (int c = 0; c < 3; c++) a.force[c] = t_after[c] - f_n * n[c];
     cross(n, t_after, a.q);
