@@ -177,6 +177,20 @@ static void a_turning_contact_turns_its_friction_and_keeps_its_magnitude(void **
     CHECK_NEAR(t[2], -0.8, 200 * ROUNDING);
 }
 
+/* A heap at rest is held up by friction for as long as it is looked at: a hundred thousand steps are a second or
+ * more. An error that always has the same sign, were it a millionth a step, would let a tenth of the force leak away. */
+static void a_contact_at_rest_keeps_its_friction_for_ever(void **unused)
+{
+    (void)unused;
+    const real n[3] = { (real)0.36, (real)0.48, (real)0.8 }, nothing[3] = { 0 };
+    for (double size = 0.01; size < 1; size *= 1.3) {
+        real t[3] = { (real)(0.8 * size), (real)(-0.6 * size), 0 }, t_star = 0;
+        for (int k = 0; k < 100000; k++) friction_increment(n, nothing, (real)MU_N, (real)K_T, t, &t_star);
+        const double left = sqrt((double)t[0] * (double)t[0] + (double)t[1] * (double)t[1] + (double)t[2] * (double)t[2]);
+        CHECK_NEAR(left, size, 1e-4 * size);
+    }
+}
+
 static void without_normal_force_friction_is_zero_and_forgotten(void **unused)
 {
     (void)unused;
@@ -329,6 +343,7 @@ int main(void)
         cmocka_unit_test(after_a_reversal_the_spring_starts_stiff_and_goes_over_to_the_opposite_slip),
         cmocka_unit_test(friction_never_exceeds_its_limit_and_never_leaves_the_tangent_plane),
         cmocka_unit_test(a_turning_contact_turns_its_friction_and_keeps_its_magnitude),
+        cmocka_unit_test(a_contact_at_rest_keeps_its_friction_for_ever),
         cmocka_unit_test(without_normal_force_friction_is_zero_and_forgotten),
         cmocka_unit_test(friction_on_a_line_never_gives_energy),
         cmocka_unit_test(friction_in_the_plane_creates_at_most_a_hundredth_of_the_work_moved),
