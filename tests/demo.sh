@@ -20,16 +20,17 @@ job=$(curl -sS --json @api/examples/drum.json "$url/processes/drum/execution" | 
 [ -n "$job" ] || { echo "the daemon did not take the job"; cat "$data/daemon.log"; exit 1; }
 echo "  12.6 cm drum, half full of 3.78 mm spheres, friction 0.1, pi/2 rad/s: job $job"
 
+turn=0
 while :; do
   status=$(curl -sS "$url/jobs/$job?wait=1" | tr -d '\n')
   state=$(printf '%s' "$status" | member status)
-  if terminal; then
-    percent=$(printf '%s' "$status" | member progress)
-    eta=$(printf '%s' "$status" | member eta_seconds)
-    percent=${percent%.*}
-    filled=$(printf '%*s' $((${percent:-0} * 40 / 100)) '' | tr ' ' '#')
-    printf '\r  [%-40s] %3s %%  %s ' "$filled" "${percent:-0}" "${eta:+about ${eta%.*} s left   }"
-  fi
+  percent=$(printf '%s' "$status" | member progress)
+  eta=$(printf '%s' "$status" | member eta_seconds)
+  percent=${percent%.*}
+  filled=$(printf '%*s' $((${percent:-0} * 40 / 100)) '' | tr ' ' '#')
+  line=$(printf '  [%-40s] %3s %%  %s' "$filled" "${percent:-0}" "${eta:+about ${eta%.*} s left}")
+  if terminal; then printf '\r%-79s' "$line"; elif [ $((turn % 10)) = 0 ]; then echo "$line"; fi
+  turn=$((turn + 1))
   case $state in accepted | running) ;; *) break ;; esac
 done
 terminal && printf '\r%-79s\r' ''
