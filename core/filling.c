@@ -155,7 +155,8 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
     const double fraction = total_volume(s) / (DEM_PI * room * room * drum->length);
     if (room < 1.5 * s->largest_diameter || fraction > 0.62) return DEM_DOES_NOT_FIT;
     const double share = fmin(1.0, fraction / REGION_FRACTION), region_fraction = fmax(REGION_FRACTION, fraction);
-    const double level = share < 1 ? circle_level(share) : 1.0;
+    /* at least as high as one sphere needs */
+    const double level = share < 1 ? fmax(circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / room - 1)) : 1.0;
 
     random_stream random;
     random_seed(&random, definition->seed);

@@ -107,11 +107,29 @@ static double chord_angle(const double *interface, const density_grid *grid, dou
     return atan((height[1] - height[0]) / (0.2 * diameter));
 }
 
+/* A bed spread over the whole wall has no surface to speak of: a ring is level in every frame. */
+static bool is_ring(const dem_scene *scene)
+{
+    enum { SECTORS = 36 };
+    const double outer = scene->drum.inner_radius - mean_diameter(scene);
+    bool covered[SECTORS] = { false };
+    for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
+        const double *x = scene->spheres.row[i].x;
+        if (x[0] * x[0] + x[1] * x[1] > outer * outer)
+            covered[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (SECTORS - 1e-9))] = true;
+    }
+    int count = 0;
+    for (int k = 0; k < SECTORS; k++) count += covered[k];
+    return count > 0.95 * SECTORS;
+}
+
 static void measure_angles(const dem_scene *scene, const int32_t *contacts, density_grid *grid, surface_heights *surface, double *frame)
 {
     const double center = center_of_mass_angle(&scene->spheres);
-    const double angle = level_frame(grid, scene, surface, center);
-    frame[FRAME_CENTER_OF_MASS] = degrees(center);
+    const bool ring = is_ring(scene);
+    const double angle = ring ? NAN : level_frame(grid, scene, surface, center);
+    if (ring) density_grid_deposit(grid, scene, 0.0); /* for the solid fraction */
+    frame[FRAME_CENTER_OF_MASS] = ring ? NAN : degrees(center);
     frame[FRAME_SURFACE_FIT] = degrees(angle);
     frame[FRAME_SOLID_FRACTION] = grid->core;
     frame[FRAME_UPPER_CHORD] = frame[FRAME_LOWER_CHORD] = frame[FRAME_THEIL_SEN] = NAN;
@@ -123,7 +141,7 @@ static void measure_angles(const dem_scene *scene, const int32_t *contacts, dens
     double *interface = frame + DEM_FRAME_SCALARS;
     density_grid_deposit(grid, scene, 0.0);
     density_grid_heights(grid, interface);
-    frame[FRAME_CHORD] = degrees(chord_angle(interface, grid, scene->definition.diameter));
+    frame[FRAME_CHORD] = ring ? NAN : degrees(chord_angle(interface, grid, scene->definition.diameter));
 }
 
 dem_status measure_repose_frame(const dem_scene *scene, const int32_t *contacts, double *frame)
@@ -171,7 +189,7 @@ static dem_angle angle_of_mean_interface(const dem_scene *scene, const frame_win
     const density_grid grid = { .cells = cells, .size = scene->definition.diameter / cells };
     double *mean = array_create((size_t)cells, sizeof *mean), *deviation = array_create((size_t)cells, sizeof *deviation);
     *fluctuation = NAN;
-    if (mean && deviation) {
+    if (mean && deviation && !isnan(angle.mean_deg)) {
         for (int a = 0; a < cells; a++) {
             mean[a] = frame_window_mean(window, DEM_FRAME_SCALARS + (size_t)a);
             /* The ends of the interface, where the bed meets the wall, come and go. */

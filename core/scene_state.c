@@ -88,21 +88,29 @@ void dem_state_clear(dem_state *state)
     memset(state, 0, sizeof *state);
 }
 
-/* The contacts as a list ordered by first, from which the next list carries its histories over. */
-static dem_status restore_contacts(const dem_state *state, contact_list *list, size_t n, size_t all, const char *ids, const char *history)
+/* The two arrays of a list of contacts, ordered by first, then by second, of spheres that are there. */
+static bool contacts_fit(const dem_state *state, const char *ids, const char *history, size_t n, size_t all)
 {
     const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
     const dem_state_array *numbers = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS);
-    if (!id || !numbers || id->rows != numbers->rows) return DEM_STATE_MISMATCH;
-    if (contact_list_reserve(list, id->rows) != DEM_OK) return DEM_NO_MEMORY;
+    if (!id || !numbers || id->rows != numbers->rows) return false;
+    const int32_t *pair = id->data;
+    for (size_t k = 0; k < id->rows; k++, pair += 2) {
+        const bool ordered = k == 0 || pair[0] > pair[-2] || (pair[0] == pair[-2] && pair[1] > pair[-1]);
+        if (pair[0] < 0 || (size_t)pair[0] >= n || pair[1] < 0 || (size_t)pair[1] >= all || !ordered) return false;
+    }
+    return true;
+}
+
+/* The list from which the next one carries its histories over. */
+static void restore_contacts(const dem_state *state, contact_list *list, size_t n, const char *ids, const char *history)
+{
+    const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
+    const int32_t *pair = id->data;
+    const double *h = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS)->data;
     list->count = id->rows;
     memset(list->start, 0, (n + 1) * sizeof *list->start);
-    for (size_t k = 0; k < id->rows; k++) {
-        const int32_t *pair = (const int32_t *)id->data + 2 * k;
-        const double *h = (const double *)numbers->data + HISTORY_NUMBERS * k;
-        const bool ordered = k == 0 || pair[0] > list->first[k - 1]
-                          || (pair[0] == list->first[k - 1] && pair[1] > list->second[k - 1]);
-        if (pair[0] < 0 || (size_t)pair[0] >= n || pair[1] < 0 || (size_t)pair[1] >= all || !ordered) return DEM_STATE_MISMATCH;
+    for (size_t k = 0; k < id->rows; k++, pair += 2, h += HISTORY_NUMBERS) {
         list->first[k] = pair[0];
         list->second[k] = pair[1];
         contact_list_set_history(list, k, &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] },
@@ -110,7 +118,6 @@ static dem_status restore_contacts(const dem_state *state, contact_list *list, s
         list->start[pair[0] + 1]++;
     }
     for (size_t i = 0; i < n; i++) list->start[i + 1] += list->start[i];
-    return DEM_OK;
 }
 
 static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin, const double *fallen)
@@ -148,16 +155,23 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     if (counter[0] < DEM_PHASE_GROWING || counter[0] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
 
     const size_t all = spheres_count(&scene->spheres);
-    dem_status status = restore_contacts(state, &scene->neighbors.pairs, n, all, "pair", "pair_history");
-    if (status == DEM_OK) status = restore_contacts(state, &scene->neighbors.walls, n, all, "wall_contact", "wall_history");
-    if (status != DEM_OK) return status;
+    contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
+    if (!contacts_fit(state, "pair", "pair_history", n, all) || !contacts_fit(state, "wall_contact", "wall_history", n, all))
+        return DEM_STATE_MISMATCH;
+    if (contact_list_reserve(pairs, state_find(state, "pair", DEM_INT32, 2)->rows) != DEM_OK
+        || contact_list_reserve(walls, state_find(state, "wall_contact", DEM_INT32, 2)->rows) != DEM_OK) {
+        neighbor_list_invalidate(&scene->neighbors);
+        return DEM_NO_MEMORY;
+    }
+    /* Nothing can fail from here on but memory for new lists. */
+    restore_contacts(state, pairs, n, "pair", "pair_history");
+    restore_contacts(state, walls, n, "wall_contact", "wall_history");
     scene->step_count = counter[1];
     scene->phase_start = counter[2];
     scene->rotation_start = counter[3];
     scene->maximum_overlap = *(const double *)numbers->data;
     scene->phase = (dem_phase)counter[0];
-    if (scene->phase == DEM_PHASE_ROTATING)
-        scene->drum.angle = scene->definition.rotation_rate * dem_scene_time(scene);
+    scene->drum.angle = scene->phase == DEM_PHASE_ROTATING ? scene->definition.rotation_rate * dem_scene_time(scene) : 0.0;
     scene_enter_phase(scene, scene->phase);
     restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);
     return scene_update_neighbors(scene);
