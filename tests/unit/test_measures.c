@@ -171,6 +171,9 @@ static void a_ring_that_turns_with_the_drum_covers_the_wall_and_does_not_slip(vo
     CHECK_NEAR(frame[FRAME_WALL_COVERAGE], 1, 0);
     CHECK_NEAR(frame[FRAME_WALL_SLIP], 0, 1e-9);
     CHECK_BETWEEN(frame[FRAME_AIRBORNE], 0, 0.01);
+    /* level in every frame, so at no angle */
+    assert_true(isnan(frame[FRAME_SURFACE_FIT]) && isnan(frame[FRAME_CENTER_OF_MASS]) && isnan(frame[FRAME_CHORD])
+                && isnan(frame[FRAME_THEIL_SEN]));
     free(frame);
     dem_scene_free(scene);
 }
