@@ -5,6 +5,7 @@
 #include <sys/random.h>
 
 #include "handlers.h"
+#include "process_type.h"
 #include "status_info.h"
 
 /* JSON numbers are doubles to most clients: a seed beyond 2^53 would not come back as it was. */
@@ -47,14 +48,16 @@ static uint64_t random_seed(void)
     return bits >> (64 - SEED_BITS);
 }
 
-static void set_default_threads(const api_service *service, json_t *document)
+/* Only where the process has such an input. */
+static void set_default_threads(const api_service *service, const process_type *type, json_t *document)
 {
     json_t *inputs = json_object_get(document, "inputs");
-    if (json_is_object(inputs) && !json_object_get(inputs, "threads"))
+    if (spec_field_find(type->inputs, SPEC_INPUTS, "threads") && json_is_object(inputs) && !json_object_get(inputs, "threads"))
         json_object_set_new(inputs, "threads", json_integer(service->default_threads));
 }
 
-static bool read_spec(api_service *service, const http_request *request, http_response *response, job_spec *spec)
+static bool read_spec(api_service *service, const process_type *type, const http_request *request, http_response *response,
+                      job_spec *spec)
 {
     json_t *document = parse_body(request, response);
     if (!document) return false;
@@ -63,8 +66,8 @@ static bool read_spec(api_service *service, const http_request *request, http_re
     if (!problem_list_init(&problems)) {
         http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
     } else {
-        set_default_threads(service, document);
-        good = job_spec_parse(request->segment[0], document, random_seed(), spec, &problems);
+        set_default_threads(service, type, document);
+        good = job_spec_parse(type->name, document, random_seed(), spec, &problems);
         if (!good)
             http_respond_json(response, 400, problem_json(400, "about:blank", "The specification can't be run",
                                                           "each entry of errors names a member, what it is and what it may be", &problems));
@@ -95,14 +98,13 @@ static void respond_created(api_service *service, const http_request *request, h
 
 void execute_process(api_service *service, const http_request *request, http_response *response)
 {
-    json_t *description = process_description(request->segment[0]);
-    if (!description) {
+    const process_type *type = process_type_find(request->segment[0]);
+    if (!type) {
         respond_no_such_process(response, request->segment[0]);
         return;
     }
-    json_decref(description);
     job_spec spec;
-    if (!read_spec(service, request, response, &spec)) return;
+    if (!read_spec(service, type, request, response, &spec)) return;
     char id[JOB_ID_SIZE];
     const store_status status = store_add_job(service->store, &spec, id);
     if (status == STORE_OK) {

@@ -1,66 +1,31 @@
-/* What a job will cost, from its numbers alone. */
+/* What a job will cost. Each process has its own way of telling. */
 #include <math.h>
 
-#include "dem_rules.h"
-#include "job_spec.h"
-
-/* Cautious, for one thread of a machine on which nothing has been measured yet. */
-#define PARTICLE_STEPS_PER_SECOND 4e6
-/* A thread more does not bring all of its speed. */
-#define THREAD_GAIN 0.7
-/* A snapshot: so much for the file's structure, and for each particle after compression. */
-#define SNAPSHOT_FILE_BYTES 30e3
-#define SNAPSHOT_PARTICLE_BYTES 60.0
-/* A frame of measurement: some 16 numbers and the interface's height at steps of d/4, kept in memory. */
-#define FRAME_NUMBERS 16.0
-#define FRAME_NUMBERS_PER_DIAMETER 4.0
-
-static double smallest_diameter(const dem_drum_definition *drum)
-{
-    double diameter = NAN;
-    for (size_t s = 0; s < drum->species_count; s++) diameter = fmin(diameter, drum->species[s].diameter);
-    return diameter;
-}
-
-static double lining_spheres(const dem_drum_definition *drum)
-{
-    if (!(drum->lining.diameter > 0.0)) return 0.0;
-    return DEM_PI * drum->diameter * drum->length / (drum->lining.pitch * drum->lining.pitch);
-}
+#include "process_type.h"
 
 job_estimate job_spec_estimate(const job_spec *spec, double particle_steps_per_second)
 {
-    const dem_drum_definition *drum = &spec->drum;
-    const double speed = particle_steps_per_second > 0.0 ? particle_steps_per_second : PARTICLE_STEPS_PER_SECOND;
-    const double particles = (double)drum->particle_count;
-    const double frame_bytes = sizeof(double)
-        * (FRAME_NUMBERS + FRAME_NUMBERS_PER_DIAMETER * drum->diameter / smallest_diameter(drum));
-
-    job_estimate estimate = {
-        .particles = particles,
-        .time_step = drum->time_step,
-        .stiffness = drum->contact.stiffness,
-        .simulated_seconds = spec->duration + dem_settling_time_estimate(drum->diameter, drum->gravity),
-        .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
-    };
-    estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
-    estimate.wall_seconds = particles * estimate.steps / (speed * (1.0 + THREAD_GAIN * (drum->threads - 1)));
-    estimate.memory_bytes = dem_memory_estimate(particles + lining_spheres(drum))
-                          + frame_bytes * spec->duration / spec->sample_interval;
-    estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * particles);
-    return estimate;
+    return spec->type->estimate(spec, particle_steps_per_second);
 }
 
 json_t *job_estimate_to_json(const job_estimate *estimate)
 {
-    return json_pack("{s:I, s:I, s:f, s:f, s:f, s:f, s:I, s:I, s:I}",
-                     "particles", (json_int_t)estimate->particles,
-                     "steps", (json_int_t)estimate->steps,
-                     "time_step", estimate->time_step,
-                     "stiffness", estimate->stiffness,
-                     "simulated_seconds", estimate->simulated_seconds,
-                     "wall_seconds", estimate->wall_seconds,
-                     "memory_bytes", (json_int_t)estimate->memory_bytes,
-                     "snapshots", (json_int_t)estimate->snapshots,
-                     "snapshot_bytes", (json_int_t)estimate->snapshot_bytes);
+    const struct { const char *name; double value; bool whole; } members[] = {
+        {"particles", estimate->particles, true},
+        {"steps", estimate->steps, true},
+        {"time_step", estimate->time_step, false},
+        {"stiffness", estimate->stiffness, false},
+        {"simulated_seconds", estimate->simulated_seconds, false},
+        {"wall_seconds", estimate->wall_seconds, false},
+        {"memory_bytes", estimate->memory_bytes, true},
+        {"snapshots", estimate->snapshots, true},
+        {"snapshot_bytes", estimate->snapshot_bytes, true},
+    };
+    json_t *document = json_object();
+    for (size_t m = 0; m < sizeof members / sizeof members[0]; m++) {
+        if (isnan(members[m].value)) continue;
+        json_object_set_new(document, members[m].name, members[m].whole ? json_integer((json_int_t)members[m].value)
+                                                                        : json_real(members[m].value));
+    }
+    return document;
 }

@@ -5,25 +5,30 @@
 #include <string.h>
 
 #include "json_text.h"
-#include "spec_rules.h"
+#include "process_type.h"
 #include "spec_text.h"
 
 enum { MOST_LABELS = 16, LONGEST_LABEL_NAME = 64, LONGEST_LABEL = 200 };
 
-static void read_process(const char *process, const json_t *request, problem_list *problems)
+/* The process that is asked for; NULL: there is no such one, or two were named. */
+static const process_type *read_process(const char *process, const json_t *request, problem_list *problems)
 {
     const json_t *member = json_object_get(request, "process");
-    char seen[80];
+    char seen[80], names[200];
     json_value_text(member, seen, sizeof seen);
+    process_type_names(names, sizeof names);
+    const char *name = process ? process : member ? json_string_value(member) : "drum";
+    const process_type *type = name ? process_type_find(name) : NULL;
     if (member && !json_is_string(member)) {
         problem_list_add(problems, "/process", "is %s; must be the name of a process", seen);
     } else if (member && process && strcmp(json_string_value(member), process) != 0) {
         problem_list_add(problems, "/process", "is %s; was sent to the process \"%.40s\"", seen, process);
-    } else if (!process && member && strcmp(json_string_value(member), "drum") != 0) {
-        problem_list_add(problems, "/process", "is %s; available: \"drum\"", seen);
-    } else if (process && strcmp(process, "drum") != 0) {
-        problem_list_add(problems, "/process", "\"%.40s\" is not available; available: \"drum\"", process);
+    } else if (!type && process) {
+        problem_list_add(problems, "/process", "\"%.40s\" is not available; available: %s", process, names);
+    } else if (!type) {
+        problem_list_add(problems, "/process", "is %s; available: %s", seen, names);
     }
+    return type;
 }
 
 static bool label_is_short(const json_t *value)
@@ -68,17 +73,18 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
         return false;
     }
     refuse_unknown_members(request, "", known, problems);
-    read_process(process, request, problems);
-    snprintf(spec->process, sizeof spec->process, "drum");
+    spec->type = read_process(process, request, problems);
+    if (spec->type) spec->process = spec->type->name;
 
     const json_t *inputs = json_object_get(request, "inputs");
-    if (inputs && !json_is_object(inputs))
+    if (inputs && !json_is_object(inputs)) {
         problem_list_add(problems, "/inputs", "must be an object");
-    else if (!inputs)
+    } else if (!inputs) {
         problem_list_add(problems, "/inputs", "is missing; must be an object");
-    else
-        drum_inputs_read(inputs, &spec->inputs, problems);
-    if (json_is_object(inputs)) spec_rules_apply(spec, seed_if_missing, problems);
+    } else if (spec->type) { /* without a process nobody knows what its inputs are */
+        spec_inputs_read(spec->type->inputs, inputs, (char *)spec + spec->type->inputs_at, problems);
+        spec->type->apply_rules(spec, seed_if_missing, problems);
+    }
 
     spec->label = read_label(json_object_get(request, "label"), problems);
     if (problem_list_is_empty(problems) && !spec->label)
@@ -96,8 +102,8 @@ void job_spec_clear(job_spec *spec)
 
 json_t *job_spec_to_json(const job_spec *spec)
 {
-    return json_pack("{s:s, s:o, s:O}", "process", spec->process, "inputs", drum_inputs_write(&spec->inputs),
-                     "label", spec->label);
+    return json_pack("{s:s, s:o, s:O}", "process", spec->process, "inputs",
+                     spec_inputs_write(spec->type->inputs, (const char *)spec + spec->type->inputs_at), "label", spec->label);
 }
 
 char *job_spec_to_text(const job_spec *spec)

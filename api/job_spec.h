@@ -33,17 +33,24 @@ typedef struct drum_inputs {
     double seed, threads, gravity;
 } drum_inputs;
 
+typedef struct process_type process_type; /* process_type.h */
+
 typedef struct job_spec {
-    char process[16];            /* "drum" */
+    const process_type *type;
+    const char *process;         /* its name, "drum" */
+    int threads;                 /* of the worker */
+    json_t *label;               /* object of strings and numbers, owned; never NULL */
+
+    /* Of a drum alone: */
     drum_inputs inputs;          /* as asked for */
     dem_drum_definition drum;    /* complete: stiffness, time step and particle count derived */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
     double duration;             /* s from the start of rotation */
     double sample_interval;      /* s between frames of measurement */
     double snapshot_interval;    /* s between snapshots; 0: only the last */
-    json_t *label;               /* object of strings and numbers, owned; never NULL */
 } job_spec;
 
+/* NaN: the process has no such thing. */
 typedef struct job_estimate {
     double particles, steps, wall_seconds, memory_bytes, snapshots, snapshot_bytes;
     double simulated_seconds, time_step, stiffness; /* settling included; s; N/m */

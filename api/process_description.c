@@ -1,16 +1,9 @@
 /* The processes as OGC API - Processes describes them; inputs come from the table of fields. */
 #include <math.h>
-#include <string.h>
 
-#include "job_spec.h"
-#include "result_fields.h"
-#include "spec_fields.h"
+#include "process_type.h"
 
-#define DRUM_TITLE "Rotating drum"
-#define DRUM_DESCRIPTION "A horizontal drum, part full of particles, turns about its axis: dynamic angle of repose, " \
-                         "flow regime, segregation and packing of the bed. SI units; angles in degrees."
-
-static json_t *group_schema(spec_group group);
+static json_t *group_schema(const spec_table *table, spec_group group);
 
 static json_t *whole_or_real(double number)
 {
@@ -35,7 +28,7 @@ static json_t *choice_schema(const spec_field *field)
     return json_pack("{s:s, s:o, s:s}", "type", "string", "enum", choices, "default", field->choices[0]);
 }
 
-static json_t *field_schema(const spec_field *field)
+static json_t *field_schema(const spec_table *table, const spec_field *field)
 {
     json_t *schema;
     switch (field->kind) {
@@ -48,15 +41,15 @@ static json_t *field_schema(const spec_field *field)
         break;
     case FIELD_LIST:
         schema = json_pack("{s:s, s:I, s:I, s:o}", "type", "array", "minItems", (json_int_t)field->minimum, "maxItems",
-                           (json_int_t)field->maximum, "items", group_schema(field->child));
+                           (json_int_t)field->maximum, "items", group_schema(table, field->child));
         break;
     case FIELD_OBJECT_OR_NULL:
-        schema = group_schema(field->child);
+        schema = group_schema(table, field->child);
         json_object_set_new(schema, "type", json_pack("[s, s]", "object", "null"));
         json_object_set_new(schema, "default", json_null());
         break;
     default:
-        schema = group_schema(field->child);
+        schema = group_schema(table, field->child);
     }
     json_object_set_new(schema, "description", json_string(field->meaning));
     return schema;
@@ -68,13 +61,13 @@ static json_t *exclusion(const spec_field *field)
     return json_pack("{s:{s:[s, s]}}", "not", "required", field->name, field->excludes);
 }
 
-static json_t *group_schema(spec_group group)
+static json_t *group_schema(const spec_table *table, spec_group group)
 {
     json_t *properties = json_object(), *required = json_array(), *exclusions = json_array();
-    for (size_t f = 0; f < spec_field_count; f++) {
-        const spec_field *field = &spec_fields[f];
+    for (size_t f = 0; f < table->count; f++) {
+        const spec_field *field = &table->field[f];
         if (field->group != group) continue;
-        json_object_set_new(properties, field->name, field_schema(field));
+        json_object_set_new(properties, field->name, field_schema(table, field));
         if (field->required) json_array_append_new(required, json_string(field->name));
         if (field->excludes && !isnan(field->fallback)) json_array_append_new(exclusions, exclusion(field));
     }
@@ -86,36 +79,39 @@ static json_t *group_schema(spec_group group)
     return schema;
 }
 
-static json_t *inputs_description(void)
+static json_t *inputs_description(const spec_table *table)
 {
     json_t *inputs = json_object();
-    for (size_t f = 0; f < spec_field_count; f++) {
-        const spec_field *field = &spec_fields[f];
+    for (size_t f = 0; f < table->count; f++) {
+        const spec_field *field = &table->field[f];
         if (field->group != SPEC_INPUTS) continue;
         json_object_set_new(inputs, field->name,
                             json_pack("{s:s, s:s, s:i, s:i, s:o}", "title", field->name, "description", field->meaning,
-                                      "minOccurs", field->required, "maxOccurs", 1, "schema", field_schema(field)));
+                                      "minOccurs", field->required, "maxOccurs", 1, "schema", field_schema(table, field)));
     }
     return inputs;
 }
 
-static json_t *drum_summary(void)
+static json_t *summary_of(const process_type *type)
 {
-    return json_pack("{s:s, s:s, s:s, s:s, s:[s, s], s:[s]}", "id", "drum", "title", DRUM_TITLE, "description",
-                     DRUM_DESCRIPTION, "version", "1.0.0", "jobControlOptions", "async-execute", "dismiss",
+    return json_pack("{s:s, s:s, s:s, s:s, s:[s, s], s:[s]}", "id", type->name, "title", type->title, "description",
+                     type->description, "version", "1.0.0", "jobControlOptions", "async-execute", "dismiss",
                      "outputTransmission", "value");
 }
 
 json_t *process_description(const char *process)
 {
-    if (strcmp(process, "drum") != 0) return NULL;
-    json_t *description = drum_summary();
-    json_object_set_new(description, "inputs", inputs_description());
-    json_object_set_new(description, "outputs", result_outputs_description());
+    const process_type *type = process_type_find(process);
+    if (!type) return NULL;
+    json_t *description = summary_of(type);
+    json_object_set_new(description, "inputs", inputs_description(type->inputs));
+    json_object_set_new(description, "outputs", result_outputs_description(type->results));
     return description;
 }
 
 json_t *process_summaries(void)
 {
-    return json_pack("[o]", drum_summary());
+    json_t *summaries = json_array();
+    for (size_t p = 0; process_types[p]; p++) json_array_append_new(summaries, summary_of(process_types[p]));
+    return summaries;
 }

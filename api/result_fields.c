@@ -1,94 +1,11 @@
-/* Results of `drum`. This file knows nothing of the core, so that the daemon can describe results without it. */
+/* Describing results from a process's table of them. */
 #include "result_fields.h"
 
 #include <string.h>
 
-#include "result_json.h"
-
-#define REPOSE(member) offsetof(job_result, measured.repose.member)
-#define ANGLE(member) offsetof(job_result, measured.repose.angle[DEM_SURFACE_FIT].member)
-#define REGIME(member) offsetof(job_result, measured.regime.member)
-#define SEGREGATION(member) offsetof(job_result, measured.segregation.member)
-#define PACKING(member) offsetof(job_result, measured.packing.member)
-#define RUN(member) offsetof(job_result, run.member)
-
-const result_field result_fields[] = {
-    {"repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees", "dynamic angle of repose, mean"},
-    {"repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees", "error of that mean"},
-    {"repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", "lowest angle of a frame"},
-    {"repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", "highest angle of a frame"},
-    {"repose", NULL, "steady", RESULT_TRUTH, REPOSE(steady), "", "the angle no longer drifts"},
-    {"repose", NULL, "drift_deg_per_revolution", RESULT_REAL, REPOSE(drift_deg_per_revolution), "degrees",
-     "slope of the angle over the window"},
-    {"repose", NULL, "interface_fluctuation", RESULT_REAL, REPOSE(interface_fluctuation), "m",
-     "mean over x of the standard deviation in time of the surface's height"},
-    {"repose", "window", "start", RESULT_REAL, REPOSE(window_start), "s", "measuring window, from rotation start"},
-    {"repose", "window", "end", RESULT_REAL, REPOSE(window_end), "s", "its end"},
-    {"repose", NULL, "correlation_time", RESULT_REAL, REPOSE(correlation_time), "s", "of the angle"},
-    {"repose", NULL, "frames", RESULT_SIZE, REPOSE(frames), "", "frames in the window"},
-
-    {"regime", NULL, "omega2_outer", RESULT_REAL, REGIME(omega2_outer), "", "omega^2 R/g at the wall"},
-    {"regime", NULL, "omega2_inner", RESULT_REAL, REGIME(omega2_inner), "", "the same at the bed's inner surface"},
-    {"regime", "predicted", "stationary_eq33", RESULT_REAL, REGIME(predicted_stationary), "",
-     "omega2_inner above which the bed stays on the wall, 1/sin(angle)"},
-    {"regime", "predicted", "sliding_eq35", RESULT_REAL, REGIME(predicted_sliding_eq35), "", "boundary of sliding"},
-    {"regime", "predicted", "sliding_eq36", RESULT_REAL, REGIME(predicted_sliding_eq36), "",
-     "boundary of sliding, Eqns 36-37"},
-    {"regime", "evidence", "wall_slip", RESULT_REAL, REGIME(wall_slip), "",
-     "1 - spin of the outermost layer / spin of the drum"},
-    {"regime", "evidence", "wall_slip_fluctuation", RESULT_REAL, REGIME(wall_slip_fluctuation), "",
-     "its standard deviation in time"},
-    {"regime", "evidence", "angle_fluctuation_deg", RESULT_REAL, REGIME(angle_fluctuation_deg), "degrees",
-     "standard deviation in time of the direction of the centre of mass"},
-    {"regime", "evidence", "flow_fluctuation", RESULT_REAL, REGIME(flow_fluctuation), "",
-     "standard deviation over mean of the surface flow's speed"},
-    {"regime", "evidence", "airborne_fraction", RESULT_REAL, REGIME(airborne_fraction), "",
-     "share of particles without a contact"},
-    {"regime", "evidence", "wall_coverage", RESULT_REAL, REGIME(wall_coverage), "",
-     "share of the wall's circumference with particles against it"},
-    {"regime", "evidence", "curvature_deg", RESULT_REAL, REGIME(curvature_deg), "degrees",
-     "upper less lower half of the chord"},
-    {"regime", "evidence", "fallen_fraction", RESULT_REAL, REGIME(fallen_fraction), "",
-     "share of particles lately nearer the axis than the bed's inner surface less 2 diameters"},
-    {"regime", "evidence", "surface_lag", RESULT_REAL, REGIME(surface_lag), "rad/revolution",
-     "by which the inner surface lags the drum"},
-
-    {"segregation", NULL, "radial_index", RESULT_REAL, SEGREGATION(radial_index), "",
-     "mean distance from the axis, largest less smallest species, over the drum's radius; null: one species"},
-    {"segregation", NULL, "axial_index", RESULT_REAL, SEGREGATION(axial_index), "", "null: one species"},
-    {"segregation", NULL, "lacey_index", RESULT_REAL, SEGREGATION(lacey_index), "",
-     "0 segregated, 1 mixed at random; null: one species"},
-
-    {"packing", NULL, "solid_fraction", RESULT_REAL, PACKING(solid_fraction), "", "of the bed's core"},
-    {"packing", NULL, "coordination_number", RESULT_REAL, PACKING(coordination_number), "", "contacts a particle"},
-
-    {"run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", "mobile particles"},
-    {"run", NULL, "steps", RESULT_WHOLE, RUN(steps), "", "time steps, settling included"},
-    {"run", NULL, "time_step", RESULT_REAL, RUN(time_step), "s", "length of a step"},
-    {"run", NULL, "simulated_seconds", RESULT_REAL, RUN(simulated_seconds), "s", "time of rotation"},
-    {"run", NULL, "settling_seconds", RESULT_REAL, RUN(settling_seconds), "s", "simulated before rotation began"},
-    {"run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", "time spent, all attempts"},
-    {"run", NULL, "particle_steps_per_second", RESULT_REAL, RUN(particle_steps_per_second), "1/s", "speed"},
-    {"run", NULL, "maximum_overlap", RESULT_REAL, RUN(maximum_overlap), "",
-     "largest overlap while rotating, as a share of the smallest diameter"},
-    {"run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", "normal loading stiffness used"},
-    {"run", NULL, "fill_fraction", RESULT_REAL, RUN(fill_fraction), "", "as the particles make it"},
-    {"run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", "frames of measurement"},
-    {"run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", "snapshot files"},
-    {"run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", "threads"},
-    {"run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", "of the initial positions"},
-    {"run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", "the attempt that came to the end"},
+static const char *const nullable_types[] = {
+    [RESULT_REAL] = "number", [RESULT_WHOLE] = "integer", [RESULT_MAYBE] = "boolean", [RESULT_TEXT] = "string",
 };
-const size_t result_field_count = sizeof result_fields / sizeof result_fields[0];
-
-static const char *const outputs[][2] = {
-    {"repose", "dynamic angle of repose"},
-    {"regime", "flow regime, with the numbers it was told from"},
-    {"segregation", "segregation of the species"},
-    {"packing", "packing of the bed"},
-    {"run", "how the run went"},
-};
-enum { OUTPUTS = sizeof outputs / sizeof outputs[0] };
 
 static json_t *field_schema(const result_field *field)
 {
@@ -96,7 +13,7 @@ static json_t *field_schema(const result_field *field)
     json_t *type;
     if (field->kind == RESULT_TRUTH) type = json_string("boolean");
     else if (field->kind == RESULT_SIZE) type = json_string("integer");
-    else type = json_pack("[s, s]", field->kind == RESULT_REAL ? "number" : "integer", "null");
+    else type = json_pack("[s, s]", nullable_types[field->kind], "null");
     json_object_set_new(schema, "type", type);
     if (*field->unit) json_object_set_new(schema, "x-unit", json_string(field->unit));
     return schema;
@@ -111,34 +28,19 @@ static json_t *properties_of(json_t *properties, const char *group)
     return json_object_get(json_object_get(properties, group), "properties");
 }
 
-static void add_words(json_t *properties, const char *output)
-{
-    if (strcmp(output, "regime") == 0)
-        json_object_set_new(properties, "name", json_pack("{s:[s, s], s:s}", "type", "string", "null", "description",
-                                                          "flow regime; null: too few frames to tell"));
-    if (strcmp(output, "repose") != 0) return;
-    json_object_set_new(properties, "method", json_pack("{s:s, s:s}", "type", "string", "description",
-                                                        "how angle_deg was measured"));
-    json_object_set_new(properties, "other_methods", json_pack("{s:s, s:s, s:s}", "type", "object", "description",
-                                                               "mean angle by other definitions", "x-unit", "degrees"));
-    json_object_set_new(properties, "other_methods_standard_error_deg",
-                        json_pack("{s:s, s:s, s:s}", "type", "object", "description", "errors of those", "x-unit",
-                                  "degrees"));
-}
-
-json_t *result_outputs_description(void)
+json_t *result_outputs_description(const result_table *table)
 {
     json_t *description = json_object();
-    for (size_t o = 0; o < OUTPUTS; o++) {
+    for (size_t o = 0; o < table->output_count; o++) {
         json_t *properties = json_object();
-        add_words(properties, outputs[o][0]);
-        for (size_t f = 0; f < result_field_count; f++) {
-            const result_field *field = &result_fields[f];
-            if (strcmp(field->output, outputs[o][0]) != 0) continue;
+        if (table->describe_words) table->describe_words(properties, table->output[o].name);
+        for (size_t f = 0; f < table->count; f++) {
+            const result_field *field = &table->field[f];
+            if (strcmp(field->output, table->output[o].name) != 0) continue;
             json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field));
         }
-        json_object_set_new(description, outputs[o][0],
-                            json_pack("{s:s, s:s, s:{s:s, s:o}}", "title", outputs[o][0], "description", outputs[o][1],
+        json_object_set_new(description, table->output[o].name,
+                            json_pack("{s:s, s:s, s:{s:s, s:o}}", "title", table->output[o].name, "description", table->output[o].meaning,
                                       "schema", "type", "object", "properties", properties));
     }
     return description;

@@ -1,5 +1,5 @@
-/* The table of a drum's results: output, name, unit and meaning of each. It drives writing the results document and
- * describing it. Only members that are words, and the angles by other methods, are not in it. */
+/* A table of a process's results: output, name, unit and meaning of each. It drives writing the results document and
+ * describing it. */
 #ifndef RESULT_FIELDS_H
 #define RESULT_FIELDS_H
 
@@ -10,20 +10,38 @@ typedef enum result_kind {
     RESULT_REAL,
     RESULT_WHOLE, /* a whole number kept in a double */
     RESULT_SIZE,  /* a size_t */
-    RESULT_TRUTH  /* a bool */
+    RESULT_TRUTH, /* a bool */
+    RESULT_MAYBE, /* true or false kept in a double; NaN: not known */
+    RESULT_TEXT   /* a const char *; NULL: not known */
 } result_kind;
 
 typedef struct result_field {
     const char *output, *group, *name; /* group: object inside the output, NULL: none */
     result_kind kind;
-    size_t offset;                     /* in job_result */
+    size_t offset;                     /* in the process's struct of results */
     const char *unit, *meaning;
 } result_field;
 
-extern const result_field result_fields[];
-extern const size_t result_field_count;
+typedef struct result_output {
+    const char *name, *meaning;
+} result_output;
+
+typedef struct result_table {
+    const result_field *field;
+    size_t count;
+    const result_output *output;
+    size_t output_count;
+    /* Describes members of an output that are not in the table; NULL: there are none. */
+    void (*describe_words)(json_t *properties, const char *output);
+} result_table;
 
 /* "outputs" of the process description. New reference. */
-json_t *result_outputs_description(void);
+json_t *result_outputs_description(const result_table *table);
+
+/* Every number NaN and every text NULL, as when nothing was measured; the rest 0. size: of the struct of results. */
+void results_init(const result_table *table, void *results, size_t size);
+
+/* The results document: what is not known becomes null. New reference; NULL: no memory. */
+json_t *results_to_json(const result_table *table, const void *results);
 
 #endif

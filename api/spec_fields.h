@@ -1,4 +1,4 @@
-/* The table of a drum's inputs: name, place, unit, range, default and meaning of each. It alone drives reading a
+/* A table of a process's inputs: name, place, unit, range, default and meaning of each. It alone drives reading a
  * request, writing the canonical spec and describing the process, so the three can't disagree. */
 #ifndef SPEC_FIELDS_H
 #define SPEC_FIELDS_H
@@ -6,7 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* The JSON object that a field is a member of. */
+/* The JSON object that a field is a member of; SPEC_INPUTS is "inputs" itself. The groups of all processes. */
 typedef enum spec_group {
     SPEC_INPUTS, SPEC_DRUM, SPEC_PARTICLES, SPEC_CONTACT, SPEC_WALL, SPEC_LINING, SPEC_DURATION, SPEC_SNAPSHOTS,
     SPEC_SAMPLES
@@ -33,21 +33,26 @@ typedef struct spec_field {
     double fallback;            /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
     const char *excludes;       /* the member that may be given instead */
     const char *const *choices; /* ends with NULL */
-    size_t offset;              /* of the double: in species_inputs for SPEC_PARTICLES, else in drum_inputs */
+    size_t offset;              /* of the double in the process's struct, or in the list's entry. Lists: of their first
+                                 * entry. Objects or null: of a double that is NaN where there is none */
+    size_t count_offset;        /* lists: of the size_t that counts the entries */
+    size_t entry_size;          /* lists: bytes from entry to entry; there is room for `maximum` */
     const char *meaning;
 } spec_field;
 
-extern const spec_field spec_fields[];
-extern const size_t spec_field_count;
+typedef struct spec_table {
+    const spec_field *field;
+    size_t count;
+} spec_table;
 
 /* NULL when the group has no such member. */
-const spec_field *spec_field_find(spec_group group, const char *name);
+const spec_field *spec_field_find(const spec_table *table, spec_group group, const char *name);
 
 /* A member that `name`, unknown in `group`, was probably meant to be: NULL when nothing is near. It may belong to
  * another group. */
-const spec_field *spec_field_nearest(spec_group group, const char *name);
+const spec_field *spec_field_nearest(const spec_table *table, spec_group group, const char *name);
 
 /* Path of a field below the inputs, as "contact/friction". */
-void spec_field_path(const spec_field *field, char *path, size_t size);
+void spec_field_path(const spec_table *table, const spec_field *field, char *path, size_t size);
 
 #endif

@@ -94,29 +94,30 @@ static double read_choice(const spec_field *field, const json_t *value, const ch
     return NAN;
 }
 
-static void refuse_unknown_inputs(spec_group group, const json_t *object, const char *pointer, problem_list *problems)
+static void refuse_unknown_inputs(const spec_table *table, spec_group group, const json_t *object, const char *pointer,
+                                  problem_list *problems)
 {
     const char *name;
     json_t *value;
     json_object_foreach((json_t *)object, name, value) {
-        if (spec_field_find(group, name)) continue;
+        if (spec_field_find(table, group, name)) continue;
         if (strlen(name) > LONGEST_MEMBER_NAME) {
             problem_list_add(problems, pointer, "has an unknown member with a name of %zu bytes", strlen(name));
             continue;
         }
         char unknown[LONGEST_POINTER], near[100];
         pointer_to_member(unknown, pointer, name);
-        const spec_field *nearest = spec_field_nearest(group, name);
+        const spec_field *nearest = spec_field_nearest(table, group, name);
         if (nearest) {
-            spec_field_path(nearest, near, sizeof near);
+            spec_field_path(table, nearest, near, sizeof near);
             problem_list_add(problems, unknown, "is not an input; did you mean inputs/%s?", near);
             continue;
         }
         char known[300] = "";
-        for (size_t f = 0; f < spec_field_count; f++) {
+        for (size_t f = 0; f < table->count; f++) {
             const size_t length = strlen(known);
-            if (spec_fields[f].group == group)
-                snprintf(known + length, sizeof known - length, "%s%s", length ? ", " : "", spec_fields[f].name);
+            if (table->field[f].group == group)
+                snprintf(known + length, sizeof known - length, "%s%s", length ? ", " : "", table->field[f].name);
         }
         problem_list_add(problems, unknown, "is not an input; available here: %s", known);
     }
@@ -137,11 +138,12 @@ void refuse_unknown_members(const json_t *object, const char *pointer, const cha
     }
 }
 
-static void read_group(spec_group group, const json_t *object, const char *pointer, drum_inputs *inputs, void *place,
+/* object: NULL reads the defaults. place: the struct that the offsets of the group's fields count from. */
+static void read_group(const spec_table *table, spec_group group, const json_t *object, const char *pointer, char *place,
                        problem_list *problems);
 
-static void read_list(const spec_field *field, const json_t *list, const char *pointer, drum_inputs *inputs,
-                      problem_list *problems)
+static void read_list(const spec_table *table, const spec_field *field, const json_t *list, const char *pointer,
+                      char *place, problem_list *problems)
 {
     const size_t count = json_array_size(list);
     char seen[LONGEST_VALUE];
@@ -164,13 +166,13 @@ static void read_list(const spec_field *field, const json_t *list, const char *p
             problem_list_add(problems, entry, "is %s; must be an object", seen);
             continue;
         }
-        read_group(field->child, object, entry, inputs, &inputs->species[s], problems);
+        read_group(table, field->child, object, entry, place + field->offset + s * field->entry_size, problems);
     }
-    inputs->species_count = count;
+    *(size_t *)(place + field->count_offset) = count;
 }
 
-static void read_object(const spec_field *field, const json_t *value, const char *pointer, drum_inputs *inputs,
-                        problem_list *problems)
+static void read_object(const spec_table *table, const spec_field *field, const json_t *value, const char *pointer,
+                        char *place, problem_list *problems)
 {
     if (field->kind == FIELD_OBJECT_OR_NULL && (!value || json_is_null(value))) return;
     if (value && !json_is_object(value)) {
@@ -180,7 +182,7 @@ static void read_object(const spec_field *field, const json_t *value, const char
                          field->kind == FIELD_OBJECT_OR_NULL ? " or null" : "");
         return;
     }
-    read_group(field->child, value, pointer, inputs, inputs, problems);
+    read_group(table, field->child, value, pointer, place, problems);
 }
 
 /* A member that has a number or a word; the other of two alternatives stays NaN. */
@@ -202,12 +204,11 @@ static double read_scalar(const spec_field *field, const json_t *object, const c
     return excluded ? NAN : field->fallback;
 }
 
-/* object: NULL reads the defaults. place: the struct that the offsets of the group's fields count from. */
-static void read_group(spec_group group, const json_t *object, const char *pointer, drum_inputs *inputs, void *place,
+static void read_group(const spec_table *table, spec_group group, const json_t *object, const char *pointer, char *place,
                        problem_list *problems)
 {
-    for (size_t f = 0; f < spec_field_count; f++) {
-        const spec_field *field = &spec_fields[f];
+    for (size_t f = 0; f < table->count; f++) {
+        const spec_field *field = &table->field[f];
         if (field->group != group) continue;
         char member[LONGEST_POINTER];
         pointer_to_member(member, pointer, field->name);
@@ -216,30 +217,33 @@ static void read_group(spec_group group, const json_t *object, const char *point
             problem_list_add(problems, member, "is missing; must be %s",
                              field->kind == FIELD_LIST ? "a list of objects" : "an object");
         } else if (field->kind == FIELD_LIST) {
-            read_list(field, value, member, inputs, problems);
+            read_list(table, field, value, member, place, problems);
         } else if (field->kind >= FIELD_OBJECT) {
-            read_object(field, value, member, inputs, problems);
+            read_object(table, field, value, member, place, problems);
         } else {
-            *(double *)((char *)place + field->offset) = read_scalar(field, object, member, problems);
+            *(double *)(place + field->offset) = read_scalar(field, object, member, problems);
         }
     }
-    refuse_unknown_inputs(group, object, pointer, problems);
+    refuse_unknown_inputs(table, group, object, pointer, problems);
 }
 
-static void set_nothing_given(drum_inputs *inputs)
+static void set_nothing_given(const spec_table *table, spec_group group, char *place)
 {
-    inputs->species_count = 0;
-    for (size_t f = 0; f < spec_field_count; f++) {
-        const spec_field *field = &spec_fields[f];
-        if (field->kind >= FIELD_OBJECT) continue;
-        if (field->group != SPEC_PARTICLES) *(double *)((char *)inputs + field->offset) = NAN;
-        for (size_t s = 0; field->group == SPEC_PARTICLES && s < DEM_MAXIMUM_SPECIES; s++)
-            *(double *)((char *)&inputs->species[s] + field->offset) = NAN;
+    for (size_t f = 0; f < table->count; f++) {
+        const spec_field *field = &table->field[f];
+        if (field->group != group) continue;
+        if (field->kind < FIELD_OBJECT) *(double *)(place + field->offset) = NAN;
+        else if (field->kind < FIELD_LIST) set_nothing_given(table, field->child, place);
+        else {
+            *(size_t *)(place + field->count_offset) = 0;
+            for (size_t s = 0; s < (size_t)field->maximum; s++)
+                set_nothing_given(table, field->child, place + field->offset + s * field->entry_size);
+        }
     }
 }
 
-void drum_inputs_read(const json_t *object, drum_inputs *inputs, problem_list *problems)
+void spec_inputs_read(const spec_table *table, const json_t *object, void *inputs, problem_list *problems)
 {
-    set_nothing_given(inputs);
-    read_group(SPEC_INPUTS, object, "/inputs", inputs, inputs, problems);
+    set_nothing_given(table, SPEC_INPUTS, inputs);
+    read_group(table, SPEC_INPUTS, object, "/inputs", inputs, problems);
 }

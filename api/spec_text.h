@@ -4,15 +4,15 @@
 
 #include <jansson.h>
 
-#include "job_spec.h"
 #include "problem.h"
+#include "spec_fields.h"
 
 /* Every input that can't be used becomes NaN and a problem, so that later checks, all written as comparisons
- * that are false for NaN, stay silent about it. inputs: the request's "inputs", NULL when it has none. */
-void drum_inputs_read(const json_t *object, drum_inputs *inputs, problem_list *problems);
+ * that are false for NaN, stay silent about it. object: the request's "inputs"; inputs: the process's struct. */
+void spec_inputs_read(const spec_table *table, const json_t *object, void *inputs, problem_list *problems);
 
 /* New reference; NULL: no memory. */
-json_t *drum_inputs_write(const drum_inputs *inputs);
+json_t *spec_inputs_write(const spec_table *table, const void *inputs);
 
 /* One short ASCII text for any JSON value, for messages. */
 void json_value_text(const json_t *value, char *text, size_t size);

@@ -4,8 +4,6 @@
 #include "spec_fields.h"
 #include "spec_text.h"
 
-static json_t *write_group(spec_group group, const drum_inputs *inputs, const void *place);
-
 static json_t *write_scalar(const spec_field *field, double value)
 {
     if (field->kind == FIELD_INTEGER) return json_integer((json_int_t)value);
@@ -13,11 +11,16 @@ static json_t *write_scalar(const spec_field *field, double value)
     return json_real(value);
 }
 
-static json_t *write_list(const spec_field *field, const drum_inputs *inputs)
+/* place: the struct that the offsets of the group's fields count from. NULL: no memory. */
+static json_t *write_group(const spec_table *table, spec_group group, const char *place);
+
+static json_t *write_list(const spec_table *table, const spec_field *field, const char *place)
 {
     json_t *list = json_array();
-    for (size_t s = 0; list && s < inputs->species_count; s++) {
-        if (json_array_append_new(list, write_group(field->child, inputs, &inputs->species[s])) != 0) {
+    const size_t count = *(const size_t *)(place + field->count_offset);
+    for (size_t s = 0; list && s < count; s++) {
+        const char *entry = place + field->offset + s * field->entry_size;
+        if (json_array_append_new(list, write_group(table, field->child, entry)) != 0) {
             json_decref(list);
             return NULL;
         }
@@ -25,27 +28,25 @@ static json_t *write_list(const spec_field *field, const drum_inputs *inputs)
     return list;
 }
 
-static json_t *write_member(const spec_field *field, const drum_inputs *inputs)
+static json_t *write_member(const spec_table *table, const spec_field *field, const char *place)
 {
-    if (field->kind == FIELD_LIST) return write_list(field, inputs);
-    /* The lining is the only object that may be absent. */
-    if (field->kind == FIELD_OBJECT_OR_NULL && isnan(inputs->lining_diameter)) return json_null();
-    return write_group(field->child, inputs, inputs);
+    if (field->kind == FIELD_LIST) return write_list(table, field, place);
+    if (field->kind == FIELD_OBJECT_OR_NULL && isnan(*(const double *)(place + field->offset))) return json_null();
+    return write_group(table, field->child, place);
 }
 
-/* place: the struct that the offsets of the group's fields count from. NULL: no memory. */
-static json_t *write_group(spec_group group, const drum_inputs *inputs, const void *place)
+static json_t *write_group(const spec_table *table, spec_group group, const char *place)
 {
     json_t *object = json_object();
-    for (size_t f = 0; object && f < spec_field_count; f++) {
-        const spec_field *field = &spec_fields[f];
+    for (size_t f = 0; object && f < table->count; f++) {
+        const spec_field *field = &table->field[f];
         if (field->group != group) continue;
         json_t *member;
         if (field->kind >= FIELD_OBJECT) {
-            member = write_member(field, inputs);
+            member = write_member(table, field, place);
         } else {
-            const double value = *(const double *)((const char *)place + field->offset);
-            if (isnan(value)) continue; /* its alternative was given */
+            const double value = *(const double *)(place + field->offset);
+            if (isnan(value)) continue; /* its alternative was given, or it has no default */
             member = write_scalar(field, value);
         }
         if (json_object_set_new(object, field->name, member) != 0) {
@@ -56,7 +57,7 @@ static json_t *write_group(spec_group group, const drum_inputs *inputs, const vo
     return object;
 }
 
-json_t *drum_inputs_write(const drum_inputs *inputs)
+json_t *spec_inputs_write(const spec_table *table, const void *inputs)
 {
-    return write_group(SPEC_INPUTS, inputs, inputs);
+    return write_group(table, SPEC_INPUTS, inputs);
 }

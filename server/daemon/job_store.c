@@ -103,18 +103,7 @@ static store_status insert_job(job_store *store, const job_spec *spec, const cha
     return sql_run(store->writer, NULL,
                    "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated)"
                    " VALUES(?,?,?,?,'accepted','waiting for a free worker',?,?,?,?,?)", "ttttiddtt",
-                   id, spec->process, label, text, (int64_t)spec->drum.threads, estimate.wall_seconds, estimate.memory_bytes, now, now);
-}
-
-static store_status insert_inputs(job_store *store, const job_spec *spec)
-{
-    const dem_drum_definition *drum = &spec->drum;
-    return sql_run(store->writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", "idddddii" "dddddddddd" "i",
-                   (int64_t)sqlite3_last_insert_rowid(store->writer), drum->diameter, drum->length, drum->rotation_rate, drum->gravity,
-                   drum->fill_fraction, (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter,
-                   drum->species[0].density, drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
-                   drum->contact.tangential_stiffness_ratio, drum->contact.stiffness, drum->lining.diameter, drum->time_step,
-                   spec->duration, (int64_t)drum->seed);
+                   id, spec->process, label, text, (int64_t)spec->threads, estimate.wall_seconds, estimate.memory_bytes, now, now);
 }
 
 static store_status add_texts(job_store *store, const job_spec *spec, const char *text, const char *label, char id[JOB_ID_SIZE])
@@ -129,7 +118,7 @@ static store_status add_texts(job_store *store, const job_spec *spec, const char
     store_status status = store_begin(store);
     if (status == STORE_OK) {
         status = insert_job(store, spec, id, text, label);
-        if (status == STORE_OK) status = insert_inputs(store, spec);
+        if (status == STORE_OK) status = process_inputs_insert(store->writer, sqlite3_last_insert_rowid(store->writer), spec);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);

@@ -58,6 +58,9 @@ bool store_claim_holds(job_store *store, const job_claim *claim);
 /* At start: jobs that a dead daemon left running are put back, or recorded as done where the result is there. */
 store_status store_recover(job_store *store);
 
+/* process_tables.c: the main inputs of a job as columns of its process's table; between begin and end. */
+store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec);
+
 /* result_tables.c: spreads the results document over the tables; between begin and end. */
 store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document);
 

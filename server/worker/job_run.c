@@ -19,7 +19,7 @@
 #include "file_publish.h"
 #include "json_text.h"
 #include "progress.h"
-#include "result_json.h"
+#include "drum_result.h"
 #include "run_folder.h"
 #include "run_summary.h"
 #include "schedule.h"
@@ -257,18 +257,18 @@ static run_facts facts_of(const run *r)
 
 static enum worker_exit write_result(run *r)
 {
-    job_result result;
-    job_result_init(&result);
+    drum_result result;
+    drum_result_init(&result);
     const dem_status status = dem_drum_results_measure(r->scene, r->frames, (size_t)r->next_sample, &result.measured);
     if (status != DEM_OK && status != DEM_TOO_FEW_FRAMES) return fail(r, status);
     if (status == DEM_TOO_FEW_FRAMES) {
         worker_warn("%s: the results have no measures", dem_status_text(status));
-        job_result_init(&result);
+        drum_result_init(&result);
     }
     result.has_regime = status == DEM_OK;
     result.run = facts_of(r);
 
-    json_t *document = job_result_to_json(&result);
+    json_t *document = drum_result_to_json(&result);
     char *text = json_text_write(document);
     json_decref(document);
     if (!text) return fail(r, DEM_NO_MEMORY);

@@ -155,7 +155,7 @@ static enum worker_exit run(int argc, char **argv)
     if (exit == WORKER_DONE && !line.out) exit = refuse_usage("say where to write: --out DIR", NULL);
     if (exit == WORKER_DONE) exit = load_spec(line.spec, &spec);
     if (exit != WORKER_DONE) return exit;
-    if (line.threads) spec.drum.threads = line.threads;
+    if (line.threads) spec.threads = spec.drum.threads = line.threads;
     line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;
     worker_log_only_warnings(line.run.on_terminal && isatty(STDERR_FILENO));
     hdf_init();

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "json_text.h"
-#include "result_json.h"
+#include "drum_result.h"
 
 /* The detail of the problem, or "" when the text is read. */
 static const char *refusal(const char *text, char *detail, size_t size)
@@ -66,9 +66,9 @@ static void numbers_are_written_in_the_fewest_digits_that_read_back_the_same(voi
 static void what_was_not_measured_is_null(void **state)
 {
     (void)state;
-    job_result result;
-    job_result_init(&result);
-    json_t *document = job_result_to_json(&result);
+    drum_result result;
+    drum_result_init(&result);
+    json_t *document = drum_result_to_json(&result);
     assert_true(json_is_null(json_object_get(json_object_get(document, "repose"), "angle_deg")));
     assert_true(json_is_null(json_object_get(json_object_get(document, "regime"), "name")));
     assert_true(json_is_null(json_object_get(json_object_get(document, "run"), "steps")));
@@ -78,15 +78,15 @@ static void what_was_not_measured_is_null(void **state)
 static void results_stand_under_their_own_names(void **state)
 {
     (void)state;
-    job_result result;
-    job_result_init(&result);
+    drum_result result;
+    drum_result_init(&result);
     result.measured.repose.angle[DEM_SURFACE_FIT].mean_deg = 22.5;
     result.measured.repose.angle[DEM_CHORD].mean_deg = 23.5;
     result.measured.regime.predicted_stationary = 2.5;
     result.measured.regime.regime = DEM_ROLLING;
     result.has_regime = true;
     result.run.seed = 9007199254740991.0;
-    json_t *document = job_result_to_json(&result);
+    json_t *document = drum_result_to_json(&result);
     json_t *repose = json_object_get(document, "repose"), *regime = json_object_get(document, "regime");
     assert_true(json_real_value(json_object_get(repose, "angle_deg")) == 22.5);
     assert_true(json_real_value(json_object_get(json_object_get(repose, "other_methods"), "chord")) == 23.5);

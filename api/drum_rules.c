@@ -2,11 +2,10 @@
  *
  * Inputs that were refused are NaN. Every check here is a comparison that is false for NaN, so that one mistake
  * is reported once. */
-#include "spec_rules.h"
-
 #include <math.h>
 
 #include "dem_rules.h"
+#include "drum_process.h"
 
 /* Results need 8 frames; one frame's angle has an error of a degree or more, so a run of any length gets at least
  * 64 of them, and one revolution at least 40. */
@@ -189,7 +188,7 @@ static void derive_drum(const drum_inputs *inputs, dem_drum_definition *drum, pr
 static void check_amounts(const job_spec *spec, problem_list *problems)
 {
     const drum_inputs *inputs = &spec->inputs;
-    const job_estimate estimate = job_spec_estimate(spec, 0.0);
+    const job_estimate estimate = drum_estimate(spec, 0.0);
     const char *duration = isnan(inputs->revolutions) ? "/inputs/duration/seconds" : "/inputs/duration/revolutions";
     if (estimate.steps > MOST_STEPS)
         problem_list_add(problems, duration, "makes %.3g steps of %.3g s; must make at most %.3g: shorten the "
@@ -215,7 +214,7 @@ static void check_amounts(const job_spec *spec, problem_list *problems)
                          "most %.0f bytes", spec->snapshot_interval, estimate.snapshot_bytes, MOST_SNAPSHOT_BYTES);
 }
 
-void spec_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
+void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
     drum_inputs *inputs = &spec->inputs;
     spec->duration = isnan(inputs->revolutions) ? inputs->seconds
@@ -228,5 +227,6 @@ void spec_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
     spec->maximum_overlap = isnan(inputs->maximum_overlap) ? 0.0 : inputs->maximum_overlap;
     spec->sample_interval = inputs->sample_interval;
     spec->snapshot_interval = inputs->snapshot_interval;
+    spec->threads = spec->drum.threads;
     check_amounts(spec, problems);
 }

@@ -1,0 +1,52 @@
+/* What a drum will cost, from its numbers alone. */
+#include <math.h>
+
+#include "dem_rules.h"
+#include "drum_process.h"
+
+/* Cautious, for one thread of a machine on which nothing has been measured yet. */
+#define PARTICLE_STEPS_PER_SECOND 4e6
+/* A thread more does not bring all of its speed. */
+#define THREAD_GAIN 0.7
+/* A snapshot: so much for the file's structure, and for each particle after compression. */
+#define SNAPSHOT_FILE_BYTES 30e3
+#define SNAPSHOT_PARTICLE_BYTES 60.0
+/* A frame of measurement: some 16 numbers and the interface's height at steps of d/4, kept in memory. */
+#define FRAME_NUMBERS 16.0
+#define FRAME_NUMBERS_PER_DIAMETER 4.0
+
+static double smallest_diameter(const dem_drum_definition *drum)
+{
+    double diameter = NAN;
+    for (size_t s = 0; s < drum->species_count; s++) diameter = fmin(diameter, drum->species[s].diameter);
+    return diameter;
+}
+
+static double lining_spheres(const dem_drum_definition *drum)
+{
+    if (!(drum->lining.diameter > 0.0)) return 0.0;
+    return DEM_PI * drum->diameter * drum->length / (drum->lining.pitch * drum->lining.pitch);
+}
+
+job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_second)
+{
+    const dem_drum_definition *drum = &spec->drum;
+    const double speed = particle_steps_per_second > 0.0 ? particle_steps_per_second : PARTICLE_STEPS_PER_SECOND;
+    const double particles = (double)drum->particle_count;
+    const double frame_bytes = sizeof(double)
+        * (FRAME_NUMBERS + FRAME_NUMBERS_PER_DIAMETER * drum->diameter / smallest_diameter(drum));
+
+    job_estimate estimate = {
+        .particles = particles,
+        .time_step = drum->time_step,
+        .stiffness = drum->contact.stiffness,
+        .simulated_seconds = spec->duration + dem_settling_time_estimate(drum->diameter, drum->gravity),
+        .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
+    };
+    estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
+    estimate.wall_seconds = particles * estimate.steps / (speed * (1.0 + THREAD_GAIN * (drum->threads - 1)));
+    estimate.memory_bytes = dem_memory_estimate(particles + lining_spheres(drum))
+                          + frame_bytes * spec->duration / spec->sample_interval;
+    estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * particles);
+    return estimate;
+}

@@ -1,0 +1,14 @@
+/* The rotating drum as a process. */
+#include "drum_process.h"
+
+const process_type drum_process = {
+    .name = "drum",
+    .title = "Rotating drum",
+    .description = "A horizontal drum, part full of particles, turns about its axis: dynamic angle of repose, flow "
+                   "regime, segregation and packing of the bed. SI units; angles in degrees.",
+    .inputs = &drum_fields,
+    .inputs_at = offsetof(job_spec, inputs),
+    .apply_rules = drum_rules_apply,
+    .estimate = drum_estimate,
+    .results = &drum_result_fields,
+};

@@ -1,0 +1,14 @@
+/* The parts that the rotating drum's process is made of. */
+#ifndef DRUM_PROCESS_H
+#define DRUM_PROCESS_H
+
+#include "process_type.h"
+
+extern const process_type drum_process;
+extern const spec_table drum_fields;    /* drum_fields.c */
+extern const result_table drum_result_fields; /* drum_result_fields.c */
+
+void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems);    /* drum_rules.c */
+job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_second);         /* drum_estimate.c */
+
+#endif

@@ -1,0 +1,22 @@
+/* What a drum run found, and the document of GET /jobs/{id}/results that says it. */
+#ifndef DRUM_RESULT_H
+#define DRUM_RESULT_H
+
+#include <jansson.h>
+
+#include "dem_types.h"
+#include "run_facts.h"
+
+typedef struct drum_result {
+    dem_drum_results measured;
+    bool has_regime; /* false: too few frames to tell */
+    run_facts run;
+} drum_result;
+
+/* Every measure NaN, as when there were too few frames to measure. */
+void drum_result_init(drum_result *result);
+
+/* The results document: NaN becomes null. New reference; NULL: no memory. */
+json_t *drum_result_to_json(const drum_result *result);
+
+#endif

@@ -1,0 +1,112 @@
+/* Results of `drum`. This file knows nothing of the core, so that the daemon can describe results without it. */
+#include <string.h>
+
+#include "drum_process.h"
+#include "drum_result.h"
+
+#define REPOSE(member) offsetof(drum_result, measured.repose.member)
+#define ANGLE(member) offsetof(drum_result, measured.repose.angle[DEM_SURFACE_FIT].member)
+#define REGIME(member) offsetof(drum_result, measured.regime.member)
+#define SEGREGATION(member) offsetof(drum_result, measured.segregation.member)
+#define PACKING(member) offsetof(drum_result, measured.packing.member)
+#define RUN(member) offsetof(drum_result, run.member)
+
+static const result_field fields[] = {
+    {"repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees", "dynamic angle of repose, mean"},
+    {"repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees", "error of that mean"},
+    {"repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", "lowest angle of a frame"},
+    {"repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", "highest angle of a frame"},
+    {"repose", NULL, "steady", RESULT_TRUTH, REPOSE(steady), "", "the angle no longer drifts"},
+    {"repose", NULL, "drift_deg_per_revolution", RESULT_REAL, REPOSE(drift_deg_per_revolution), "degrees",
+     "slope of the angle over the window"},
+    {"repose", NULL, "interface_fluctuation", RESULT_REAL, REPOSE(interface_fluctuation), "m",
+     "mean over x of the standard deviation in time of the surface's height"},
+    {"repose", "window", "start", RESULT_REAL, REPOSE(window_start), "s", "measuring window, from rotation start"},
+    {"repose", "window", "end", RESULT_REAL, REPOSE(window_end), "s", "its end"},
+    {"repose", NULL, "correlation_time", RESULT_REAL, REPOSE(correlation_time), "s", "of the angle"},
+    {"repose", NULL, "frames", RESULT_SIZE, REPOSE(frames), "", "frames in the window"},
+
+    {"regime", NULL, "omega2_outer", RESULT_REAL, REGIME(omega2_outer), "", "omega^2 R/g at the wall"},
+    {"regime", NULL, "omega2_inner", RESULT_REAL, REGIME(omega2_inner), "", "the same at the bed's inner surface"},
+    {"regime", "predicted", "stationary_eq33", RESULT_REAL, REGIME(predicted_stationary), "",
+     "omega2_inner above which the bed stays on the wall, 1/sin(angle)"},
+    {"regime", "predicted", "sliding_eq35", RESULT_REAL, REGIME(predicted_sliding_eq35), "", "boundary of sliding"},
+    {"regime", "predicted", "sliding_eq36", RESULT_REAL, REGIME(predicted_sliding_eq36), "",
+     "boundary of sliding, Eqns 36-37"},
+    {"regime", "evidence", "wall_slip", RESULT_REAL, REGIME(wall_slip), "",
+     "1 - spin of the outermost layer / spin of the drum"},
+    {"regime", "evidence", "wall_slip_fluctuation", RESULT_REAL, REGIME(wall_slip_fluctuation), "",
+     "its standard deviation in time"},
+    {"regime", "evidence", "angle_fluctuation_deg", RESULT_REAL, REGIME(angle_fluctuation_deg), "degrees",
+     "standard deviation in time of the direction of the centre of mass"},
+    {"regime", "evidence", "flow_fluctuation", RESULT_REAL, REGIME(flow_fluctuation), "",
+     "standard deviation over mean of the surface flow's speed"},
+    {"regime", "evidence", "airborne_fraction", RESULT_REAL, REGIME(airborne_fraction), "",
+     "share of particles without a contact"},
+    {"regime", "evidence", "wall_coverage", RESULT_REAL, REGIME(wall_coverage), "",
+     "share of the wall's circumference with particles against it"},
+    {"regime", "evidence", "curvature_deg", RESULT_REAL, REGIME(curvature_deg), "degrees",
+     "upper less lower half of the chord"},
+    {"regime", "evidence", "fallen_fraction", RESULT_REAL, REGIME(fallen_fraction), "",
+     "share of particles lately nearer the axis than the bed's inner surface less 2 diameters"},
+    {"regime", "evidence", "surface_lag", RESULT_REAL, REGIME(surface_lag), "rad/revolution",
+     "by which the inner surface lags the drum"},
+
+    {"segregation", NULL, "radial_index", RESULT_REAL, SEGREGATION(radial_index), "",
+     "mean distance from the axis, largest less smallest species, over the drum's radius; null: one species"},
+    {"segregation", NULL, "axial_index", RESULT_REAL, SEGREGATION(axial_index), "", "null: one species"},
+    {"segregation", NULL, "lacey_index", RESULT_REAL, SEGREGATION(lacey_index), "",
+     "0 segregated, 1 mixed at random; null: one species"},
+
+    {"packing", NULL, "solid_fraction", RESULT_REAL, PACKING(solid_fraction), "", "of the bed's core"},
+    {"packing", NULL, "coordination_number", RESULT_REAL, PACKING(coordination_number), "", "contacts a particle"},
+
+    {"run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", "mobile particles"},
+    {"run", NULL, "steps", RESULT_WHOLE, RUN(steps), "", "time steps, settling included"},
+    {"run", NULL, "time_step", RESULT_REAL, RUN(time_step), "s", "length of a step"},
+    {"run", NULL, "simulated_seconds", RESULT_REAL, RUN(simulated_seconds), "s", "time of rotation"},
+    {"run", NULL, "settling_seconds", RESULT_REAL, RUN(settling_seconds), "s", "simulated before rotation began"},
+    {"run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", "time spent, all attempts"},
+    {"run", NULL, "particle_steps_per_second", RESULT_REAL, RUN(particle_steps_per_second), "1/s", "speed"},
+    {"run", NULL, "maximum_overlap", RESULT_REAL, RUN(maximum_overlap), "",
+     "largest overlap while rotating, as a share of the smallest diameter"},
+    {"run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", "normal loading stiffness used"},
+    {"run", NULL, "fill_fraction", RESULT_REAL, RUN(fill_fraction), "", "as the particles make it"},
+    {"run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", "frames of measurement"},
+    {"run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", "snapshot files"},
+    {"run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", "threads"},
+    {"run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", "of the initial positions"},
+    {"run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", "the attempt that came to the end"},
+};
+
+static const result_output outputs[] = {
+    {"repose", "dynamic angle of repose"},
+    {"regime", "flow regime, with the numbers it was told from"},
+    {"segregation", "segregation of the species"},
+    {"packing", "packing of the bed"},
+    {"run", "how the run went"},
+};
+
+/* The members that are words, and the angles by other methods. */
+static void describe_words(json_t *properties, const char *output)
+{
+    if (strcmp(output, "regime") == 0)
+        json_object_set_new(properties, "name", json_pack("{s:[s, s], s:s}", "type", "string", "null", "description",
+                                                          "flow regime; null: too few frames to tell"));
+    if (strcmp(output, "repose") != 0) return;
+    json_object_set_new(properties, "method", json_pack("{s:s, s:s}", "type", "string", "description",
+                                                        "how angle_deg was measured"));
+    json_object_set_new(properties, "other_methods", json_pack("{s:s, s:s, s:s}", "type", "object", "description",
+                                                               "mean angle by other definitions", "x-unit", "degrees"));
+    json_object_set_new(properties, "other_methods_standard_error_deg",
+                        json_pack("{s:s, s:s, s:s}", "type", "object", "description", "errors of those", "x-unit",
+                                  "degrees"));
+}
+
+const result_table drum_result_fields = {
+    .field = fields,
+    .count = sizeof fields / sizeof fields[0],
+    .output = outputs,
+    .output_count = sizeof outputs / sizeof outputs[0],
+    .describe_words = describe_words,
+};

@@ -1,0 +1,34 @@
+/* A process: a test that can be run. Each is a table of inputs, rules that make of them something to run, an estimate
+ * of its cost, and a table of results; everything else about requests, jobs and descriptions is common to all.
+ *
+ * A new one: X_fields.c (inputs), X_rules.c, X_result_fields.c, X_process.c with its process_type, a line in process_type.c,
+ * its members in job_spec.h, its runner in the worker (server/worker/runners.c), its tables in the daemon
+ * (server/daemon/process_tables.c and schema.c). */
+#ifndef PROCESS_TYPE_H
+#define PROCESS_TYPE_H
+
+#include "job_spec.h"
+#include "result_fields.h"
+#include "spec_fields.h"
+
+struct process_type {
+    const char *name, *title, *description;
+    const spec_table *inputs;
+    size_t inputs_at; /* offset in job_spec of the struct that the table fills */
+
+    /* Sets the defaults that depend on other inputs, checks combinations, and derives what is run. Inputs that were
+     * refused are NaN. Nothing derived is of use when there are problems. */
+    void (*apply_rules)(job_spec *spec, uint64_t seed_if_missing, problem_list *problems);
+    /* particle_steps_per_second: of this machine on one thread; <= 0 takes a cautious built-in figure. */
+    job_estimate (*estimate)(const job_spec *spec, double particle_steps_per_second);
+
+    const result_table *results;
+};
+
+extern const process_type *const process_types[]; /* ends with NULL */
+const process_type *process_type_find(const char *name); /* NULL: unknown */
+
+/* The names of all, for messages: "drum", "granule". */
+void process_type_names(char *text, size_t size);
+
+#endif

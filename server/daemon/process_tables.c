@@ -1,0 +1,32 @@
+/* The main inputs of a job as numbers, so that SQL can ask for them: a table a process, <process>_input. */
+#include <string.h>
+
+#include "database.h"
+#include "job_store.h"
+
+typedef store_status inputs_inserter(sqlite3 *writer, int64_t job, const job_spec *spec);
+
+static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *spec)
+{
+    const dem_drum_definition *drum = &spec->drum;
+    return sql_run(writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", "idddddii" "dddddddddd" "i",
+                   job, drum->diameter, drum->length, drum->rotation_rate, drum->gravity,
+                   drum->fill_fraction, (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter,
+                   drum->species[0].density, drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
+                   drum->contact.tangential_stiffness_ratio, drum->contact.stiffness, drum->lining.diameter, drum->time_step,
+                   spec->duration, (int64_t)drum->seed);
+}
+
+static const struct {
+    const char *process;
+    inputs_inserter *insert;
+} tables[] = {
+    {"drum", insert_drum},
+};
+
+store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec)
+{
+    for (size_t t = 0; t < sizeof tables / sizeof tables[0]; t++)
+        if (strcmp(tables[t].process, spec->process) == 0) return tables[t].insert(writer, job, spec);
+    return STORE_FAILED; /* a process without a table here is our own mistake */
+}
