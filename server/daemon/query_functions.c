@@ -1,0 +1,105 @@
+/* SQLite looks whether a query may go on only between instructions that jump: hundreds of calls in one row are never
+ * interrupted, and its own instr and replace take the product of both lengths. These look at the clock at each call,
+ * and take the sum of the lengths (memmem) or, for patterns, a pattern of bounded length. */
+#include "query_functions.h"
+
+#include <string.h>
+
+#include "log.h"
+
+enum { LONGEST_PATTERN = 100 };
+
+/* Also true where an argument is NULL: so is the answer then. */
+static bool is_over(sqlite3_context *call, int count, sqlite3_value **values)
+{
+    const double *deadline = sqlite3_user_data(call);
+    if (monotonic_seconds() > *deadline) {
+        sqlite3_result_error_code(call, SQLITE_INTERRUPT);
+        return true;
+    }
+    for (int i = 0; i < count; i++)
+        if (sqlite3_value_type(values[i]) == SQLITE_NULL) return true;
+    return false;
+}
+
+static bool takes_pattern(sqlite3_context *call, sqlite3_value *pattern)
+{
+    if (sqlite3_value_bytes(pattern) <= LONGEST_PATTERN) return true;
+    sqlite3_result_error(call, "a pattern of LIKE or GLOB may have at most 100 bytes", -1);
+    return false;
+}
+
+static const char *text_of(sqlite3_value *value)
+{
+    const char *text = (const char *)sqlite3_value_text(value);
+    return text ? text : "";
+}
+
+/* values: pattern, text, and where given the escape character */
+static void like(sqlite3_context *call, int count, sqlite3_value **values)
+{
+    if (is_over(call, count, values) || !takes_pattern(call, values[0])) return;
+    const char *escape = count > 2 ? text_of(values[2]) : "";
+    if (count > 2 && (strlen(escape) != 1 || (escape[0] & 0x80)))
+        sqlite3_result_error(call, "ESCAPE must be one ASCII character", -1);
+    else
+        sqlite3_result_int(call, sqlite3_strlike(text_of(values[0]), text_of(values[1]), (unsigned char)escape[0]) == 0);
+}
+
+static void glob(sqlite3_context *call, int count, sqlite3_value **values)
+{
+    if (is_over(call, count, values) || !takes_pattern(call, values[0])) return;
+    sqlite3_result_int(call, sqlite3_strglob(text_of(values[0]), text_of(values[1])) == 0);
+}
+
+/* Where values[1] begins in values[0], counted in characters from 1; 0: nowhere. */
+static void instr(sqlite3_context *call, int count, sqlite3_value **values)
+{
+    if (is_over(call, count, values)) return;
+    const char *text = text_of(values[0]), *wanted = text_of(values[1]);
+    const char *found = memmem(text, (size_t)sqlite3_value_bytes(values[0]), wanted, (size_t)sqlite3_value_bytes(values[1]));
+    int place = found ? 1 : 0;
+    for (const char *c = text; found && c < found; c++) place += (*c & 0xc0) != 0x80; /* bytes that begin a character */
+    sqlite3_result_int(call, place);
+}
+
+static void replace(sqlite3_context *call, int count, sqlite3_value **values)
+{
+    if (is_over(call, count, values)) return;
+    const char *text = text_of(values[0]), *old = text_of(values[1]), *new = text_of(values[2]);
+    const char *const end = text + sqlite3_value_bytes(values[0]);
+    const size_t old_length = (size_t)sqlite3_value_bytes(values[1]);
+    sqlite3_str *out = sqlite3_str_new(sqlite3_context_db_handle(call));
+    const char *found;
+    while (old_length > 0 && (found = memmem(text, (size_t)(end - text), old, old_length)) != NULL) {
+        sqlite3_str_append(out, text, (int)(found - text));
+        sqlite3_str_append(out, new, sqlite3_value_bytes(values[2]));
+        text = found + old_length;
+    }
+    sqlite3_str_append(out, text, (int)(end - text));
+    const int problem = sqlite3_str_errcode(out), length = sqlite3_str_length(out);
+    char *result = sqlite3_str_finish(out);
+    if (problem == SQLITE_OK) sqlite3_result_text(call, result ? result : "", length, result ? sqlite3_free : SQLITE_STATIC);
+    else sqlite3_result_error_code(call, problem);
+}
+
+static void refuse_trim(sqlite3_context *call, int count, sqlite3_value **values)
+{
+    (void)count, (void)values;
+    sqlite3_result_error(call, "trim, ltrim and rtrim take one argument here: they remove spaces", -1);
+}
+
+bool query_functions_install(sqlite3 *database, const double *deadline)
+{
+    static const struct {
+        const char *name;
+        int arguments;
+        void (*function)(sqlite3_context *, int, sqlite3_value **);
+    } ours[] = {{"like", 2, like}, {"like", 3, like}, {"glob", 2, glob}, {"instr", 2, instr}, {"replace", 3, replace},
+                {"trim", 2, refuse_trim}, {"ltrim", 2, refuse_trim}, {"rtrim", 2, refuse_trim}};
+    bool good = true;
+    for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++)
+        good = good && sqlite3_create_function(database, ours[i].name, ours[i].arguments, SQLITE_UTF8 | SQLITE_DETERMINISTIC,
+                                               (void *)deadline, ours[i].function, NULL, NULL) == SQLITE_OK;
+    return good;
+}
