@@ -1,36 +1,9 @@
 #include "contact_forces.h"
 
-#include "wide.h"
-
-/* The law is applied in short passes over a block of contacts: gather, normal, displacement, normal force, turned
- * friction, friction stiffness, friction, output. Each pass works on LANES contacts at once without branches; a
- * block's values stay in the first-level cache between passes. The passes are short so that the processor works on
- * several batches at a time: in one long pass, each batch waits for the chain of its own roots and quotients. */
-typedef struct contact_block {
-    real n[3][BLOCK];       /* displacement between centres, m; then unit normal, first to second */
-    real distance2[BLOCK];  /* m2; to the wall: from the axis */
-    real gap2[BLOCK];       /* m2: square of the distance at first touch less distance2 (wall: the reverse) */
-    real reach[BLOCK];      /* m: distance at first touch */
-    real radii[BLOCK];      /* m, of both together; a wall has none */
-    real v[3][BLOCK];       /* m/s: second less first */
-    real r_omega[3][BLOCK]; /* m/s: sum of radius times spin */
-    real omega[3][BLOCK];   /* rad/s: sum of spins */
-    real overlap[BLOCK];    /* m, negative: apart */
-    real ds[3][BLOCK];      /* m, tangential displacement of this step */
-    real f_n[BLOCK];        /* N, normal force */
-    real h[3][BLOCK];       /* direction of the stored friction force, turned into the tangent plane */
-    real mu_n[BLOCK];       /* N, limit of friction */
-    real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
-    real s_p[BLOCK];        /* m, displacement along h */
-} __attribute__((aligned(ALIGNMENT))) contact_block;
+#include "contact_block.h"
 
 /* Order of a sphere's row behind its place. */
 enum { RADIUS = 0, VELOCITY = 1, R_OMEGA = 4, OMEGA = 7 };
-
-WIDE_INLINE void store_vector(real to[3][BLOCK], int k, const wide x[3])
-{
-    for (int c = 0; c < 3; c++) wide_store(to[c] + k, x[c]);
-}
 
 static void gather_spheres(contact_block *restrict block, const sphere_row *restrict row, const int32_t *restrict first,
                            const int32_t *restrict second, double length)
@@ -124,92 +97,19 @@ static void displacements(contact_block *restrict block, real time_step)
         for (int c = 0; c < 3; c++) s[c] = wide_fused(less, wide_load(block->omega[c] + k), wide_load(block->r_omega[c] + k));
         for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
         const wide v_n = -wide_dot(v_r, n);
+        wide_store(block->closing + k, v_n);
         for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_fused(v_n, n[c], v_r[c]) * dt);
-    }
-}
-
-/* normal_force of contact_law.h, LANES at a time. */
-static void normal_forces(contact_block *restrict block, real *restrict alpha_0, real stiffness, real unloading_stiffness)
-{
-    const wide k_1 = wide_all(stiffness), k_2 = wide_all(unloading_stiffness), zero = wide_all(0);
-    const wide latch = wide_all(1 - stiffness / unloading_stiffness);
-    for (int k = 0; k < BLOCK; k += LANES) {
-        const wide alpha = wide_load(block->overlap + k);
-        const wide latched = wide_greater(wide_load(alpha_0 + k), alpha * latch);
-        wide_store(alpha_0 + k, wide_select(wide_exceeds(alpha, zero), latched, zero));
-        wide_store(block->f_n + k, wide_greater(wide_lesser(k_1 * alpha, k_2 * (alpha - latched)), zero));
-    }
-}
-
-/* friction_increment of contact_law.h, LANES at a time, in three passes: the stored force turned into the tangent
- * plane; the stiffness along it; the new force. */
-static void turn_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
-                          const real *restrict t_z, const real *restrict friction)
-{
-    const wide zero = wide_all(0), tiny = wide_all(TINY_SQUARE);
-    for (int k = 0; k < BLOCK; k += LANES) {
-        const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
-        const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
-        const wide ds[3] = { wide_load(block->ds[0] + k), wide_load(block->ds[1] + k), wide_load(block->ds[2] + k) };
-        const wide tn = -wide_dot(t, n);
-        const wide u[3] = { wide_fused(tn, n[0], t[0]), wide_fused(tn, n[1], t[1]), wide_fused(tn, n[2], t[2]) };
-        const wide tt = wide_dot(t, t), uu = wide_dot(u, u);
-        const wide_mask has_direction = wide_exceeds(uu, tiny);
-        const wide turn = wide_select(has_direction, wide_inverse_root(uu), zero);
-        const wide magnitude = wide_select(has_direction, tt * wide_inverse_root(tt), zero);
-        const wide h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
-        const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k);
-        store_vector(block->h, k, h);
-        wide_store(block->mu_n + k, mu_n);
-        wide_store(block->stored + k, wide_lesser(magnitude, mu_n));
-        wide_store(block->s_p + k, wide_dot(ds, h));
-    }
-}
-
-static void friction_stiffness(contact_block *restrict block, real *restrict t_star, real stiffness)
-{
-    const wide zero = wide_all(0), one = wide_all(1), floor = wide_all(SLIP_FLOOR), k_t0 = wide_all(stiffness);
-    for (int k = 0; k < BLOCK; k += LANES) {
-        const wide mu_n = wide_load(block->mu_n + k), stored = wide_load(block->stored + k), s_p = wide_load(block->s_p + k);
-        const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE));
-        const wide tau = wide_select(pressed, stored * wide_inverse(mu_n), zero);
-        const wide sign = wide_select(wide_exceeds(zero, s_p), -one, one);
-        const wide turning = wide_lesser(sign * wide_load(t_star + k), sign * tau);
-        const wide left = wide_greater(one - sign * tau, floor), left_at_turn = wide_greater(one - turning, floor);
-        const wide k_t = k_t0 * (left * wide_inverse_cube_root(left * left * left_at_turn));
-        const wide s = wide_fused(k_t, s_p, stored), star = sign * turning;
-        wide_store(block->stored + k, s);
-        wide_store(t_star + k, wide_select(pressed, wide_select(wide_exceeds(zero, s), -star, star), zero));
-    }
-}
-
-static void friction_forces(const contact_block *restrict block, real *restrict t_x, real *restrict t_y, real *restrict t_z, real stiffness)
-{
-    const wide one = wide_all(1), k_t0 = wide_all(stiffness);
-    for (int k = 0; k < BLOCK; k += LANES) {
-        const wide s = wide_load(block->stored + k), s_p = wide_load(block->s_p + k), mu_n = wide_load(block->mu_n + k);
-        wide f[3];
-        for (int c = 0; c < 3; c++) {
-            const wide h = wide_load(block->h[c] + k);
-            f[c] = wide_fused(s, h, k_t0 * wide_fused(-s_p, h, wide_load(block->ds[c] + k)));
-        }
-        const wide size2 = wide_dot(f, f);
-        const wide scale = wide_select(wide_exceeds(size2, mu_n * mu_n), mu_n * wide_inverse_root(size2), one);
-        wide_store(t_x + k, f[0] * scale);
-        wide_store(t_y + k, f[1] * scale);
-        wide_store(t_z + k, f[2] * scale);
     }
 }
 
 /* f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
  * spheres grow, radii are below full size, but then there is no friction, hence no moment.) */
-static void write_rows(const contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
-                       const real *restrict t_z, const real *restrict first_radius, contact_row *restrict row)
+static void write_rows(const contact_block *restrict block, const real *restrict first_radius, contact_row *restrict row)
 {
     const wide half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
-        const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
+        const wide t[3] = { wide_load(block->force[0] + k), wide_load(block->force[1] + k), wide_load(block->force[2] + k) };
         const wide f_n = -wide_load(block->f_n + k), less = half * wide_load(block->overlap + k);
         const wide r_first = wide_load(first_radius + k);
         const wide r_a = r_first - less, r_b = wide_load(block->radii + k) - r_first - less;
@@ -242,18 +142,14 @@ static double largest_lane(wide x)
 }
 
 /* Everything behind the gathering, the same for spheres and walls. Returns the largest overlap, m. */
-static double block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact, double dt)
+static double block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
+                           bool is_wall, double dt)
 {
-    const double k_1 = contact->stiffness, k_2 = k_1 / (contact->restitution * contact->restitution);
-    const real k_t0 = (real)(k_1 * contact->tangential_stiffness_ratio);
-    real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
     normals(block);
     displacements(block, (real)dt);
-    normal_forces(block, list->alpha_0 + start, (real)k_1, (real)k_2);
-    turn_friction(block, t_x, t_y, t_z, list->friction + start);
-    friction_stiffness(block, list->t_star + start, k_t0);
-    friction_forces(block, t_x, t_y, t_z, k_t0);
-    write_rows(block, t_x, t_y, t_z, list->first_radius + start, list->row + start);
+    if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
+    else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
+    write_rows(block, list->first_radius + start, list->row + start);
     return largest_lane(block_largest_overlap(block, list->overlap + start));
 }
 
@@ -266,7 +162,7 @@ double contact_forces_between_spheres(contact_list *pairs, const spheres *s, con
     for (size_t start = 0; start < count; start += BLOCK) {
         contact_block block;
         gather_spheres(&block, s->row, pairs->first + start, pairs->second + start, drum->length);
-        largest = fmax(largest, block_forces(pairs, start, &block, contact, dt));
+        largest = fmax(largest, block_forces(pairs, start, &block, contact, false, dt));
     }
     return largest;
 }
@@ -280,7 +176,7 @@ double contact_forces_with_wall(contact_list *walls, const spheres *s, const con
     for (size_t start = 0; start < count; start += BLOCK) {
         contact_block block;
         gather_sphere_and_cylinder(&block, s->row, walls->first + start, sphere_of_zeros(s), drum->radius, (real)drum->rotation_rate);
-        largest = fmax(largest, block_forces(walls, start, &block, contact, dt));
+        largest = fmax(largest, block_forces(walls, start, &block, contact, true, dt));
     }
     return largest;
 }

@@ -1,7 +1,7 @@
-/* The contact law as pure functions of numbers: a latching normal spring and incremental friction.
- *
- * Source: Walton & Braun (1993), text of "Method"; the friction's three-dimensional form after Walton (1993b)
- * and Walton & Braun (1986). All of it free of branches, so that a loop over contacts becomes wide arithmetic. */
+/* The contact laws as pure functions of numbers, free of branches, so that a loop over contacts becomes wide
+ * arithmetic. Walton & Braun: a latching normal spring and incremental friction (Walton & Braun 1993, text of
+ * "Method"; the friction's three-dimensional form after Walton 1993b and Walton & Braun 1986). Damped springs: linear
+ * (the paper's footnote) or Hertz-Mindlin, with friction that cuts the tangential force and pulls its spring back. */
 #ifndef CONTACT_LAW_H
 #define CONTACT_LAW_H
 
@@ -65,6 +65,71 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
     const real scale = size2 > mu_n * mu_n ? mu_n * inverse_root(size2) : 1;
     for (int c = 0; c < 3; c++) t[c] *= scale;
     *t_star = mu_n > TINY_FORCE ? (s < 0 ? -star : star) : 0;
+}
+
+/* What the two damped laws differ in, at one overlap. */
+typedef struct damped_springs {
+    real f_n; /* N, normal spring */
+    real c_n; /* N s/m, normal dashpot */
+    real k_t; /* N/m, tangential spring */
+    real c_t; /* N s/m, tangential dashpot */
+} damped_springs;
+
+/* What they are made of, for one pair of materials. */
+typedef struct damped_law {
+    real k_n; /* N/m; Hertz-Mindlin: Pa, E* */
+    real k_t; /* N/m; Hertz-Mindlin: Pa, G* */
+    real damping; /* zeta; Hertz-Mindlin: sqrt(5/6) zeta */
+} damped_law;
+
+/* Linear: c_n = 2 zeta sqrt(m K1), c_t = c_n/2. mass: effective, kg. */
+static inline damped_springs linear_springs(damped_law law, real alpha, real mass)
+{
+    const real mk = mass * law.k_n, c_n = 2 * law.damping * (mk * inverse_root(mk));
+    return (damped_springs){ law.k_n * alpha, c_n, law.k_t, c_n / 2 };
+}
+
+/* Hertz: N = 4/3 E* sqrt(R* alpha) alpha, S_n = dN/dalpha = 2 E* a; Mindlin without slip: S_t = 8 G* a, a = sqrt(R* alpha);
+ * c = 2 sqrt(5/6) zeta sqrt(S m), which makes restitution independent of speed (Tsuji, Tanaka & Ishida 1992).
+ * alpha > 0; radius: effective, m. */
+static inline damped_springs hertz_mindlin_springs(damped_law law, real alpha, real mass, real radius)
+{
+    const real aa = radius * alpha, a = aa * inverse_root(aa);
+    const real s_n = 2 * law.k_n * a, s_t = 8 * law.k_t * a;
+    const real ms_n = mass * s_n, ms_t = mass * s_t;
+    return (damped_springs){ (real)(2.0 / 3.0) * s_n * alpha, 2 * law.damping * (ms_n * inverse_root(ms_n)), s_t,
+                             2 * law.damping * (ms_t * inverse_root(ms_t)) };
+}
+
+/* Normal force of spring and dashpot, never attractive; 0 apart. closing: m/s, positive while the overlap grows. */
+static inline real damped_normal_force(damped_springs springs, real alpha, real closing)
+{
+    return alpha > 0 ? greater(fused(springs.c_n, closing, springs.f_n), 0) : 0;
+}
+
+/* One increment of the spring's force t (turned with the contact, as above) under ds in dt; force: with the dashpot,
+ * cut at mu N. Where it is cut, the spring is pulled back to what the cut leaves. */
+static inline void damped_friction_increment(const real n[3], const real ds[3], real inverse_dt, real mu_n,
+                                             damped_springs springs, real t[3], real force[3])
+{
+    const real tn = dot(t, n);
+    const real u[3] = { fused(-tn, n[0], t[0]), fused(-tn, n[1], t[1]), fused(-tn, n[2], t[2]) };
+    const real tt = dot(t, t), uu = dot(u, u);
+    const real keep = uu > TINY_SQUARE ? tt * inverse_root(tt) * inverse_root(uu) : 0;
+    real dashpot[3];
+    for (int c = 0; c < 3; c++) {
+        dashpot[c] = springs.c_t * (ds[c] * inverse_dt);
+        t[c] = fused(springs.k_t, ds[c], u[c] * keep);
+        force[c] = t[c] + dashpot[c];
+    }
+    const real size2 = dot(force, force);
+    const bool cut = size2 > mu_n * mu_n;
+    const real scale = cut ? mu_n * inverse_root(size2) : 1;
+    const bool pressed = mu_n > TINY_FORCE;
+    for (int c = 0; c < 3; c++) {
+        force[c] *= scale;
+        t[c] = pressed ? (cut ? force[c] - dashpot[c] : t[c]) : 0;
+    }
 }
 
 #endif

@@ -14,6 +14,7 @@ static void slots_free(contact_list *list)
     free(list->second);
     free(list->friction);
     free(list->first_radius);
+    free(list->mass);
     for (int c = 0; c < 3; c++) free(list->t[c]);
     free(list->t_star);
     free(list->alpha_0);
@@ -36,11 +37,12 @@ dem_status contact_list_reserve(contact_list *list, size_t count)
     grown.second = array_create(n, sizeof *grown.second);
     grown.friction = array_create(n, sizeof *grown.friction);
     grown.first_radius = array_create(n, sizeof *grown.first_radius);
+    grown.mass = array_create(n, sizeof *grown.mass);
     for (int c = 0; c < 3; c++) grown.t[c] = array_create(n, sizeof *grown.t[c]);
     grown.t_star = array_create(n, sizeof *grown.t_star);
     grown.alpha_0 = array_create(n, sizeof *grown.alpha_0);
     grown.overlap = array_create(n, sizeof *grown.overlap);
-    if (!grown.first || !grown.second || !grown.friction || !grown.first_radius || !grown.t[0] || !grown.t[1] || !grown.t[2]
+    if (!grown.first || !grown.second || !grown.friction || !grown.first_radius || !grown.mass || !grown.t[0] || !grown.t[1] || !grown.t[2]
         || !grown.t_star || !grown.alpha_0 || !grown.overlap) {
         slots_free(&grown);
         return DEM_NO_MEMORY;
@@ -61,7 +63,7 @@ void contact_list_pad(contact_list *list, int32_t first, int32_t second)
     for (size_t k = list->count; k < round_up_to_block(list->count); k++) {
         list->first[k] = first;
         list->second[k] = second;
-        list->friction[k] = list->first_radius[k] = 0;
+        list->friction[k] = list->first_radius[k] = list->mass[k] = 0;
         contact_list_forget(list, k);
     }
 }

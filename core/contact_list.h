@@ -22,6 +22,7 @@ typedef struct contact_list {
     int32_t *second;        /* (capacity) sphere index; unused for walls */
     real *friction;         /* (capacity) mu */
     real *first_radius;     /* (capacity) m, at full size */
+    real *mass;             /* (capacity) kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
     real *t[3];             /* (capacity) N   contact_history, by component */
     real *t_star;           /* (capacity) */
     real *alpha_0;          /* (capacity) m */

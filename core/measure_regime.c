@@ -3,6 +3,7 @@
 #include "dem_rules.h"
 #include "density_grid.h"
 #include "measure.h"
+#include "regime_map.h"
 #include "statistics.h"
 
 /* Radius of the inner surface that the bed would have spread evenly over the wall. */
@@ -76,14 +77,6 @@ static double fallen_fraction(const dem_scene *scene, const frame_window *window
     return fallen / (double)scene->spheres.mobile_count;
 }
 
-static void predict_boundaries(double angle_deg, dem_regime_result *r)
-{
-    const double phi = angle_deg * (DEM_PI / 180);
-    r->predicted_stationary = 1 / sin(phi);                                   /* Eq 33 */
-    r->predicted_sliding_eq35 = sqrt(0.5) * (1 + 1 / (tan(phi) + 0.125));     /* Eq 35 */
-    r->predicted_sliding_eq36 = 1 / sin(atan(0.16 + tan(phi)));               /* Eqns 36, 37 */
-}
-
 /* A bed spread over the whole wall: raining, sliding or centrifuging. */
 static dem_regime fast_regime(const dem_regime_result *r)
 {
@@ -109,7 +102,10 @@ void measure_regime_results(const dem_scene *scene, const frame_window *window, 
     const double rate = scene->definition.rotation_rate, g = scene->definition.gravity;
     r->omega2_outer = rate * rate * scene->drum.radius / g;
     r->omega2_inner = rate * rate * inner_radius(scene) / g;
-    predict_boundaries(repose->angle[DEM_SURFACE_FIT].mean_deg, r);
+    const double tangent = tan(repose->angle[DEM_SURFACE_FIT].mean_deg * (DEM_PI / 180));
+    r->predicted_stationary = regime_map_stationary(tangent);
+    r->predicted_sliding_eq35 = regime_map_sliding_eq34(tangent);
+    r->predicted_sliding_eq36 = regime_map_sliding_eq36(tangent);
     r->wall_slip = frame_window_mean(window, FRAME_WALL_SLIP);
     r->wall_slip_fluctuation = frame_window_deviation(window, FRAME_WALL_SLIP);
     r->angle_fluctuation_deg = frame_window_deviation(window, FRAME_CENTER_OF_MASS);

@@ -345,8 +345,11 @@ static dem_status pairs_pick(neighbor_list *list, size_t n)
 static void fill_slots_of(neighbor_list *list, const spheres *s, const dem_contact_parameters *contact, size_t i)
 {
     contact_list *pairs = &list->pairs, *walls = &list->walls;
+    const double own = s->inverse_mass[i];
     for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-        pairs->friction[k] = (real)((size_t)pairs->second[k] < s->mobile_count ? contact->friction : contact->wall_friction);
+        const bool between_mobile = (size_t)pairs->second[k] < s->mobile_count;
+        pairs->friction[k] = (real)(between_mobile ? contact->friction : contact->wall_friction);
+        pairs->mass[k] = (real)(1 / (between_mobile ? own + s->inverse_mass[pairs->second[k]] : own));
         pairs->first_radius[k] = (real)s->full_radius[i];
     }
     contact_list_carry(pairs, &list->pairs_before, i);
@@ -354,6 +357,7 @@ static void fill_slots_of(neighbor_list *list, const spheres *s, const dem_conta
         walls->first[w] = (int32_t)i;
         walls->friction[w] = (real)contact->wall_friction;
         walls->first_radius[w] = (real)s->full_radius[i];
+        walls->mass[w] = (real)(1 / own);
     }
     contact_list_carry(walls, &list->walls_before, i);
 }

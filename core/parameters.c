@@ -4,15 +4,27 @@
 
 static bool is_positive(double x) { return isfinite(x) && x > 0; }
 
+/* A modulus may be infinite: rigid; not both. */
+static bool is_elastic(dem_elasticity e) { return e.youngs_modulus > 0 && e.poissons_ratio > -1 && e.poissons_ratio <= 0.5; }
+
+static bool is_law(const dem_contact_parameters *c)
+{
+    switch (c->law) {
+    case DEM_WALTON_BRAUN:
+    case DEM_SPRING_DASHPOT: return is_positive(c->stiffness) && is_positive(c->tangential_stiffness_ratio);
+    case DEM_HERTZ_MINDLIN: return isfinite(c->particle.youngs_modulus) && is_elastic(c->particle) && is_elastic(c->wall);
+    }
+    return false;
+}
+
 dem_status parameters_check(const dem_drum_definition *d)
 {
     const dem_contact_parameters *c = &d->contact;
     bool good = is_positive(d->diameter) && is_positive(d->length) && isfinite(d->rotation_rate) && is_positive(d->gravity)
              && is_positive(d->time_step) && d->particle_count > 0 && d->particle_count < INT32_MAX / 2 && d->threads >= 1
              && d->species_count >= 1 && d->species_count <= DEM_MAXIMUM_SPECIES;
-    good = good && is_positive(c->stiffness) && c->restitution > 0 && c->restitution <= 1 && c->friction >= 0
-        && isfinite(c->friction) && c->wall_friction >= 0 && isfinite(c->wall_friction)
-        && is_positive(c->tangential_stiffness_ratio);
+    good = good && is_law(c) && c->restitution > 0 && c->restitution <= 1 && c->friction >= 0
+        && isfinite(c->friction) && c->wall_friction >= 0 && isfinite(c->wall_friction);
     double shares = 0.0, largest = 0.0;
     for (size_t k = 0; good && k < d->species_count; k++) {
         const dem_species *s = &d->species[k];

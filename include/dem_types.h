@@ -31,9 +31,22 @@ typedef struct dem_species {
     double share;    /* of the particles by number; shares of all species sum to 1 */
 } dem_species;
 
-/* Walton-Braun latching spring and incremental friction (Walton & Braun 1993; equations in core/NUMERICS.md). */
+/* Equations and sources of each: core/NUMERICS.md. */
+typedef enum dem_contact_law {
+    DEM_WALTON_BRAUN,   /* latching normal spring and incremental friction (Walton & Braun 1993) */
+    DEM_SPRING_DASHPOT, /* linear springs and dashpots, the tangential cut at mu N (the paper's footnote) */
+    DEM_HERTZ_MINDLIN   /* Hertz, Mindlin's no-slip stiffness, damping set from restitution (Tsuji et al. 1992) */
+} dem_contact_law;
+
+typedef struct dem_elasticity {
+    double youngs_modulus; /* Pa; infinite: rigid */
+    double poissons_ratio;
+} dem_elasticity;
+
 typedef struct dem_contact_parameters {
-    double stiffness;                  /* K1, N/m, loading branch */
+    dem_contact_law law;
+    double stiffness;                  /* K1, N/m, loading branch (Walton-Braun, spring-dashpot) */
+    dem_elasticity particle, wall;     /* Hertz-Mindlin; a lining is of the wall's material */
     double restitution;                /* e = sqrt(K1/K2) */
     double friction;                   /* mu between particles */
     double wall_friction;              /* mu_w, particle against wall or lining */

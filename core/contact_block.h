@@ -1,0 +1,42 @@
+/* The passes that make forces of a block of contacts, and what goes from one to the next. */
+#ifndef CONTACT_BLOCK_H
+#define CONTACT_BLOCK_H
+
+#include "contact_list.h"
+
+/* The law is applied in short passes over a block of contacts: gather, normal, displacement, normal force, turned
+ * friction, friction stiffness, friction, output. Each pass works on LANES contacts at once without branches; a
+ * block's values stay in the first-level cache between passes. The passes are short so that the processor works on
+ * several batches at a time: in one long pass, each batch waits for the chain of its own roots and quotients. */
+typedef struct contact_block {
+    real n[3][BLOCK];       /* displacement between centres, m; then unit normal, first to second */
+    real distance2[BLOCK];  /* m2; to the wall: from the axis */
+    real gap2[BLOCK];       /* m2: square of the distance at first touch less distance2 (wall: the reverse) */
+    real reach[BLOCK];      /* m: distance at first touch */
+    real radii[BLOCK];      /* m, of both together; a wall has none */
+    real v[3][BLOCK];       /* m/s: second less first */
+    real r_omega[3][BLOCK]; /* m/s: sum of radius times spin */
+    real omega[3][BLOCK];   /* rad/s: sum of spins */
+    real overlap[BLOCK];    /* m, negative: apart */
+    real closing[BLOCK];    /* m/s, rate of the overlap */
+    real ds[3][BLOCK];      /* m, tangential displacement of this step */
+    real f_n[BLOCK];        /* N, normal force */
+    real force[3][BLOCK];   /* N, friction force on the first */
+    real h[3][BLOCK];       /* direction of the stored friction force, turned into the tangent plane */
+    real mu_n[BLOCK];       /* N, limit of friction */
+    real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
+    real s_p[BLOCK];        /* m, displacement along h */
+} __attribute__((aligned(ALIGNMENT))) contact_block;
+
+WIDE_INLINE void store_vector(real to[3][BLOCK], int k, const wide x[3])
+{
+    for (int c = 0; c < 3; c++) wide_store(to[c] + k, x[c]);
+}
+
+/* The law of a block's contacts, whose geometry is in the block: sets f_n and force, updates the list's histories
+ * from `start`. dt: s. */
+void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact);
+void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
+                                  bool is_wall, double dt);
+
+#endif

@@ -1,0 +1,88 @@
+/* Walton & Braun's law of contact_law.h for a block of contacts, LANES at a time. */
+#include "contact_block.h"
+
+/* normal_force of contact_law.h, LANES at a time. */
+static void normal_forces(contact_block *restrict block, real *restrict alpha_0, real stiffness, real unloading_stiffness)
+{
+    const wide k_1 = wide_all(stiffness), k_2 = wide_all(unloading_stiffness), zero = wide_all(0);
+    const wide latch = wide_all(1 - stiffness / unloading_stiffness);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide alpha = wide_load(block->overlap + k);
+        const wide latched = wide_greater(wide_load(alpha_0 + k), alpha * latch);
+        wide_store(alpha_0 + k, wide_select(wide_exceeds(alpha, zero), latched, zero));
+        wide_store(block->f_n + k, wide_greater(wide_lesser(k_1 * alpha, k_2 * (alpha - latched)), zero));
+    }
+}
+
+/* friction_increment of contact_law.h, LANES at a time, in three passes: the stored force turned into the tangent
+ * plane; the stiffness along it; the new force. */
+static void turn_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
+                          const real *restrict t_z, const real *restrict friction)
+{
+    const wide zero = wide_all(0), tiny = wide_all(TINY_SQUARE);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
+        const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
+        const wide ds[3] = { wide_load(block->ds[0] + k), wide_load(block->ds[1] + k), wide_load(block->ds[2] + k) };
+        const wide tn = -wide_dot(t, n);
+        const wide u[3] = { wide_fused(tn, n[0], t[0]), wide_fused(tn, n[1], t[1]), wide_fused(tn, n[2], t[2]) };
+        const wide tt = wide_dot(t, t), uu = wide_dot(u, u);
+        const wide_mask has_direction = wide_exceeds(uu, tiny);
+        const wide turn = wide_select(has_direction, wide_inverse_root(uu), zero);
+        const wide magnitude = wide_select(has_direction, tt * wide_inverse_root(tt), zero);
+        const wide h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
+        const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k);
+        store_vector(block->h, k, h);
+        wide_store(block->mu_n + k, mu_n);
+        wide_store(block->stored + k, wide_lesser(magnitude, mu_n));
+        wide_store(block->s_p + k, wide_dot(ds, h));
+    }
+}
+
+static void friction_stiffness(contact_block *restrict block, real *restrict t_star, real stiffness)
+{
+    const wide zero = wide_all(0), one = wide_all(1), floor = wide_all(SLIP_FLOOR), k_t0 = wide_all(stiffness);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide mu_n = wide_load(block->mu_n + k), stored = wide_load(block->stored + k), s_p = wide_load(block->s_p + k);
+        const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE));
+        const wide tau = wide_select(pressed, stored * wide_inverse(mu_n), zero);
+        const wide sign = wide_select(wide_exceeds(zero, s_p), -one, one);
+        const wide turning = wide_lesser(sign * wide_load(t_star + k), sign * tau);
+        const wide left = wide_greater(one - sign * tau, floor), left_at_turn = wide_greater(one - turning, floor);
+        const wide k_t = k_t0 * (left * wide_inverse_cube_root(left * left * left_at_turn));
+        const wide s = wide_fused(k_t, s_p, stored), star = sign * turning;
+        wide_store(block->stored + k, s);
+        wide_store(t_star + k, wide_select(pressed, wide_select(wide_exceeds(zero, s), -star, star), zero));
+    }
+}
+
+static void friction_forces(contact_block *restrict block, real *restrict t_x, real *restrict t_y, real *restrict t_z, real stiffness)
+{
+    const wide one = wide_all(1), k_t0 = wide_all(stiffness);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide s = wide_load(block->stored + k), s_p = wide_load(block->s_p + k), mu_n = wide_load(block->mu_n + k);
+        wide f[3];
+        for (int c = 0; c < 3; c++) {
+            const wide h = wide_load(block->h[c] + k);
+            f[c] = wide_fused(s, h, k_t0 * wide_fused(-s_p, h, wide_load(block->ds[c] + k)));
+        }
+        const wide size2 = wide_dot(f, f);
+        const wide scale = wide_select(wide_exceeds(size2, mu_n * mu_n), mu_n * wide_inverse_root(size2), one);
+        for (int c = 0; c < 3; c++) f[c] = f[c] * scale;
+        store_vector(block->force, k, f);
+        wide_store(t_x + k, f[0]);
+        wide_store(t_y + k, f[1]);
+        wide_store(t_z + k, f[2]);
+    }
+}
+
+void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact)
+{
+    const double k_1 = contact->stiffness, k_2 = k_1 / (contact->restitution * contact->restitution);
+    const real k_t0 = (real)(k_1 * contact->tangential_stiffness_ratio);
+    real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
+    normal_forces(block, list->alpha_0 + start, (real)k_1, (real)k_2);
+    turn_friction(block, t_x, t_y, t_z, list->friction + start);
+    friction_stiffness(block, list->t_star + start, k_t0);
+    friction_forces(block, t_x, t_y, t_z, k_t0);
+}
