@@ -9,7 +9,7 @@
 
 /* What a contact remembers. All zero for a contact that has just begun. */
 typedef struct contact_history {
-    real t[3];    /* T, N: friction force on the first body */
+    real t[3];    /* T, N: friction force on the first body; damped laws: m, stretch of its spring */
     real t_star;  /* T at the last turning point over mu N, signed along T */
     real alpha_0; /* m: overlap at which the unloading branch reaches zero */
 } contact_history;
@@ -90,45 +90,47 @@ static inline damped_springs linear_springs(damped_law law, real alpha, real mas
 }
 
 /* Hertz: N = 4/3 E* sqrt(R* alpha) alpha, S_n = dN/dalpha = 2 E* a; Mindlin without slip: S_t = 8 G* a, a = sqrt(R* alpha);
- * c = 2 sqrt(5/6) zeta sqrt(S m), which makes restitution independent of speed (Tsuji, Tanaka & Ishida 1992).
- * alpha > 0; radius: effective, m. */
+ * c_n = 2 sqrt(5/6) zeta sqrt(S_n m), which makes restitution independent of speed (Tsuji, Tanaka & Ishida 1992), and
+ * c_t half of it. alpha > 0; radius: effective, m. */
 static inline damped_springs hertz_mindlin_springs(damped_law law, real alpha, real mass, real radius)
 {
     const real aa = radius * alpha, a = aa * inverse_root(aa);
-    const real s_n = 2 * law.k_n * a, s_t = 8 * law.k_t * a;
-    const real ms_n = mass * s_n, ms_t = mass * s_t;
-    return (damped_springs){ (real)(2.0 / 3.0) * s_n * alpha, 2 * law.damping * (ms_n * inverse_root(ms_n)), s_t,
-                             2 * law.damping * (ms_t * inverse_root(ms_t)) };
+    const real s_n = 2 * law.k_n * a, ms_n = mass * s_n, c_n = 2 * law.damping * (ms_n * inverse_root(ms_n));
+    return (damped_springs){ (real)(2.0 / 3.0) * s_n * alpha, c_n, 8 * law.k_t * a, c_n / 2 };
 }
 
-/* Normal force of spring and dashpot, never attractive; 0 apart. closing: m/s, positive while the overlap grows. */
+/* Normal force of spring and dashpot; 0 apart. closing: m/s, positive while the overlap grows. The dashpot may pull at
+ * the very end of a collision: the relation of zeta and e counts on it. */
 static inline real damped_normal_force(damped_springs springs, real alpha, real closing)
 {
-    return alpha > 0 ? greater(fused(springs.c_n, closing, springs.f_n), 0) : 0;
+    return alpha > 0 ? fused(springs.c_n, closing, springs.f_n) : 0;
 }
 
-/* One increment of the spring's force t (turned with the contact, as above) under ds in dt; force: with the dashpot,
- * cut at mu N. Where it is cut, the spring is pulled back to what the cut leaves. */
+/* One increment of the spring's stretch (turned with the contact, as above) by ds in dt; force: with the dashpot, cut
+ * at mu |N|. Where it is cut, the spring is pulled back to what the cut leaves. Keeping the stretch rather than the force
+ * is Mindlin's solution without slip as the published benchmarks have it: the stiffness of now acts on all of it. */
 static inline void damped_friction_increment(const real n[3], const real ds[3], real inverse_dt, real mu_n,
-                                             damped_springs springs, real t[3], real force[3])
+                                             damped_springs springs, real stretch[3], real force[3])
 {
-    const real tn = dot(t, n);
-    const real u[3] = { fused(-tn, n[0], t[0]), fused(-tn, n[1], t[1]), fused(-tn, n[2], t[2]) };
-    const real tt = dot(t, t), uu = dot(u, u);
-    const real keep = uu > TINY_SQUARE ? tt * inverse_root(tt) * inverse_root(uu) : 0;
+    const real sn = dot(stretch, n);
+    const real u[3] = { fused(-sn, n[0], stretch[0]), fused(-sn, n[1], stretch[1]), fused(-sn, n[2], stretch[2]) };
+    const real ss = dot(stretch, stretch), uu = dot(u, u);
+    const real keep = uu > TINY_SQUARE ? ss * inverse_root(ss) * inverse_root(uu) : 0;
+    const real limit = greater(mu_n, -mu_n);
+    const bool pressed = limit > TINY_FORCE;
     real dashpot[3];
     for (int c = 0; c < 3; c++) {
         dashpot[c] = springs.c_t * (ds[c] * inverse_dt);
-        t[c] = fused(springs.k_t, ds[c], u[c] * keep);
-        force[c] = t[c] + dashpot[c];
+        stretch[c] = fused(u[c], keep, ds[c]);
+        force[c] = fused(springs.k_t, stretch[c], dashpot[c]);
     }
     const real size2 = dot(force, force);
-    const bool cut = size2 > mu_n * mu_n;
-    const real scale = cut ? mu_n * inverse_root(size2) : 1;
-    const bool pressed = mu_n > TINY_FORCE;
+    const bool cut = size2 > limit * limit;
+    const real scale = cut ? limit * inverse_root(size2) : 1;
+    const real compliance = pressed ? inverse(springs.k_t) : 0;
     for (int c = 0; c < 3; c++) {
         force[c] *= scale;
-        t[c] = pressed ? (cut ? force[c] - dashpot[c] : t[c]) : 0;
+        stretch[c] = pressed ? (cut ? (force[c] - dashpot[c]) * compliance : stretch[c]) : 0;
     }
 }
 

@@ -39,17 +39,17 @@ static void hertz_mindlin_block(contact_block *restrict block, const real *restr
                                 damped_law law, bool is_wall)
 {
     const wide twice_e = wide_all(2 * law.k_n), eight_g = wide_all(8 * law.k_t), twice_zeta = wide_all(2 * law.damping);
-    const wide two_thirds = wide_all((real)(2.0 / 3.0)), tiny = wide_all((real)1e-30);
+    const wide two_thirds = wide_all((real)(2.0 / 3.0)), half = wide_all((real)0.5), tiny = wide_all((real)1e-30);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide r_i = wide_load(first_radius + k), radii = wide_load(block->radii + k), m = wide_load(mass + k);
         const wide radius = is_wall ? r_i : r_i * (radii - r_i) * wide_inverse(radii);
         const wide alpha = wide_load(block->overlap + k);
         const wide a = wide_square_root(wide_greater(radius * alpha, tiny)); /* apart: what follows is not used */
-        const wide s_n = twice_e * a, s_t = eight_g * a;
+        const wide s_n = twice_e * a, c_n = twice_zeta * wide_square_root(wide_greater(m * s_n, tiny));
         wide_store(block->f_n + k, two_thirds * s_n * alpha);
-        wide_store(block->mu_n + k, twice_zeta * wide_square_root(wide_greater(m * s_n, tiny)));
-        wide_store(block->stored + k, s_t);
-        wide_store(block->s_p + k, twice_zeta * wide_square_root(wide_greater(m * s_t, tiny)));
+        wide_store(block->mu_n + k, c_n);
+        wide_store(block->stored + k, eight_g * a);
+        wide_store(block->s_p + k, half * c_n);
     }
 }
 
@@ -58,7 +58,7 @@ static void normal_forces(contact_block *restrict block)
     const wide zero = wide_all(0);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide damped = wide_fused(wide_load(block->mu_n + k), wide_load(block->closing + k), wide_load(block->f_n + k));
-        wide_store(block->f_n + k, wide_select(wide_exceeds(wide_load(block->overlap + k), zero), wide_greater(damped, zero), zero));
+        wide_store(block->f_n + k, wide_select(wide_exceeds(wide_load(block->overlap + k), zero), damped, zero));
     }
 }
 
@@ -69,24 +69,28 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
     const wide zero = wide_all(0), one = wide_all(1), tiny = wide_all(TINY_SQUARE), inverse_dt = wide_all(inverse_time_step);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
-        wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) }, dashpot[3], f[3];
-        const wide tn = -wide_dot(t, n);
-        const wide u[3] = { wide_fused(tn, n[0], t[0]), wide_fused(tn, n[1], t[1]), wide_fused(tn, n[2], t[2]) };
-        const wide tt = wide_dot(t, t), uu = wide_dot(u, u);
-        const wide keep = wide_select(wide_exceeds(uu, tiny), wide_square_root(tt) * wide_inverse_root(uu), zero);
-        const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k);
+        const wide stretch[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
+        const wide sn = -wide_dot(stretch, n), k_t = wide_load(block->stored + k);
+        const wide u[3] = { wide_fused(sn, n[0], stretch[0]), wide_fused(sn, n[1], stretch[1]), wide_fused(sn, n[2], stretch[2]) };
+        const wide ss = wide_dot(stretch, stretch), uu = wide_dot(u, u);
+        const wide keep = wide_select(wide_exceeds(uu, tiny), wide_square_root(ss) * wide_inverse_root(uu), zero);
+        const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k), limit = wide_greater(mu_n, -mu_n);
+        const wide_mask pressed = wide_exceeds(limit, wide_all(TINY_FORCE));
+        wide dashpot[3], stretched[3], f[3];
         for (int c = 0; c < 3; c++) {
             const wide ds = wide_load(block->ds[c] + k);
             dashpot[c] = wide_load(block->s_p + k) * (ds * inverse_dt);
-            t[c] = wide_fused(wide_load(block->stored + k), ds, u[c] * keep);
-            f[c] = t[c] + dashpot[c];
+            stretched[c] = wide_fused(u[c], keep, ds);
+            f[c] = wide_fused(k_t, stretched[c], dashpot[c]);
         }
         const wide size2 = wide_dot(f, f);
-        const wide_mask cut = wide_exceeds(size2, mu_n * mu_n), pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE));
-        const wide scale = wide_select(cut, mu_n * wide_inverse_root(size2), one);
+        const wide_mask cut = wide_exceeds(size2, limit * limit);
+        const wide scale = wide_select(cut, limit * wide_inverse_root(size2), one);
+        const wide compliance = wide_select(pressed, wide_inverse(k_t), zero);
         for (int c = 0; c < 3; c++) {
             f[c] = f[c] * scale;
-            wide_store(spring[c] + k, wide_select(pressed, wide_select(cut, f[c] - dashpot[c], t[c]), zero));
+            const wide left = wide_select(cut, (f[c] - dashpot[c]) * compliance, stretched[c]);
+            wide_store(spring[c] + k, wide_select(pressed, left, zero));
         }
         store_vector(block->force, k, f);
     }

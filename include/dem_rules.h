@@ -63,6 +63,19 @@ static inline double dem_stiffness_for_overlap(double impact_speed, double heavi
     return heaviest_mass * v * v;
 }
 
+/* Hertz-Mindlin: E* (Pa) for the same; alpha = (15 m v^2/(16 E* sqrt(R)))^(2/5). radius: effective, m. */
+static inline double dem_hertz_modulus_for_overlap(double impact_speed, double heaviest_mass, double radius, double overlap)
+{
+    return 15.0 / 16.0 * heaviest_mass * impact_speed * impact_speed / (sqrt(radius) * pow(overlap, 2.5));
+}
+
+/* Duration of an elastic Hertzian collision, 2.868 (m^2/(R E*^2 v))^(1/5), over DEM_STEPS_PER_CONTACT. */
+static inline double dem_hertz_time_step(double effective_modulus, double lightest_mass, double radius, double impact_speed)
+{
+    const double m = 0.5 * lightest_mass;
+    return 2.868 * pow(m * m / (radius * effective_modulus * effective_modulus * impact_speed), 0.2) / DEM_STEPS_PER_CONTACT;
+}
+
 /* Duration of a collision, t_c = (pi/2) sqrt(m_eff/K1) (1 + e), over DEM_STEPS_PER_CONTACT. */
 static inline double dem_time_step(double stiffness, double lightest_mass, double restitution)
 {
