@@ -108,8 +108,8 @@ void execute_process(api_service *service, const http_request *request, http_res
     char id[JOB_ID_SIZE];
     const store_status status = store_add_job(service->store, &spec, id);
     if (status == STORE_OK) {
+        respond_created(service, request, response, &spec, id); /* first, so that it shows the job as accepted */
         service->jobs_changed(service->daemon);
-        respond_created(service, request, response, &spec, id);
     } else {
         respond_store_failure(response, status, "keep the job");
     }

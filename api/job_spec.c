@@ -31,10 +31,19 @@ static const process_type *read_process(const char *process, const json_t *reque
     return type;
 }
 
-static bool label_is_short(const json_t *value)
+static void check_label(const char *name, const json_t *value, problem_list *problems)
 {
-    if (json_is_string(value)) return json_string_length(value) <= LONGEST_LABEL;
-    return json_is_number(value);
+    char pointer[LONGEST_POINTER], seen[80];
+    if (strlen(name) == 0 || strlen(name) > LONGEST_LABEL_NAME) {
+        problem_list_add(problems, "/label", "has a name of %zu bytes; must be 1 to %d", strlen(name), LONGEST_LABEL_NAME);
+        return;
+    }
+    pointer_to_member(pointer, "/label", name);
+    json_value_text(value, seen, sizeof seen);
+    if (json_is_string(value) && json_string_length(value) > LONGEST_LABEL)
+        problem_list_add(problems, pointer, "is a text of %zu bytes; must have at most %d", json_string_length(value), LONGEST_LABEL);
+    else if (!json_is_string(value) && !json_is_number(value))
+        problem_list_add(problems, pointer, "is %s; must be a number or a text of at most %d bytes", seen, LONGEST_LABEL);
 }
 
 static json_t *read_label(const json_t *label, problem_list *problems)
@@ -51,15 +60,7 @@ static json_t *read_label(const json_t *label, problem_list *problems)
                          MOST_LABELS);
     const char *name;
     json_t *value;
-    json_object_foreach((json_t *)label, name, value) {
-        if (strlen(name) == 0 || strlen(name) > LONGEST_LABEL_NAME)
-            problem_list_add(problems, "/label", "has a name of %zu bytes; must be 1 to %d", strlen(name),
-                             LONGEST_LABEL_NAME);
-        else if (!label_is_short(value))
-            problem_list_add(problems, "/label", "has at \"%s\" %s of %zu bytes; must be a number or a text of at "
-                             "most %d bytes", name, json_is_string(value) ? "a text" : "something else",
-                             json_string_length(value), LONGEST_LABEL);
-    }
+    json_object_foreach((json_t *)label, name, value) check_label(name, value, problems);
     return json_deep_copy(label);
 }
 

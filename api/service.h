@@ -8,8 +8,7 @@
 #include "http_request.h"
 #include "store.h"
 #include "text_buffer.h"
-
-#define REPOSED_VERSION "0.1.0"
+#include "version.h"
 
 typedef struct api_service {
     job_store *store;

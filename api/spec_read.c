@@ -7,7 +7,7 @@
 #include "spec_fields.h"
 #include "spec_text.h"
 
-enum { LONGEST_POINTER = 256, LONGEST_MEMBER_NAME = 64, LONGEST_VALUE = 60 };
+enum { LONGEST_MEMBER_NAME = 64, LONGEST_VALUE = 60 };
 
 void json_value_text(const json_t *value, char *text, size_t size)
 {
@@ -26,8 +26,7 @@ void json_value_text(const json_t *value, char *text, size_t size)
     free(dumped);
 }
 
-/* A step of a JSON pointer, with ~ and / escaped (RFC 6901). */
-static void pointer_to_member(char *pointer, const char *parent, const char *name)
+void pointer_to_member(char pointer[LONGEST_POINTER], const char *parent, const char *name)
 {
     size_t length = (size_t)snprintf(pointer, LONGEST_POINTER - 1, "%s/", parent);
     for (; *name && length + 3 < LONGEST_POINTER; name++) {

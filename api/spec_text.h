@@ -14,6 +14,11 @@ void spec_inputs_read(const spec_table *table, const json_t *object, void *input
 /* New reference; NULL: no memory. */
 json_t *spec_inputs_write(const spec_table *table, const void *inputs);
 
+enum { LONGEST_POINTER = 256 };
+
+/* A step of a JSON pointer, with ~ and / escaped (RFC 6901). */
+void pointer_to_member(char pointer[LONGEST_POINTER], const char *parent, const char *name);
+
 /* One short ASCII text for any JSON value, for messages. */
 void json_value_text(const json_t *value, char *text, size_t size);
 

@@ -133,6 +133,7 @@ enum config_outcome config_read(config *settings, int argc, char **argv)
     }
     if (!beside_program(settings->worker, "repose") || !beside_program(settings->web, "../web")
         || !beside_program(settings->api_file, "../api/openapi.yaml")) return CONFIG_WRONG;
+    argv[1] = argv[0]; /* in the place of "serve": getopt begins its complaints with it */
     const enum config_outcome outcome = read_options(settings, argc - 1, argv + 1);
     return outcome == CONFIG_SERVE && !check(settings) ? CONFIG_WRONG : outcome;
 }

@@ -127,13 +127,11 @@ static store_status add_texts(job_store *store, const job_spec *spec, const char
 
 store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE])
 {
-    json_t *document = job_spec_to_json(spec);
-    char *text = document ? json_dumps(document, JSON_INDENT(2) | JSON_REAL_PRECISION(17)) : NULL;
-    char *label = json_dumps(spec->label, JSON_COMPACT);
+    char *text = job_spec_to_text(spec);
+    char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
     const store_status status = add_texts(store, spec, text, label, id);
     free(label);
     free(text);
-    json_decref(document);
     return status;
 }
 

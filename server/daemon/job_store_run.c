@@ -13,7 +13,7 @@
 
 #define FENCE " WHERE number=? AND attempt=? AND status='running'"
 
-enum { LARGEST_RESULT = 16 << 20 };
+enum { LARGEST_RESULT = 16 << 20, LONGEST_DELAY = 3600 /* s; no job is put off for longer */ };
 
 static double unix_seconds(void)
 {
@@ -45,14 +45,15 @@ store_status store_claim_job(job_store *store, int free_threads, int all_threads
     *claim = (job_claim){0};
     char now[JOB_TIME_SIZE];
     time_text(now);
+    const double unix = unix_seconds(); /* further ahead than any delay: the clock was set back since */
     store_status status = store_begin(store);
     if (status != STORE_OK) return status;
     sqlite3_stmt *statement = sql_prepare(store->writer,
         "UPDATE job SET status='running', message='starting', started=coalesce(started,?1), updated=?1, eta_seconds=NULL"
-        " WHERE number=(SELECT number FROM job WHERE status='accepted' AND not_before<=?2 ORDER BY number LIMIT 1)"
+        " WHERE number=(SELECT number FROM job WHERE status='accepted' AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY number LIMIT 1)"
         " AND min(threads,?3)<=?4"
         " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec",
-        "tdii", now, unix_seconds(), (int64_t)all_threads, (int64_t)free_threads);
+        "tdiid", now, unix, (int64_t)all_threads, (int64_t)free_threads, unix + LONGEST_DELAY);
     status = store_end(store, statement ? read_claim(statement, claim) : STORE_FAILED);
     if (status != STORE_OK) {
         free(claim->spec);
@@ -86,7 +87,7 @@ static store_status insert_samples(sqlite3 *writer, int64_t job, const json_t *s
         const json_t *event = json_array_get(samples, i);
         const json_t *values = json_object_get(event, "values");
         if (!json_is_object(values) || !json_is_integer(json_object_get(event, "number"))) continue;
-        char *text = json_dumps(values, JSON_COMPACT);
+        char *text = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* as the worker wrote them */
         /* A later attempt repeats samples with the same numbers: the later line wins. */
         status = text ? sql_run(writer, NULL, "INSERT INTO sample(job,number,step,time,measures) VALUES(?,?,?,?,?)"
                                               " ON CONFLICT DO UPDATE SET step=excluded.step, time=excluded.time, measures=excluded.measures",

@@ -15,9 +15,8 @@
 #include "json_text.h"
 #include "run_summary.h"
 #include "spec_file.h"
+#include "version.h"
 #include "worker_log.h"
-
-#define VERSION "1.0.0"
 
 enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
 
@@ -47,23 +46,28 @@ static enum worker_exit refuse_usage(const char *problem, const char *value)
     return WORKER_BAD_SPEC;
 }
 
-static bool read_whole(const char *text, int most, int *number)
+static bool read_whole(const char *name, const char *text, int most, int *number)
 {
     char *end;
     const long value = strtol(text, &end, 10);
-    if (*end || end == text || value < 1 || value > most) return false;
-    *number = (int)value;
-    return true;
+    if (!*end && end != text && value >= 1 && value <= most) {
+        *number = (int)value;
+        return true;
+    }
+    fprintf(stderr, "repose: --%s is \"%s\"; must be a whole number in [1, %d]\n", name, text, most);
+    return false;
 }
 
-static bool read_seconds(const char *text, double *seconds)
+static bool read_seconds(const char *name, const char *text, double *seconds)
 {
     char *end;
     *seconds = strtod(text, &end);
-    return !*end && end != text && isfinite(*seconds) && *seconds >= 0.0;
+    if (!*end && end != text && isfinite(*seconds) && *seconds >= 0.0) return true;
+    fprintf(stderr, "repose: --%s is \"%s\"; must be a number of at least 0 s\n", name, text);
+    return false;
 }
 
-/* argv[0] is the word "run" or "check". */
+/* argv[0] is the program's name, in the place of the word "run" or "check". */
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
@@ -76,13 +80,13 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
     for (int option; good && (option = getopt_long(argc, argv, "o:", options, NULL)) != -1;) {
         switch (option) {
         case 'o': line->out = optarg; break;
-        case 't': good = read_whole(optarg, MOST_THREADS, &line->threads); break;
-        case 'a': good = read_whole(optarg, INT_MAX, &line->run.attempt); break;
-        case 'c': good = read_seconds(optarg, &line->run.checkpoint_seconds); break;
+        case 't': good = read_whole("threads", optarg, MOST_THREADS, &line->threads); break;
+        case 'a': good = read_whole("attempt", optarg, INT_MAX, &line->run.attempt); break;
+        case 'c': good = read_seconds("checkpoint-seconds", optarg, &line->run.checkpoint_seconds); break;
         case 'j': line->json = true; break;
         default: return WORKER_BAD_SPEC; /* getopt has said why */
         }
-        if (!good) return refuse_usage("not a number in the allowed range", optarg);
+        if (!good) return WORKER_BAD_SPEC;
     }
     if (optind + 1 != argc) return refuse_usage("give one SPEC file", NULL);
     line->spec = argv[optind];
@@ -170,11 +174,12 @@ static enum worker_exit run(int argc, char **argv)
 int main(int argc, char **argv)
 {
     const char *word = argc > 1 ? argv[1] : "--help";
+    if (argc > 1) argv[1] = argv[0];
     int exit = WORKER_DONE;
     if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1);
     else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1);
     else if (strcmp(word, "--help") == 0) fputs(help, stdout);
-    else if (strcmp(word, "--version") == 0) puts("repose " VERSION);
+    else if (strcmp(word, "--version") == 0) puts("repose " REPOSED_VERSION);
     else exit = refuse_usage("not a command", word);
     /* After a failed write HDF5's own cleaning up at exit crashes: leave without it. */
     if (fflush(stdout) != 0 && exit == WORKER_DONE) exit = WORKER_DISK;

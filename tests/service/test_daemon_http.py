@@ -216,7 +216,7 @@ def test_listening_to_the_world_needs_a_token(tmp_path):
 
 @pytest.mark.parametrize("options, says", [(["--port", "70000"], '--port is "70000"; must be a whole number in [0, 65535]'),
                                            (["--workers", "0"], "[1, 256]"), (["--worker", "/nowhere"], "/nowhere can't be started"),
-                                           (["surplus"], '"surplus" is not understood')])
+                                           (["surplus"], '"surplus" is not understood'), (["--bogus"], "reposed: unrecognized option '--bogus'")])
 def test_a_wrong_command_line_says_what_is_wrong(tmp_path, options, says):
     command = [BUILD / "reposed", "serve", "--data", tmp_path / "data", "--worker", FAKE_WORKER, *options]
     result = subprocess.run(command, capture_output=True, text=True, timeout=10)

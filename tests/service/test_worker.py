@@ -82,8 +82,10 @@ def test_a_seed_is_chosen_when_none_is_given():
 def test_wrong_usage_ends_with_2_and_help_with_0(tmp_path):
     assert subprocess.run([REPOSE, "fly"], capture_output=True).returncode == 2
     assert subprocess.run([REPOSE, "run", "x.json"], capture_output=True).returncode == 2
-    assert subprocess.run([REPOSE, "run", "x.json", "--out", str(tmp_path / "o"), "--threads", "none"],
-                          capture_output=True).returncode == 2
+    wrong = subprocess.run([REPOSE, "run", "x.json", "--out", str(tmp_path / "o"), "--threads", "none"], capture_output=True, text=True)
+    assert wrong.returncode == 2 and wrong.stderr == 'repose: --threads is "none"; must be a whole number in [1, 256]\n'
+    unknown = subprocess.run([REPOSE, "run", "x.json", "--speed", "2"], capture_output=True, text=True)
+    assert unknown.returncode == 2 and unknown.stderr == f"{REPOSE}: unrecognized option '--speed'\n"
     shown = subprocess.run([REPOSE, "--help"], capture_output=True, text=True)
     assert shown.returncode == 0 and "--out DIR" in shown.stdout
 
