@@ -10,6 +10,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
+#include "dem_granule.h"
 #include "dem_types.h"
 #include "problem.h"
 
@@ -33,6 +34,11 @@ typedef struct drum_inputs {
     double seed, threads, gravity;
 } drum_inputs;
 
+typedef struct granule_inputs {
+    double friction, radius, rotation_rate; /* rotation_rate may be NaN: not asked for */
+    double revolutions, gravity, tolerance;
+} granule_inputs;
+
 typedef struct process_type process_type; /* process_type.h */
 
 typedef struct job_spec {
@@ -48,6 +54,10 @@ typedef struct job_spec {
     double duration;             /* s from the start of rotation */
     double sample_interval;      /* s between frames of measurement */
     double snapshot_interval;    /* s between snapshots; 0: only the last */
+
+    /* Of a granule alone: */
+    granule_inputs granule_inputs;
+    dem_granule_definition granule;
 } job_spec;
 
 /* NaN: the process has no such thing. */

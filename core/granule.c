@@ -271,6 +271,7 @@ dem_status dem_granule_solve(const dem_granule_definition *d, dem_granule_result
     result->sliding_deviation_eq34 = result->sliding_eq34 / result->minimum_omega2 - 1;
     result->sliding_deviation_eq36 = result->sliding_eq36 / result->minimum_omega2 - 1;
     result->has_motion = !isnan(d->rotation_rate);
+    result->motion = (dem_granule_motion){ .omega2 = NAN, .slip_per_revolution = NAN, .slip_onset = NAN, .least_normal_force = NAN };
     if (result->has_motion)
         follow(d->friction, d->rotation_rate * d->rotation_rate * d->radius / d->gravity, d->revolutions, &result->motion);
     return DEM_OK;

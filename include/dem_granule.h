@@ -40,8 +40,8 @@ typedef struct dem_granule_result {
      * fit/minimum_omega2 - 1. */
     double stationary_eq33, sliding_eq34, sliding_eq36;
     double stationary_deviation_eq33, sliding_deviation_eq34, sliding_deviation_eq36;
-    bool has_motion; /* a rotation rate was given: */
-    dem_granule_motion motion;
+    bool has_motion; /* a rotation rate was given */
+    dem_granule_motion motion; /* at that rate; else its numbers are NaN */
 } dem_granule_result;
 
 /* Errors: DEM_BAD_PARAMETER. */

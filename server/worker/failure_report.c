@@ -75,3 +75,10 @@ enum worker_exit failure_report(event_log *events, dem_status status, const dem_
     event_log_add(events, event);
     return kind.code;
 }
+
+enum worker_exit failure_report_disk(event_log *events, const char *name)
+{
+    event_log_add(events, json_pack("{s:s, s:s, s:o}", "event", "failure", "status", "disk", "message",
+                                    json_sprintf("can't write %s: disk full or not writable", name)));
+    return WORKER_DISK;
+}

@@ -1,9 +1,10 @@
-/* One attempt at a job: from a spec, or from the checkpoint of the attempt before, to result.json. */
+/* One attempt at a job, of whatever process: from a spec to result.json. */
 #ifndef JOB_RUN_H
 #define JOB_RUN_H
 
 #include <stdbool.h>
 
+#include "event_log.h"
 #include "job_folder.h"
 #include "job_spec.h"
 
@@ -13,10 +14,25 @@ typedef struct run_options {
     bool on_terminal;          /* show a progress line */
 } run_options;
 
-/* Runs in `folder`; afterwards the working directory. threads: spec->drum.threads. */
+/* What a process's runner is given. The job folder is the working directory, and this worker's alone. */
+typedef struct job_context {
+    const job_spec *spec;
+    const run_options *options;
+    const char *params; /* the canonical spec */
+    event_log *events;
+} job_context;
+
+/* Runs in `folder`; afterwards the working directory. */
 enum worker_exit job_run(const job_spec *spec, const char *folder, const run_options *options);
+
+/* What a person at a terminal reads of a result. folder: as the user named it. */
+void job_run_summarize(const job_spec *spec, const json_t *result, const char *folder);
 
 /* From now on SIGTERM and SIGINT ask for a checkpoint and the end of job_run with WORKER_STOPPED. */
 void job_run_catch_signals(void);
+bool job_run_is_asked_to_stop(void);
+
+/* The last thing a runner does. Takes over the reference; NULL: there was no memory for it. */
+enum worker_exit job_run_write_result(event_log *events, json_t *document);
 
 #endif

@@ -136,7 +136,7 @@ static enum worker_exit check(int argc, char **argv)
 }
 
 /* The working directory is the job folder now. */
-static void print_result(const command_line *line)
+static void print_result(const command_line *line, const job_spec *spec)
 {
     size_t length;
     char *text = file_read(JOB_RESULT_FILE, LONGEST_RESULT, &length);
@@ -145,7 +145,7 @@ static void print_result(const command_line *line)
         fputs(text, stdout);
     } else {
         json_t *result = json_loadb(text, length, 0, NULL);
-        terminal_summary(result, line->out);
+        job_run_summarize(spec, result, line->out);
         json_decref(result);
     }
     free(text);
@@ -166,7 +166,7 @@ static enum worker_exit run(int argc, char **argv)
     job_run_catch_signals();
     exit = job_run(&spec, line.out, &line.run);
     if (line.run.on_terminal) terminal_end_progress();
-    if (exit == WORKER_DONE && (line.json || line.run.on_terminal)) print_result(&line);
+    if (exit == WORKER_DONE && (line.json || line.run.on_terminal)) print_result(&line, &spec);
     job_spec_clear(&spec);
     return exit;
 }

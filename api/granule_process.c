@@ -1,0 +1,45 @@
+/* One particle on the wall of a rotating cylinder as a process. There is little to derive and little to pay. */
+#include "granule_process.h"
+
+#include <math.h>
+
+/* Bisection follows some 35 motions of a few revolutions: well below a second on any machine, most of it starting. */
+#define WALL_SECONDS 0.3
+#define MEMORY_BYTES 20e6
+
+static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
+{
+    (void)seed_if_missing, (void)problems; /* nothing is random, and every combination of its inputs makes sense */
+    const granule_inputs *inputs = &spec->granule_inputs;
+    spec->threads = 1;
+    spec->granule = (dem_granule_definition){
+        .friction = inputs->friction,
+        .radius = inputs->radius,
+        .gravity = inputs->gravity,
+        .rotation_rate = inputs->rotation_rate,
+        .revolutions = isnan(inputs->revolutions) ? 1 : (int)inputs->revolutions,
+        .tolerance = inputs->tolerance,
+    };
+}
+
+static job_estimate estimate(const job_spec *spec, double particle_steps_per_second)
+{
+    (void)spec, (void)particle_steps_per_second;
+    return (job_estimate){
+        .particles = 1, .wall_seconds = WALL_SECONDS, .memory_bytes = MEMORY_BYTES, .snapshots = 0, .snapshot_bytes = 0,
+        .steps = NAN, .simulated_seconds = NAN, .time_step = NAN, .stiffness = NAN,
+    };
+}
+
+const process_type granule_process = {
+    .name = "granule",
+    .title = "One particle on the wall of a rotating cylinder",
+    .description = "A frictional particle starts at the bottom of a horizontal cylinder, turning with it: the least rate "
+                   "at which it keeps contact with the wall all the way round, how far it slips, and what becomes of it "
+                   "at a given rate. SI units; angles in degrees.",
+    .inputs = &granule_fields,
+    .inputs_at = offsetof(job_spec, granule_inputs),
+    .apply_rules = apply_rules,
+    .estimate = estimate,
+    .results = &granule_result_fields,
+};
