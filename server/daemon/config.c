@@ -14,7 +14,7 @@
 static const char usage[] =
     "reposed: virtual rotary-drum tests over HTTP\n"
     "\n"
-    "  reposed serve [options]     run the service until SIGTERM\n"
+    "  reposed serve [options]     run the service until SIGTERM, SIGINT or SIGHUP\n"
     "  reposed --help | --version\n"
     "\n"
     "  --host ADDRESS       where to listen (127.0.0.1); beyond loopback needs --token-file\n"

@@ -23,13 +23,21 @@
 
 enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8 };
 
+/* A closed terminal sends SIGHUP; under nohup it is ignored, and a blocked signal would come through all the same. */
+void dispatcher_end_signals(sigset_t *ends)
+{
+    struct sigaction hang_up;
+    sigemptyset(ends);
+    sigaddset(ends, SIGTERM);
+    sigaddset(ends, SIGINT);
+    if (sigaction(SIGHUP, NULL, &hang_up) == 0 && hang_up.sa_handler != SIG_IGN) sigaddset(ends, SIGHUP);
+}
+
 bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job)
 {
     *dispatcher = (job_dispatcher){.store = store, .executor = executor, .workers = workers, .threads = workers * threads_per_job};
     sigset_t ends;
-    sigemptyset(&ends);
-    sigaddset(&ends, SIGTERM);
-    sigaddset(&ends, SIGINT);
+    dispatcher_end_signals(&ends);
     dispatcher->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     dispatcher->signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
     dispatcher->slot = calloc((size_t)workers, sizeof dispatcher->slot[0]);

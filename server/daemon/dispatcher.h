@@ -3,6 +3,7 @@
 #ifndef DISPATCHER_H
 #define DISPATCHER_H
 
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -32,7 +33,7 @@ typedef struct job_dispatcher {
     worker_executor *executor;
     int workers, threads; /* slots; threads of all workers together */
     worker_slot *slot;    /* (workers) */
-    int wake, signals;    /* eventfd; signalfd of SIGTERM and SIGINT */
+    int wake, signals;    /* eventfd; signalfd of dispatcher_end_signals */
     bool stopping;
     void (*jobs_changed)(void *context); /* told after every recorded change of a job's state */
     void *context;
@@ -42,9 +43,11 @@ typedef struct job_dispatcher {
     _Atomic int running;
 } job_dispatcher;
 
+/* The signals that end the daemon in good order: SIGTERM, SIGINT, SIGHUP. To be blocked in all threads. */
+void dispatcher_end_signals(sigset_t *ends);
 bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job);
 void dispatcher_clear(job_dispatcher *dispatcher);
-/* Returns after SIGTERM or SIGINT, when every worker has left and its job is back in the queue. leaving is called
+/* Returns after one of the end signals, when every worker has left and its job is back in the queue. leaving is called
  * once, first. */
 void dispatcher_run(job_dispatcher *dispatcher, void (*leaving)(void *context));
 /* From any thread: look at the queue and at the jobs now. */

@@ -59,16 +59,29 @@ def test_a_killed_daemon_takes_its_workers_along_and_its_successor_goes_on(fake)
     assert [info["attempt"] for info in infos] == [2, 2, 1]
 
 
-def test_a_stop_in_good_order_uses_up_no_attempt(fake):
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_a_stop_in_good_order_uses_up_no_attempt(fake, how):
     job = fake.submit(fake="slow", seconds="3")
     running(fake, job)
     workers = fake.workers()
-    assert fake.stop() == 0
+    assert fake.stop(how) == 0
     assert all(gone(worker) for worker in workers)
     assert (fake.data / "jobs" / job / "checkpoint.hdf").exists()
     fake.start()
     info = fake.ended(job)
     assert info["status"] == "successful" and info["attempt"] == 1
+
+
+def test_under_nohup_a_closed_terminal_stops_nothing(fake):
+    fake.stop()
+    options = ["--data", fake.data, *fake.options]
+    with subprocess.Popen(["nohup", BUILD / "reposed", "serve", "--port", "0", *options], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL) as daemon:
+        assert daemon.stdout.readline().startswith(b"listening")
+        daemon.send_signal(signal.SIGHUP)
+        with pytest.raises(subprocess.TimeoutExpired):
+            daemon.wait(0.5)
+        daemon.terminate()
+        assert daemon.wait(10) == 0
 
 
 def test_a_stop_ends_although_a_client_waits_and_a_worker_does_not_listen(fake):
