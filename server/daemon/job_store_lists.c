@@ -12,11 +12,13 @@
 #define SELECT_JOBS                                                                                                   \
     "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"     \
     " job.started, job.finished, job.updated, job.message, job.label,"                                                 \
-    " i.drum_diameter, i.drum_length, i.rotation_rate, i.fill_fraction, i.particles, i.species, i.diameter, i.density," \
-    " i.friction, i.restitution, i.wall_friction, i.stiffness, i.duration, i.seed, job.threads,"                       \
-    " job.estimated_seconds, a.angle_deg, a.standard_error_deg, a.steady, g.name AS regime, r.wall_seconds"            \
-    " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN repose_result a ON a.job=job.number"               \
-    " LEFT JOIN regime_result g ON g.job=job.number LEFT JOIN run_result r ON r.job=job.number"
+    " i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate, i.fill_fraction,"   \
+    " i.particles, i.species, i.diameter, i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution,"     \
+    " i.wall_friction, i.stiffness, i.duration, i.seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"    \
+    " a.standard_error_deg, a.steady, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds"    \
+    " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"              \
+    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                      \
+    " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
 {

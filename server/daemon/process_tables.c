@@ -17,11 +17,19 @@ static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *sp
                    spec->duration, (int64_t)drum->seed);
 }
 
+static store_status insert_granule(sqlite3 *writer, int64_t job, const job_spec *spec)
+{
+    const dem_granule_definition *granule = &spec->granule;
+    return sql_run(writer, NULL, "INSERT INTO granule_input VALUES(?,?,?,?,?,?,?)", "idddidd", job, granule->friction, granule->radius,
+                   granule->rotation_rate, (int64_t)granule->revolutions, granule->gravity, granule->tolerance);
+}
+
 static const struct {
     const char *process;
     inputs_inserter *insert;
 } tables[] = {
     {"drum", insert_drum},
+    {"granule", insert_granule},
 };
 
 store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec)

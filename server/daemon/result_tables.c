@@ -11,6 +11,7 @@ static const struct { const char *object; const char *columns[12]; } tables[] = 
     {"regime", {"name", "omega2_outer", "omega2_inner"}},
     {"segregation", {"radial_index", "axial_index", "lacey_index"}},
     {"packing", {"solid_fraction", "coordination_number"}},
+    {"granule", {"minimum_omega2", "error", "minimum_rotation_rate", "slip_per_revolution", "slip_onset_deg"}},
     {"run", {"particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second",
              "maximum_overlap", "threads", "seed"}},
 };

@@ -1,6 +1,6 @@
 /* A migration that has been released is never changed; a new one is added below it.
  *
- * One row of `job` is a job for ever. `drum_input` holds the main inputs as numbers, the *_result tables what came
+ * One row of `job` is a job for ever. <process>_input holds the main inputs as numbers, the *_result tables what came
  * out, under the names of the results document, which `result` keeps whole. job_count is kept by triggers, because
  * the list of jobs shows counts at every look and counting 100,000 rows each time would be felt. */
 #include "schema.h"
@@ -91,5 +91,37 @@ static const char result_tables[] =
     " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
     " WHERE job.status='successful';";
 
-const schema_migration schema_migrations[] = {{{job_tables, result_tables}}};
+static const char granule_tables[] =
+    "CREATE TABLE granule_input("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  friction REAL NOT NULL, radius REAL NOT NULL, rotation_rate REAL," /* null: none was asked about */
+    "  revolutions INTEGER NOT NULL, gravity REAL NOT NULL, tolerance REAL NOT NULL) STRICT;"
+    "CREATE TABLE granule_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  minimum_omega2 REAL, error REAL, minimum_rotation_rate REAL, slip_per_revolution REAL, slip_onset_deg REAL) STRICT;";
+
+/* As before, with what a granule has; what both have stands in one column. */
+static const char run_summary_with_granule[] =
+    "DROP VIEW run_summary;"
+    "CREATE VIEW run_summary AS SELECT"
+    "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
+    "  i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
+    "  coalesce(i.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles, i.species, i.diameter,"
+    "  i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution, i.wall_friction,"
+    "  i.tangential_stiffness_ratio, i.stiffness, i.lining_diameter, i.time_step, i.duration, i.seed, gi.radius,"
+    "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady, a.drift_deg_per_revolution,"
+    "  a.interface_fluctuation, g.name AS regime, g.omega2_outer, g.omega2_inner,"
+    "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number,"
+    "  gr.minimum_omega2, gr.minimum_rotation_rate, gr.slip_per_revolution,"
+    "  r.steps, r.simulated_seconds, r.wall_seconds, r.particle_steps_per_second, r.maximum_overlap, r.threads"
+    " FROM job JOIN run_result r ON r.job=job.number LEFT JOIN drum_input i ON i.job=job.number"
+    " LEFT JOIN granule_input gi ON gi.job=job.number LEFT JOIN granule_result gr ON gr.job=job.number"
+    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"
+    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
+    " WHERE job.status='successful';";
+
+const schema_migration schema_migrations[] = {
+    {{job_tables, result_tables}},
+    {{granule_tables, run_summary_with_granule}},
+};
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -1,0 +1,97 @@
+/* Claims about databases that an earlier version of the program made. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+/* cmocka.h needs the four above. */
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "database.h"
+#include "schema.h"
+
+static void run_sql(sqlite3 *database, const char *sql)
+{
+    char *problem = NULL;
+    if (sqlite3_exec(database, sql, NULL, NULL, &problem) != SQLITE_OK) fail_msg("%s: %s", problem, sql);
+}
+
+static int64_t number_of(sqlite3 *database, const char *sql)
+{
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(database, sql, -1, &statement, NULL) != SQLITE_OK) fail_msg("%s: %s", sqlite3_errmsg(database), sql);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    const int64_t number = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    return number;
+}
+
+/* A database as version `version` of the tables left it, with one drum that has run. */
+static void make_database(const char *path, int version)
+{
+    sqlite3 *database;
+    assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
+    for (int m = 0; m < version; m++)
+        for (size_t p = 0; p < sizeof schema_migrations[m].parts / sizeof schema_migrations[m].parts[0]; p++)
+            if (schema_migrations[m].parts[p]) run_sql(database, schema_migrations[m].parts[p]);
+    char text[200];
+    snprintf(text, sizeof text, "PRAGMA application_id=%d; PRAGMA user_version=%d", SCHEMA_APPLICATION_ID, version);
+    run_sql(database, text);
+    run_sql(database, "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,"
+                      "updated) VALUES('a','drum','{}','{}','successful','done',1,1,1,'x','x')");
+    run_sql(database, "INSERT INTO drum_input VALUES(1,.1,.1,2,9.81,.5,100,1,.004,2500,.25,.8,.5,.8,4000,0,1e-5,1,7)");
+    run_sql(database, "INSERT INTO run_result(job,particles) VALUES(1,100)");
+    run_sql(database, "INSERT INTO repose_result(job,angle_deg) VALUES(1,23.5)");
+    assert_int_equal(sqlite3_close(database), SQLITE_OK);
+}
+
+static void every_earlier_version_is_brought_up_to_date_with_what_it_holds(void **state)
+{
+    (void)state;
+    for (int version = 1; version <= schema_version; version++) {
+        char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
+        assert_non_null(mkdtemp(folder));
+        snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
+        make_database(path, version);
+        sqlite3 *database = database_open_writer(path);
+        assert_non_null(database);
+        assert_int_equal(number_of(database, "PRAGMA user_version"), schema_version);
+        assert_int_equal(number_of(database, "SELECT count(*) FROM run_summary WHERE process='drum' AND friction=.25"
+                                             " AND rotation_rate=2 AND particles=100 AND angle_deg=23.5"), 1);
+        run_sql(database, "INSERT INTO granule_input VALUES(1,.5,.063,NULL,30,9.81,1e-9)");
+        run_sql(database, "INSERT INTO granule_result(job,minimum_omega2) VALUES(1,1.826)");
+        sqlite3_close(database);
+        snprintf(text, sizeof text, "rm -r %s", folder);
+        assert_int_equal(system(text), 0);
+    }
+}
+
+static void a_database_of_a_newer_program_is_refused(void **state)
+{
+    (void)state;
+    char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
+    assert_non_null(mkdtemp(folder));
+    snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
+    make_database(path, schema_version);
+    sqlite3 *database;
+    assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
+    snprintf(text, sizeof text, "PRAGMA user_version=%d", schema_version + 1);
+    run_sql(database, text);
+    sqlite3_close(database);
+    assert_null(database_open_writer(path));
+    snprintf(text, sizeof text, "rm -r %s", folder);
+    assert_int_equal(system(text), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_earlier_version_is_brought_up_to_date_with_what_it_holds),
+        cmocka_unit_test(a_database_of_a_newer_program_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
