@@ -206,22 +206,49 @@ def test_a_bad_specification_names_every_problem(daemon):
     assert {"/inputs/fill_fraction", "/inputs/colour", "/inputs/particles/0/diameter"} <= pointers
 
 
-def test_documented_inputs_are_those_of_the_process_description(daemon, contract):
-    description = requests.get(f"{daemon.url}/processes/drum").json()["inputs"]
-    documented = contract.document["components"]["schemas"]["DrumInputs"]
+PROCESSES = (("drum", "Drum"), ("granule", "Granule"))
+
+
+def test_documented_processes_are_those_that_are_listed(daemon, contract):
+    listed = [process["id"] for process in requests.get(f"{daemon.url}/processes").json()["processes"]]
+    assert listed == contract.document["components"]["schemas"]["ProcessId"]["enum"] == [name for name, _ in PROCESSES]
+
+
+@pytest.mark.parametrize("process, schemas", PROCESSES)
+def test_documented_inputs_are_those_of_the_process_description(daemon, contract, process, schemas):
+    description = requests.get(f"{daemon.url}/processes/{process}").json()["inputs"]
+    documented = contract.document["components"]["schemas"][f"{schemas}Inputs"]
     assert documented["properties"] == {name: given["schema"] for name, given in description.items()}
     assert set(documented["required"]) == {name for name, given in description.items() if given["minOccurs"] == 1}
 
 
-def test_documented_results_are_those_of_the_process_description(daemon, contract):
-    description = requests.get(f"{daemon.url}/processes/drum").json()["outputs"]
-    documented = contract.document["components"]["schemas"]["Results"]["properties"]
+@pytest.mark.parametrize("process, schemas", PROCESSES)
+def test_documented_results_are_those_of_the_process_description(daemon, contract, process, schemas):
+    description = requests.get(f"{daemon.url}/processes/{process}").json()["outputs"]
+    documented = contract.document["components"]["schemas"][f"{schemas}Results"]["properties"]
     assert set(documented) == set(description)
     for output, given in description.items():
         assert set(documented[output]["properties"]) == set(given["schema"]["properties"]), output
         for name, schema in given["schema"]["properties"].items():
             assert documented[output]["properties"][name].get("type") == schema.get("type"), (output, name)
             assert documented[output]["properties"][name].get("x-unit") == schema.get("x-unit"), (output, name)
+
+
+@pytest.mark.parametrize("inputs", [{"friction": 0.5, "rotation_rate": 18.0}, {"friction": 0.02}])
+def test_a_granule_is_answered_as_documented(daemon, contract, inputs):
+    url, execution = daemon.url, "/processes/{process}/execution"
+    created = requests.post(f"{url}/processes/granule/execution", json={"inputs": inputs})
+    assert created.status_code == 201
+    contract.check(created, execution)
+    job = created.json()["jobID"]
+    assert daemon.ended(job)["status"] == "successful"
+    for path in ("", "/results", "/spec", "/log", "/samples", "/snapshots"):
+        answer = requests.get(f"{url}/jobs/{job}{path}")
+        assert answer.status_code == 200
+        contract.check(answer, "/jobs/{id}" + path)
+    contract.check(requests.get(f"{url}/jobs"), "/jobs")
+    contract.check(requests.get(f"{url}/processes/granule"), "/processes/{process}")
+    contract.check(requests.post(f"{url}/processes/granule/execution", json={"inputs": {"friction": -1}}), execution)
 
 
 def test_examples_are_valid(contract):
