@@ -5,7 +5,8 @@
 
 static const char *const ends_choices[] = {"periodic", NULL};
 static const char *const shape_choices[] = {"sphere", NULL};
-static const char *const law_choices[] = {"walton-braun", NULL};
+/* in the order of dem_contact_law */
+static const char *const law_choices[] = {"walton-braun", "spring-dashpot", "hertz-mindlin", NULL};
 
 #define AT(member) .offset = offsetof(drum_inputs, member)
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
@@ -43,7 +44,8 @@ static const spec_field fields[] = {
 
     {SPEC_INPUTS, "contact", FIELD_OBJECT, SPEC_CONTACT, .meaning = "contact between particles"},
     {SPEC_CONTACT, "law", FIELD_CHOICE, .unit = "", .choices = law_choices, AT(contact_law),
-     .meaning = "walton-braun: latching spring and incremental friction"},
+     .meaning = "walton-braun: latching spring and incremental friction; spring-dashpot: linear springs and dashpots; "
+                "hertz-mindlin: elastic, no-slip, damping set from restitution"},
     {SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction),
      .meaning = "coefficient of friction between particles"},
     {SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.3, 1.0), .fallback = 0.8, AT(restitution),
@@ -51,10 +53,16 @@ static const spec_field fields[] = {
     {SPEC_CONTACT, "tangential_stiffness_ratio", FIELD_REAL, .unit = "", RANGE(0.05, 1.5), .fallback = 0.8,
      AT(tangential_stiffness_ratio), .meaning = "initial tangential over normal loading stiffness"},
     {SPEC_CONTACT, "maximum_overlap", FIELD_REAL, .unit = "", RANGE(0.0005, 0.05), .fallback = 0.01,
-     .excludes = "stiffness", AT(maximum_overlap),
+     .excludes = "stiffness", .excludes_too = "youngs_modulus", AT(maximum_overlap),
      .meaning = "largest overlap wanted, as a share of the smallest diameter: the stiffness is chosen for it"},
     {SPEC_CONTACT, "stiffness", FIELD_REAL, .unit = "N/m", RANGE(1e-3, 1e9), .fallback = NAN,
-     .excludes = "maximum_overlap", AT(stiffness), .meaning = "normal loading stiffness, instead of maximum_overlap"},
+     .excludes = "maximum_overlap", .excludes_too = "youngs_modulus", AT(stiffness),
+     .meaning = "normal loading stiffness, instead of maximum_overlap; not for hertz-mindlin"},
+    {SPEC_CONTACT, "youngs_modulus", FIELD_REAL, .unit = "Pa", RANGE(1e3, 1e13), .fallback = NAN,
+     .excludes = "maximum_overlap", AT(youngs_modulus),
+     .meaning = "of particles and wall, instead of maximum_overlap; for hertz-mindlin alone"},
+    {SPEC_CONTACT, "poissons_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = 0.3, AT(poissons_ratio),
+     .meaning = "of particles and wall; used by hertz-mindlin alone"},
 
     {SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "inner wall of the drum"},
     {SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),

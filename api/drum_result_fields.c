@@ -70,7 +70,7 @@ static const result_field fields[] = {
     {"run", NULL, "particle_steps_per_second", RESULT_REAL, RUN(particle_steps_per_second), "1/s", "speed"},
     {"run", NULL, "maximum_overlap", RESULT_REAL, RUN(maximum_overlap), "",
      "largest overlap while rotating, as a share of the smallest diameter"},
-    {"run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", "normal loading stiffness used"},
+    {"run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected"},
     {"run", NULL, "fill_fraction", RESULT_REAL, RUN(fill_fraction), "", "as the particles make it"},
     {"run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", "frames of measurement"},
     {"run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", "snapshot files"},

@@ -146,27 +146,65 @@ static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition
     drum->particle_count = count >= 0.0 && count <= MOST_PARTICLES ? (size_t)count : 0;
 }
 
+/* What stiffness is chosen for: the heaviest particle at the speed at which it meets the wall. */
+typedef struct collision {
+    double heaviest, lightest; /* kg */
+    double smallest, largest;  /* m, diameters */
+    double speed;              /* m/s */
+} collision;
+
 /* Loading stiffness K1, and from it the time step. */
-static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+static void derive_linear(const drum_inputs *inputs, const collision *worst, dem_drum_definition *drum, problem_list *problems)
 {
-    const double heaviest = of_species(inputs, species_mass, true), lightest = of_species(inputs, species_mass, false);
-    const double smallest = of_species(inputs, species_diameter, false), largest = of_species(inputs, species_diameter, true);
-    const double speed = dem_impact_speed(drum->diameter, largest, drum->gravity, inputs->friction, drum->rotation_rate);
-    const double least = dem_stiffness_for_overlap(speed, heaviest, MOST_OVERLAP * smallest);
+    const double least = dem_stiffness_for_overlap(worst->speed, worst->heaviest, MOST_OVERLAP * worst->smallest);
     if (inputs->stiffness < least)
         problem_list_add(problems, "/inputs/contact/stiffness", "is %g N/m, too soft: overlaps would pass %g of the "
                          "smallest diameter; must be at least %.3g N/m here", inputs->stiffness, MOST_OVERLAP,
                          least);
+    drum->contact.stiffness = isnan(inputs->maximum_overlap)
+                            ? inputs->stiffness
+                            : dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest);
+    drum->time_step = dem_time_step(drum->contact.stiffness, worst->lightest, inputs->restitution);
+}
+
+/* Young's modulus E, the same for particles and wall, hence E* = E/(2 (1 - nu^2)); and from it the time step. What is
+ * reported as stiffness is the chord of the Hertzian curve up to the largest overlap expected. */
+static void derive_hertzian(const drum_inputs *inputs, const collision *worst, dem_drum_definition *drum, problem_list *problems)
+{
+    const double radius = 0.5 * worst->largest, plane_strain = 2 * (1 - inputs->poissons_ratio * inputs->poissons_ratio);
+    const double least = plane_strain * dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, MOST_OVERLAP * worst->smallest);
+    if (inputs->youngs_modulus < least)
+        problem_list_add(problems, "/inputs/contact/youngs_modulus", "is %g Pa, too soft: overlaps would pass %g of the "
+                         "smallest diameter; must be at least %.3g Pa here", inputs->youngs_modulus, MOST_OVERLAP, least);
+    const double effective = isnan(inputs->youngs_modulus)
+        ? dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, inputs->maximum_overlap * worst->smallest)
+        : inputs->youngs_modulus / plane_strain;
+    const double overlap = worst->smallest * MOST_OVERLAP * pow(least / (effective * plane_strain), 0.4);
+    drum->contact.particle = drum->contact.wall = (dem_elasticity){effective * plane_strain, inputs->poissons_ratio};
+    drum->contact.stiffness = 4.0 / 3.0 * effective * sqrt(radius * overlap);
+    drum->time_step = dem_hertz_time_step(effective, worst->lightest, 0.25 * worst->smallest, worst->speed);
+}
+
+static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+{
+    const dem_contact_law law = (dem_contact_law)inputs->contact_law;
+    collision worst = {of_species(inputs, species_mass, true), of_species(inputs, species_mass, false),
+                       of_species(inputs, species_diameter, false), of_species(inputs, species_diameter, true), 0.0};
+    worst.speed = dem_impact_speed(drum->diameter, worst.largest, drum->gravity, inputs->friction, drum->rotation_rate);
     drum->contact = (dem_contact_parameters){
-        .stiffness = isnan(inputs->maximum_overlap)
-                   ? inputs->stiffness
-                   : dem_stiffness_for_overlap(speed, heaviest, inputs->maximum_overlap * smallest),
+        .law = law,
         .restitution = inputs->restitution,
         .friction = inputs->friction,
         .wall_friction = inputs->wall_friction,
         .tangential_stiffness_ratio = inputs->tangential_stiffness_ratio,
     };
-    drum->time_step = dem_time_step(drum->contact.stiffness, lightest, inputs->restitution);
+    if (law == DEM_HERTZ_MINDLIN && !isnan(inputs->stiffness))
+        problem_list_add(problems, "/inputs/contact/stiffness", "is %g N/m, but hertz-mindlin takes youngs_modulus (Pa) or "
+                         "maximum_overlap", inputs->stiffness);
+    if (law != DEM_HERTZ_MINDLIN && !isnan(inputs->youngs_modulus))
+        problem_list_add(problems, "/inputs/contact/youngs_modulus", "is %g Pa, but this law takes stiffness (N/m) or "
+                         "maximum_overlap; youngs_modulus is for hertz-mindlin", inputs->youngs_modulus);
+    (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, drum, problems);
 }
 
 static void derive_drum(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)

@@ -27,7 +27,8 @@ typedef struct drum_inputs {
     species_inputs species[DEM_MAXIMUM_SPECIES];
     double fill_fraction, particle_count;            /* one of the two */
     double contact_law, friction, restitution, tangential_stiffness_ratio;
-    double maximum_overlap, stiffness;               /* one of the two */
+    double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
+    double poissons_ratio;
     double wall_friction, lining_diameter, lining_pitch;
     double revolutions, seconds;                     /* one of the two */
     double snapshot_interval, sample_interval;

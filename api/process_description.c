@@ -56,9 +56,9 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
 }
 
 /* Two members of which at most one may be given. */
-static json_t *exclusion(const spec_field *field)
+static json_t *exclusion(const spec_field *field, const char *other)
 {
-    return json_pack("{s:{s:[s, s]}}", "not", "required", field->name, field->excludes);
+    return json_pack("{s:{s:[s, s]}}", "not", "required", field->name, other);
 }
 
 static json_t *group_schema(const spec_table *table, spec_group group)
@@ -69,7 +69,8 @@ static json_t *group_schema(const spec_table *table, spec_group group)
         if (field->group != group) continue;
         json_object_set_new(properties, field->name, field_schema(table, field));
         if (field->required) json_array_append_new(required, json_string(field->name));
-        if (field->excludes && !isnan(field->fallback)) json_array_append_new(exclusions, exclusion(field));
+        if (field->excludes && !isnan(field->fallback)) json_array_append_new(exclusions, exclusion(field, field->excludes));
+        if (field->excludes_too) json_array_append_new(exclusions, exclusion(field, field->excludes_too));
     }
     json_t *schema = json_pack("{s:s, s:o, s:b}", "type", "object", "properties", properties, "additionalProperties", 0);
     if (json_array_size(required)) json_object_set(schema, "required", required);

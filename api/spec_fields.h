@@ -32,6 +32,7 @@ typedef struct spec_field {
     bool minimum_open;          /* the minimum itself is not allowed */
     double fallback;            /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
     const char *excludes;       /* the member that may be given instead */
+    const char *excludes_too;   /* another such member */
     const char *const *choices; /* ends with NULL */
     size_t offset;              /* of the double in the process's struct, or in the list's entry. Lists: of their first
                                  * entry. Objects or null: of a double that is NaN where there is none */

@@ -188,9 +188,11 @@ static void read_object(const spec_table *table, const spec_field *field, const 
 static double read_scalar(const spec_field *field, const json_t *object, const char *pointer, problem_list *problems)
 {
     const json_t *value = json_object_get(object, field->name);
-    const bool excluded = field->excludes && json_object_get(object, field->excludes);
+    const char *other = field->excludes && json_object_get(object, field->excludes) ? field->excludes
+                      : field->excludes_too && json_object_get(object, field->excludes_too) ? field->excludes_too : NULL;
+    const bool excluded = other != NULL;
     if (value && excluded && isnan(field->fallback)) {
-        problem_list_add(problems, pointer, "is given beside %s; give one of the two", field->excludes);
+        problem_list_add(problems, pointer, "is given beside %s; give one of the two", other);
         return NAN;
     }
     if (value && field->kind == FIELD_CHOICE) return read_choice(field, value, pointer, problems);

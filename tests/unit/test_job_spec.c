@@ -215,11 +215,27 @@ static void what_is_not_available_yet_is_refused_with_what_is(void **state)
     expect_problem("particles/0/shape", "\"cube\"", "/inputs/particles/0/shape: is \"cube\"; available: \"sphere\"\n");
     expect_problem("particles/0/shape", "{\"spheres\": []}",
                    "/inputs/particles/0/shape: is an object; available: \"sphere\"\n");
-    expect_problem("contact/law", "\"hertz\"", "/inputs/contact/law: is \"hertz\"; available: \"walton-braun\"\n");
+    expect_problem("contact/law", "\"hertz\"", "/inputs/contact/law: is \"hertz\"; available: \"walton-braun\", \"spring-dashpot\", \"hertz-mindlin\"\n");
     char *problems = problems_of(json_pack("{s:s, s:o}", "process", "heap", "inputs",
                                            json_incref(json_object_get(load(minimal), "inputs"))));
     assert_string_equal(problems, "/process: is \"heap\"; was sent to the process \"drum\"\n");
     free(problems);
+}
+
+static void each_law_takes_its_own_elasticity(void **state)
+{
+    (void)state;
+    expect_problem("contact", "{\"law\": \"hertz-mindlin\", \"stiffness\": 4000}", "/inputs/contact/stiffness: is 4000 N/m, but "
+                   "hertz-mindlin takes youngs_modulus (Pa) or maximum_overlap\n");
+    expect_problem("contact", "{\"youngs_modulus\": 1e7}", "/inputs/contact/youngs_modulus: is 1e+07 Pa, but this law takes stiffness "
+                   "(N/m) or maximum_overlap; youngs_modulus is for hertz-mindlin\n");
+    job_spec spec = parse_or_fail(minimal_with("contact", "{\"law\": \"hertz-mindlin\", \"youngs_modulus\": 5e7, \"poissons_ratio\": 0.25}"));
+    assert_true(spec.drum.contact.law == DEM_HERTZ_MINDLIN && spec.drum.contact.particle.youngs_modulus > 4.999e7
+                && spec.drum.contact.particle.youngs_modulus < 5.001e7 && spec.drum.contact.wall.poissons_ratio == 0.25);
+    job_spec_clear(&spec);
+    spec = parse_or_fail(minimal_with("contact", "{\"law\": \"spring-dashpot\"}"));
+    assert_true(spec.drum.contact.law == DEM_SPRING_DASHPOT);
+    job_spec_clear(&spec);
 }
 
 static void one_of_two_alternatives_is_enough_and_both_are_too_much(void **state)
@@ -364,6 +380,7 @@ int main(void)
         cmocka_unit_test(whole_numbers_are_asked_for_where_they_are_needed),
         cmocka_unit_test(unknown_members_are_refused_with_the_nearest_name),
         cmocka_unit_test(what_is_not_available_yet_is_refused_with_what_is),
+        cmocka_unit_test(each_law_takes_its_own_elasticity),
         cmocka_unit_test(one_of_two_alternatives_is_enough_and_both_are_too_much),
         cmocka_unit_test(all_problems_are_listed_at_once),
         cmocka_unit_test(combinations_that_make_no_sense_are_refused),
