@@ -48,6 +48,7 @@ void job_run_catch_signals(void)
     struct sigaction action = {.sa_handler = request_stop, .sa_flags = SA_RESTART};
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
+    if (signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup has it ignored */
     /* A limit on the size of files is then a write that fails, like a full disk. */
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);
@@ -71,8 +72,13 @@ enum worker_exit job_run_write_result(event_log *events, json_t *document)
 
 static enum worker_exit run_in_folder(const job_runner *runner, const job_context *job)
 {
+    const bool complete = access(JOB_RESULT_FILE, F_OK) == 0;
+    if (complete && !run_folder_is_of(job->params)) {
+        worker_warn("the folder holds the results of another spec, which are kept: name another folder or remove this one");
+        return WORKER_BAD_SPEC;
+    }
     if (!run_folder_claim(job->params, job->events)) return WORKER_DISK;
-    if (access(JOB_RESULT_FILE, F_OK) == 0) {
+    if (complete) {
         worker_log("%s is there already: this run is complete", JOB_RESULT_FILE);
         return WORKER_DONE;
     }

@@ -30,7 +30,8 @@ static const char help[] =
     "                              memory; or every problem it has\n"
     "repose --help | --version\n"
     "\n"
-    "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR.\n"
+    "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"
+    "of another SPEC in DIR are never overwritten.\n"
     "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk.\n";
 
 typedef struct command_line {
@@ -100,6 +101,18 @@ static uint64_t random_seed(void)
     return seed;
 }
 
+/* Where the spec has no seed: that of the run in the folder, so that the same SPEC and DIR are the same run. */
+static uint64_t seed_if_missing(const char *folder)
+{
+    char path[PATH_MAX];
+    snprintf(path, sizeof path, "%s/" JOB_SPEC_FILE, folder ? folder : "");
+    json_t *earlier = folder ? json_load_file(path, 0, NULL) : NULL;
+    const json_t *seed = json_object_get(json_object_get(earlier, "inputs"), "seed");
+    const uint64_t chosen = json_is_integer(seed) ? (uint64_t)json_integer_value(seed) : random_seed();
+    json_decref(earlier);
+    return chosen;
+}
+
 static void print_json(json_t *document)
 {
     char *text = json_text_write(document);
@@ -109,12 +122,12 @@ static void print_json(json_t *document)
 }
 
 /* The spec, or the problem document on stdout. */
-static enum worker_exit load_spec(const char *name, job_spec *spec)
+static enum worker_exit load_spec(const char *name, const char *folder, job_spec *spec)
 {
     problem_list problems;
     problem_list_init(&problems);
     const char *path = strcmp(name, "-") == 0 ? "/dev/stdin" : name;
-    const bool loaded = spec_file_load(path, random_seed(), spec, &problems);
+    const bool loaded = spec_file_load(path, seed_if_missing(folder), spec, &problems);
     if (!loaded)
         print_json(problem_json(400, "about:blank", "Bad specification", "The specification can't be run as it is.",
                                 &problems));
@@ -127,7 +140,7 @@ static enum worker_exit check(int argc, char **argv)
     command_line line;
     job_spec spec;
     enum worker_exit exit = read_command_line(argc, argv, &line);
-    if (exit == WORKER_DONE) exit = load_spec(line.spec, &spec);
+    if (exit == WORKER_DONE) exit = load_spec(line.spec, NULL, &spec);
     if (exit != WORKER_DONE) return exit;
     const job_estimate estimate = job_spec_estimate(&spec, 0.0);
     print_json(json_pack("{s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate)));
@@ -157,7 +170,7 @@ static enum worker_exit run(int argc, char **argv)
     job_spec spec;
     enum worker_exit exit = read_command_line(argc, argv, &line);
     if (exit == WORKER_DONE && !line.out) exit = refuse_usage("say where to write: --out DIR", NULL);
-    if (exit == WORKER_DONE) exit = load_spec(line.spec, &spec);
+    if (exit == WORKER_DONE) exit = load_spec(line.spec, line.out, &spec);
     if (exit != WORKER_DONE) return exit;
     if (line.threads) spec.threads = spec.drum.threads = line.threads;
     line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;

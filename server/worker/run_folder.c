@@ -51,7 +51,7 @@ static void remove_snapshots(void)
     closedir(entries);
 }
 
-static bool is_of_this_run(const char *params)
+bool run_folder_is_of(const char *params)
 {
     job_spec spec;
     problem_list problems;
@@ -69,7 +69,7 @@ static bool is_of_this_run(const char *params)
 
 bool run_folder_claim(const char *params, event_log *events)
 {
-    if (is_of_this_run(params)) return true;
+    if (run_folder_is_of(params)) return true;
     unlink(JOB_RESULT_FILE);
     unlink(JOB_CHECKPOINT_FILE);
     unlink(JOB_SERIES_FILE);

@@ -10,6 +10,9 @@
  * Leftovers of a worker that died while writing are removed. */
 bool run_folder_enter(const char *folder, event_log *events);
 
+/* In the folder: its spec.json says the same as params, a canonical spec. */
+bool run_folder_is_of(const char *params);
+
 /* Makes the folder that of the run `params` (canonical spec). What another run has left there is removed: it could
  * not be told from this run's. */
 bool run_folder_claim(const char *params, event_log *events);

@@ -337,15 +337,37 @@ def test_a_complete_run_is_not_run_again(whole):
     assert (out / "events.ndjson").read_bytes() == before[0]
 
 
-def test_another_spec_in_the_same_folder_leaves_nothing_of_the_run_before(tmp_path):
+def test_results_of_another_spec_are_never_overwritten(tmp_path):
     long, short = small(duration={"seconds": 0.35}), small(duration={"seconds": 0.02})
     out = tmp_path / "job"
     assert run(write_spec(tmp_path, long), out)[0] == 0
-    assert len(snapshot_bytes(out)) == 5
+    result = (out / "result.json").read_bytes()
+    code, _, said = run(write_spec(tmp_path, short), out)
+    assert code == 2 and "results of another spec" in said
+    assert (out / "result.json").read_bytes() == result and len(snapshot_bytes(out)) == 5
+
+
+def test_another_spec_leaves_nothing_of_an_unfinished_run(tmp_path):
+    long, short = small(duration={"seconds": 0.35}), small(duration={"seconds": 0.02})
+    out = tmp_path / "job"
+    assert run(write_spec(tmp_path, long), out)[0] == 0
+    (out / "result.json").unlink()
     assert run(write_spec(tmp_path, short), out)[0] == 0
     assert len(snapshot_bytes(out)) == 2
     assert len(events(out, "start")) == 1
     assert json.loads((out / "spec.json").read_text())["inputs"]["duration"] == {"seconds": 0.02}
+
+
+def test_a_spec_without_a_seed_is_the_same_run_in_the_same_folder(tmp_path):
+    spec = small(duration={"seconds": 0.02})
+    del spec["inputs"]["seed"]
+    path, out = write_spec(tmp_path, spec), tmp_path / "job"
+    assert run(path, out)[0] == 0
+    seed, result = json.loads((out / "spec.json").read_text())["inputs"]["seed"], (out / "result.json").read_bytes()
+    assert run(path, out)[0] == 0 and (out / "result.json").read_bytes() == result
+    (out / "result.json").unlink()
+    assert run(path, out)[0] == 0
+    assert json.loads((out / "spec.json").read_text())["inputs"]["seed"] == seed
 
 
 # --- runs that fail
