@@ -54,6 +54,13 @@ export function clock(iso) {
   return `${day}, ${time.slice(0, 5)}`;
 }
 
+// The answer of a job in one word: null while there is none.
+export function answerInWords(summary) {
+  if (!missing(summary?.angle_deg)) return degrees(summary.angle_deg, summary.standard_error_deg);
+  if (!missing(summary?.minimum_rotation_rate)) return `≥ ${significant(summary.minimum_rotation_rate, 4)} rad/s`;
+  return null;
+}
+
 // The main inputs of a job, in the order in which an engineer asks for them.
 export function inputsInWords(summary) {
   const has = name => !missing(summary[name]);
@@ -64,6 +71,7 @@ export function inputsInWords(summary) {
     const rpm = summary.rotation_rate * 30 / Math.PI;
     add(`${significant(summary.rotation_rate)} rad/s`, `rotation rate: ${significant(rpm)} turns a minute`);
   }
+  if (has('radius')) add(`R ${millimetres(summary.radius)}`, 'radius of the particle’s circle');
   if (has('drum_diameter')) add(`drum Ø ${millimetres(summary.drum_diameter)}`, 'inner diameter of the drum');
   if (has('particles') && summary.species > 1)
     add(`${count(summary.particles)} of ${summary.species} kinds`, 'particles of several kinds');

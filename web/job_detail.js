@@ -4,7 +4,7 @@ import { h, replaceIfChanged } from './dom.js';
 import { bytes, clock, count, significant } from './format.js';
 import { ApiError, jobPath, json } from './api.js';
 import { anglePlot } from './angle_plot.js';
-import { answer, resultsInWords } from './results.js';
+import { viewOf } from './process_views.js';
 import { fileLink } from './file_link.js';
 
 const SNAPSHOTS_SHOWN = 200;
@@ -27,9 +27,10 @@ export function createDetail() {
     loading = true;
     try {
       const results = job.status === 'successful' ? await json(`${jobPath(job.jobID)}/results`) : null;
-      await fetchNewSamples(job.jobID, series);
+      const hasSeries = viewOf(job.processID).series;
+      if (hasSeries) await fetchNewSamples(job.jobID, series);
       if (results) showResults(parts, results, job);
-      showPlot(parts.plot, series.points, results, job.status);
+      if (hasSeries) showPlot(parts.plot, series.points, results, job.status);
       if (job.status !== 'running') finalShown = job.status;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
@@ -59,8 +60,9 @@ function showReason(box, job) {
 }
 
 function showResults(parts, results, job) {
-  parts.answer.replaceChildren(answer(results.repose ?? {}, results.regime, job.summary ?? {}));
-  parts.results.replaceChildren(resultsInWords(results));
+  const view = viewOf(job.processID);
+  parts.answer.replaceChildren(view.answer(results, job.summary ?? {}));
+  parts.results.replaceChildren(view.results(results));
 }
 
 function showPlot(box, points, results, status) {
@@ -82,14 +84,15 @@ function showAbout(box, job) {
 
 function showLinks(box, job) {
   const path = jobPath(job.jobID);
+  const { series } = viewOf(job.processID);
   replaceIfChanged(box, job.status, () => [
     h('ul', { class: 'links' },
       job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results', `${job.jobID}-results.json`)) : null,
       h('li', null, fileLink(`${path}/spec`, 'Spec', `${job.jobID}-spec.json`)),
       h('li', null, fileLink(`${path}/log`, 'Log', `${job.jobID}-log.txt`)),
-      h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)', `${job.jobID}-samples.json`)),
-      h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)', `${job.jobID}-samples.csv`))),
-    job.status === 'accepted' ? null : snapshotList(path)]);
+      series ? h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)', `${job.jobID}-samples.json`)) : null,
+      series ? h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)', `${job.jobID}-samples.csv`)) : null),
+    job.status === 'accepted' || !series ? null : snapshotList(path)]);
 }
 
 function snapshotList(path) {

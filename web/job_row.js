@@ -1,7 +1,7 @@
 // One job in the list: a row, and under it a row for the details that opens and closes. Rows are kept from
 // poll to poll and only their changed cells are written.
 import { h, replaceIfChanged } from './dom.js';
-import { clock, degrees, duration, inputsInWords, secondsBetween } from './format.js';
+import { answerInWords, clock, duration, inputsInWords, secondsBetween, significant } from './format.js';
 import { drumPicture } from './drum_picture.js';
 import { createDetail } from './job_detail.js';
 
@@ -29,7 +29,7 @@ export function createRow(id, actions) {
     showName(cells.job, job, open, actions);
     showState(cells.state, job);
     showInputs(cells.inputs, job);
-    showAngle(cells.angle, job);
+    showAnswer(cells.angle, job);
     replaceIfChanged(cells.regime, job.summary?.regime ?? '', () => job.summary?.regime ?? nothing());
     showTimes(cells.times, job);
     showActions(cells.actions, job, row, actions);
@@ -69,12 +69,15 @@ function showInputs(cell, job) {
   replaceIfChanged(cell, words, () => words.map(({ text, title }) => h('span', { title }, text)));
 }
 
-function showAngle(cell, job) {
-  const { angle_deg, standard_error_deg, fill_fraction, steady } = job.summary ?? {};
-  replaceIfChanged(cell, [angle_deg, standard_error_deg, fill_fraction, steady, job.status], () => {
-    if (typeof angle_deg !== 'number') return nothing();
-    return [drumPicture({ angle_deg, fill_fraction }, 34),
-      h('span', { class: 'value' }, degrees(angle_deg, standard_error_deg),
+function showAnswer(cell, job) {
+  const { angle_deg, fill_fraction, steady, minimum_omega2 } = job.summary ?? {};
+  const words = answerInWords(job.summary);
+  replaceIfChanged(cell, [words, fill_fraction, steady, job.status], () => {
+    if (words === null) return nothing();
+    const isAngle = typeof angle_deg === 'number';
+    return [isAngle ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
+      h('span', { class: 'value', title: isAngle ? 'angle of repose' : 'least rate that keeps the particle on the wall' }, words,
+        isAngle ? null : h('small', { class: 'quiet' }, `ω²R/g ${significant(minimum_omega2, 4)}`),
         steady === false ? h('small', null, 'not steady') : null)];
   });
 }

@@ -2,7 +2,7 @@
 // asks the daemon for that list again and again, and shows what changed.
 import { byId, h, replaceIfChanged } from './dom.js';
 import { ApiError, dismissJob, listJobs, token } from './api.js';
-import { count, degrees } from './format.js';
+import { answerInWords, count } from './format.js';
 import { createRow, nameOf } from './job_row.js';
 import { startPolling } from './polling.js';
 import { addressOf, readView, STATES, writeView } from './view.js';
@@ -74,9 +74,8 @@ function showRows(jobs) {
 
 function announceChange(before, now) {
   if (!before || before.status === now.status) return;
-  const angle = typeof now.summary?.angle_deg === 'number'
-    ? `, ${degrees(now.summary.angle_deg, now.summary.standard_error_deg)}` : '';
-  byId('announcements').textContent = `${nameOf(now)}: ${now.status}${angle}`;
+  const answer = answerInWords(now.summary);
+  byId('announcements').textContent = `${nameOf(now)}: ${now.status}${answer ? `, ${answer}` : ''}`;
 }
 
 function toggle(id) {

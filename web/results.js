@@ -35,6 +35,13 @@ const WORDS = {
   stationary_eq33: ['stationary on the wall, Eq 33'],
   sliding_eq35: ['sliding, Eq 35'], sliding_eq36: ['sliding, Eqns 36–37'],
   fill_fraction: ['fill fraction', percent], samples: ['samples', count], snapshots: ['snapshots', count],
+  minimum_omega2: ['least ω²R/g', value => significant(value, 7)],
+  error: ['within', value => `± ${significant(value, 2)}`],
+  minimum_rotation_rate: ['least rate', value => `${significant(value, 7)} rad/s`],
+  slip_per_revolution: ['slip', value => `${significant(value)} rad a revolution`],
+  slip_onset_deg: ['slips from', value => `${degrees(value)} above the horizontal`],
+  sliding_eq34: ['sliding, Eq 34'], least_normal_force: ['least force on the wall', value => `${significant(value)} of the weight`],
+  revolutions: ['revolutions followed', count],
   airborne_fraction: ['airborne', percent], wall_coverage: ['wall covered', percent],
   fallen_fraction: ['lately fallen', percent],
 };
@@ -58,7 +65,7 @@ function facts(object) {
 
 const isRecord = value => value !== null && typeof value === 'object' && !Array.isArray(value);
 
-function section(title, object, ...extra) {
+export function section(title, object, ...extra) {
   const plain = Object.fromEntries(Object.entries(object ?? {}).filter(([, value]) => !isRecord(value)));
   return h('section', null, h('h3', null, title), ...extra, facts(plain));
 }
@@ -78,7 +85,7 @@ function angleTable(repose) {
       h('td', null, degrees(angle, error))))));
 }
 
-// The answer first: the angle, large, in the drum's picture, and what to think of it.
+// The answer of a drum first: the angle, large, in the drum's picture, and what to think of it.
 export function answer(repose, regime, summary) {
   const steady = repose.steady === false ? 'not steady: the angle still drifts' : 'steady';
   return h('section', { class: 'answer' },

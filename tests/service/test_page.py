@@ -114,6 +114,29 @@ def test_a_job_is_followed_to_its_angle(daemon, browser):
     until(browser, lambda b: find(b, f"#detail-{job} .answer strong").is_displayed())
 
 
+def test_a_granule_shows_its_least_rate(daemon, browser):
+    answer = requests.post(f"{daemon.url}/processes/granule/execution", timeout=30,
+                           json={"inputs": {"friction": 0.5, "rotation_rate": 18.0}, "label": {"project": "one particle"}})
+    job = answer.json()["jobID"]
+    daemon.ended(job)
+    browser.get(daemon.url)
+    row = row_of(browser, job)
+    least = daemon.get(f"/jobs/{job}/results").json()["granule"]["minimum_rotation_rate"]
+    assert find(row, ".angle .value").text.startswith(f"≥ {least:.2f} rad/s")
+    assert find(row, "td.regime").text == "sliding"
+    inputs = find(row, "td.inputs").text
+    assert all(words in inputs for words in ("μ 0.5", "18 rad/s", "R 63 mm")) and "drum" not in inputs
+    find(row, ".opener").click()
+    shown = until(browser, lambda b: find(b, f"#detail-{job} .answer").text)
+    assert f"≥ {least:.2f} rad/s" in shown and "sliding" in shown
+    equations = [cell.text.splitlines()[0] for cell in find_all(browser, ".methods tbody th")]
+    assert equations == ["this test", "Eq 33", "Eq 34", "Eqns 36–37"]
+    links = [link.get_attribute("href") for link in find_all(browser, ".links a")]
+    assert len(links) == 3 and all(requests.get(link).status_code == 200 for link in links)  # no samples, no snapshots
+    assert find_all(browser, f"#detail-{job} .plot") == [] and find_all(browser, f"#detail-{job} .snapshots") == []
+    assert not scrolls_sideways(browser)
+
+
 def test_progress_and_time_left_move_while_a_job_runs(fake, browser):
     job = fake.submit(project="moving", seconds=30)
     browser.get(fake.url)

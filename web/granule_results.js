@@ -1,0 +1,39 @@
+// The results of a single particle on the wall in readable form.
+import { h } from './dom.js';
+import { percent, significant } from './format.js';
+import { section } from './results.js';
+
+const REGIMES = {
+  slipping: 'slides back before the horizontal, and never goes round',
+  raining: 'falls off the wall',
+  sliding: 'goes round, slipping a little each time',
+  centrifuging: 'goes round with the wall and never slips',
+};
+
+export function granuleAnswer({ granule, regime }) {
+  return h('section', { class: 'answer' },
+    h('p', null,
+      h('strong', null, `≥ ${significant(granule.minimum_rotation_rate, 4)} rad/s`),
+      h('span', null, `keeps the particle on the wall: ω²R/g = ${significant(granule.minimum_omega2, 7)} ± ${significant(granule.error, 2)}`),
+      regime?.name ? h('span', null, `At the rate given it is ${regime.name}: it ${REGIMES[regime.name] ?? ''}.`) : null));
+}
+
+const EQUATIONS = [['stationary_eq33', 'Eq 33', 'above it nothing slips'], ['sliding_eq34', 'Eq 34', 'fit'],
+  ['sliding_eq36', 'Eqns 36–37', 'fit']];
+
+function fitTable({ minimum_omega2, fits, deviations }) {
+  return h('table', { class: 'methods' },
+    h('caption', { class: 'unseen' }, 'What the paper has for the least ω²R/g'),
+    h('thead', null, h('tr', null, ...['equation', 'ω²R/g', 'off by'].map(name => h('th', { scope: 'col' }, name)))),
+    h('tbody', null, h('tr', null, h('th', { scope: 'row' }, 'this test'), h('td', null, significant(minimum_omega2, 4)), h('td')),
+      EQUATIONS.map(([name, title, meaning]) => h('tr', null,
+      h('th', { scope: 'row' }, title, h('small', null, meaning)),
+      h('td', null, significant(fits[name], 4)), h('td', null, percent(deviations[name]))))));
+}
+
+export function granuleInWords({ granule, regime, run }) {
+  return h('div', { class: 'results' },
+    section('Least rate', granule, fitTable(granule)),
+    regime?.name ? section('At the rate given', { regime: regime.name, omega2_outer: regime.omega2_outer, ...regime.evidence }) : null,
+    section('Run', run));
+}

@@ -1,0 +1,10 @@
+// How the results of each process are shown, and whether it has anything over time to show.
+import { answer, resultsInWords } from './results.js';
+import { granuleAnswer, granuleInWords } from './granule_results.js';
+
+const VIEWS = {
+  drum: { answer: (results, summary) => answer(results.repose ?? {}, results.regime, summary), results: resultsInWords, series: true },
+  granule: { answer: granuleAnswer, results: granuleInWords, series: false },
+};
+
+export const viewOf = process => VIEWS[process] ?? VIEWS.drum;
