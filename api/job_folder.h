@@ -14,6 +14,7 @@
  *           status: not-a-number, overlap-too-large, particle-escaped, never-settled (all with detail: step, time,
  *           particle, other, position, quantity, value, limit, unit, likely_cause); does-not-fit, bad-parameter,
  *           no-memory, disk
+ *     A process without steps (granule) writes start alone, without time_step and total_steps.
  *     total_steps of start is an estimate: when rotation begins is not known before.
  *     A later attempt goes on from the checkpoint and repeats what came after it with the same numbers: readers
  *     key samples and snapshots by "number" and let the later line win.

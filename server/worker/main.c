@@ -1,4 +1,4 @@
-/* repose: one virtual drum test, run or checked. With no daemon at all it serves a laptop, a test or a batch
+/* repose: one virtual test, run or checked. With no daemon at all it serves a laptop, a test or a batch
  * system; the daemon starts it for every attempt at a job. */
 #include <getopt.h>
 #include <limits.h>
