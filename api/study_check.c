@@ -1,0 +1,131 @@
+/* Every job of a study read as a job's request is, and what is wrong told in terms of the study.
+ *
+ * A job's problem has a pointer into the job's request. It is the case's own where the case says something at that
+ * place; it is the base's where the base alone has the very same problem (told once, not for each case); otherwise
+ * base and case don't go together, and the case is named. */
+#include <stdio.h>
+#include <string.h>
+
+#include "json_pointer.h"
+#include "study_spec.h"
+
+enum { ENOUGH_PROBLEMS = 100, LONG_POINTER = 2 * JSON_POINTER_SIZE };
+
+static bool is_listed(const problem_list *problems, const char *pointer, const char *detail)
+{
+    size_t i;
+    json_t *known;
+    json_array_foreach(problems->errors, i, known)
+        if (strcmp(json_string_value(json_object_get(known, "pointer")), pointer) == 0
+            && strcmp(json_string_value(json_object_get(known, "detail")), detail) == 0) return true;
+    return false;
+}
+
+static void add_once(problem_list *problems, const char *pointer, const char *detail)
+{
+    if (!is_listed(problems, pointer, detail)) problem_list_add(problems, pointer, "%s", detail);
+}
+
+/* Is the place below an input that is varied? Then pointer is that of the value: /vary/~1inputs~1fill_fraction/2. An
+ * input that does not exist is wrong in its name, not in its values. */
+static bool find_varied(const study_spec *study, size_t index, const char *place, const char *detail, char pointer[LONG_POINTER])
+{
+    for (size_t c = 0; c < json_array_size(study->columns); c++) {
+        char varied[JSON_POINTER_SIZE + 8], head[JSON_POINTER_SIZE] = "/vary", value[24] = "";
+        snprintf(varied, sizeof varied, "/inputs/%s", json_string_value(json_array_get(study->columns, c)));
+        if (!json_pointer_is_within(place, varied) || !json_pointer_append(head, varied)) continue;
+        const bool is_name = strcmp(place, varied) == 0 && strncmp(detail, "is not an input", 15) == 0;
+        if (!is_name) snprintf(value, sizeof value, "/%zu", study_value_index(study, index, c));
+        snprintf(pointer, LONG_POINTER, "%s%s%s", head, value, place + strlen(varied));
+        return true;
+    }
+    return false;
+}
+
+static void tell(const study_spec *study, size_t index, const char *place, const char *detail, const problem_list *of_base, problem_list *problems)
+{
+    char pointer[LONG_POINTER], name[STUDY_NAME_SIZE], combined[700];
+    const json_t *cases = json_object_get(study->document, "cases");
+    const bool varied = json_object_get(study->document, "vary") != NULL;
+    const bool of_case = cases && json_pointer_find(json_array_get(cases, index), place);
+    if (varied && find_varied(study, index, place, detail, pointer)) {
+        add_once(problems, pointer, detail);
+    } else if (!of_case && ((!cases && !varied) || is_listed(of_base, place, detail))) {
+        snprintf(pointer, sizeof pointer, "/base%.*s", JSON_POINTER_SIZE, place);
+        add_once(problems, pointer, detail);
+    } else if (cases) {
+        snprintf(pointer, sizeof pointer, "/cases/%zu%.*s", index, JSON_POINTER_SIZE, place);
+        add_once(problems, pointer, detail);
+    } else {
+        study_case_name(study, index, name);
+        snprintf(combined, sizeof combined, "with %s: %.100s %.380s", name, place, detail);
+        add_once(problems, "/vary", combined);
+    }
+}
+
+static void tell_all(const study_spec *study, size_t index, const problem_list *found, const problem_list *of_base, problem_list *problems)
+{
+    size_t i;
+    json_t *problem;
+    json_array_foreach(found->errors, i, problem)
+        tell(study, index, json_string_value(json_object_get(problem, "pointer")),
+             json_string_value(json_object_get(problem, "detail")), of_base, problems);
+    if (!found->errors) add_once(problems, "", "could not be checked: out of memory");
+}
+
+static void add_estimate(const study_spec *study, const job_spec *spec, double speed, study_estimate *estimate)
+{
+    const job_estimate one = job_spec_estimate(spec, speed);
+    estimate->jobs += study->repeats;
+    /* NaN: the process has no such thing. */
+    if (one.steps > 0.0) estimate->steps += one.steps * study->repeats;
+    if (one.wall_seconds > 0.0) estimate->wall_seconds += one.wall_seconds * study->repeats;
+    if (one.snapshot_bytes > 0.0) estimate->snapshot_bytes += one.snapshot_bytes * study->repeats;
+    if (one.memory_bytes > estimate->memory_bytes) estimate->memory_bytes = one.memory_bytes;
+}
+
+/* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
+static void check_case(const study_spec *study, size_t index, double speed, const problem_list *of_base, study_estimate *estimate, problem_list *problems)
+{
+    job_spec spec;
+    problem_list found;
+    const json_t *cases = json_object_get(study->document, "cases");
+    if (cases && !json_is_object(json_array_get(cases, index))) return; /* said already */
+    json_t *request = study_job_request(study, index, study->repeats - 1);
+    if (!request || !problem_list_init(&found)) {
+        add_once(problems, "", "could not be expanded: a case leads nowhere in the base, or out of memory");
+        json_decref(request);
+        return;
+    }
+    if (job_spec_parse(NULL, request, 0, &spec, &found)) {
+        add_estimate(study, &spec, speed, estimate);
+        job_spec_clear(&spec);
+    } else {
+        tell_all(study, index, &found, of_base, problems);
+    }
+    problem_list_clear(&found);
+    json_decref(request);
+}
+
+bool study_check(const study_spec *study, double particle_steps_per_second, study_estimate *estimate, problem_list *problems)
+{
+    *estimate = (study_estimate){.jobs = 0.0};
+    problem_list of_base;
+    job_spec spec;
+    if (!problem_list_init(&of_base)) {
+        problem_list_add(problems, "", "could not be checked: out of memory");
+        return false;
+    }
+    if (job_spec_parse(NULL, json_object_get(study->document, "base"), 0, &spec, &of_base)) job_spec_clear(&spec);
+    for (size_t i = 0; i < study->cases && json_array_size(problems->errors) < ENOUGH_PROBLEMS; i++)
+        check_case(study, i, particle_steps_per_second, &of_base, estimate, problems);
+    problem_list_clear(&of_base);
+    return problem_list_is_empty(problems);
+}
+
+json_t *study_estimate_to_json(const study_estimate *estimate)
+{
+    return json_pack("{s:I, s:I, s:f, s:I, s:I}", "jobs", (json_int_t)estimate->jobs, "steps", (json_int_t)estimate->steps,
+                     "wall_seconds", estimate->wall_seconds, "memory_bytes", (json_int_t)estimate->memory_bytes,
+                     "snapshot_bytes", (json_int_t)estimate->snapshot_bytes);
+}
