@@ -14,6 +14,8 @@ route_handler list_jobs, show_job, dismiss_job;
 route_handler show_results, show_spec, show_log;
 /* handlers_series.c */
 route_handler list_samples, list_snapshots, send_snapshot;
+/* handlers_studies.c */
+route_handler create_study, list_studies, show_study, dismiss_study, show_study_results, show_study_csv, show_study_spec;
 /* handlers_query.c */
 route_handler run_query;
 
@@ -22,5 +24,13 @@ void respond_store_failure(http_response *response, store_status status, const c
 void respond_no_such_job(http_response *response, const char *id);
 /* Finds the job named by the first segment; false: the response says why not. */
 bool find_job(api_service *service, const http_request *request, http_response *response, job_record *job);
+
+/* Shared between handlers of lists: the address of this list with the filters it was asked with; cursor 0: as it was
+ * asked. And of tables: is CSV asked for? False: an unknown format, and the response says so. */
+json_t *list_link(const http_request *request, const char *rel, int64_t cursor);
+bool read_format(const http_request *request, http_response *response, bool *csv);
+/* Shared between handlers that take a document. parse_body: NULL, and the response says why. */
+json_t *parse_body(const http_request *request, http_response *response);
+uint64_t choose_seed(void);
 
 #endif

@@ -14,6 +14,11 @@ void respond_store_failure(http_response *response, store_status status, const c
         http_respond_problem(response, 507, NULL, "No room on the disk", "could not %s: the data folder's disk is full", wanted);
         return;
     }
+    if (status == STORE_QUEUE_FULL) {
+        http_respond_problem(response, 503, NULL, "The queue is full", "could not %s: with it more jobs would wait than may (--queue-limit); try again later", wanted);
+        response->retry_after = 60;
+        return;
+    }
     http_respond_problem(response, 503, NULL, "Store not available", "could not %s; the daemon's log says why", wanted);
     response->retry_after = 5;
 }
@@ -94,6 +99,7 @@ static bool read_filter(const http_request *request, job_filter *filter, char *p
 {
     filter->process = http_request_parameter(request, "processID");
     filter->text = http_request_parameter(request, "q");
+    filter->study = http_request_parameter(request, "study");
     if (filter->text && strlen(filter->text) > 100) {
         snprintf(problem, size, "parameter q has %zu bytes; must have at most 100", strlen(filter->text));
         return false;
@@ -129,8 +135,7 @@ static void add_escaped(text_buffer *out, const char *text)
     }
 }
 
-/* The address of this list, with the filters it was asked with; cursor 0: as it was asked. */
-static json_t *list_link(const http_request *request, const char *rel, int64_t cursor)
+json_t *list_link(const http_request *request, const char *rel, int64_t cursor)
 {
     text_buffer href;
     text_buffer_init(&href, 4096);

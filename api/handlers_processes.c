@@ -32,7 +32,7 @@ void show_process(api_service *service, const http_request *request, http_respon
     else respond_no_such_process(response, request->segment[0]);
 }
 
-static json_t *parse_body(const http_request *request, http_response *response)
+json_t *parse_body(const http_request *request, http_response *response)
 {
     json_error_t error;
     json_t *document = json_loadb(request->body ? request->body : "", request->body_length, JSON_REJECT_DUPLICATES, &error);
@@ -41,7 +41,7 @@ static json_t *parse_body(const http_request *request, http_response *response)
     return document;
 }
 
-static uint64_t random_seed(void)
+uint64_t choose_seed(void)
 {
     uint64_t bits = 0;
     while (getrandom(&bits, sizeof bits, 0) != (ssize_t)sizeof bits) continue; /* EINTR is the only failure of 8 bytes */
@@ -67,7 +67,7 @@ static bool read_spec(api_service *service, const process_type *type, const http
         http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
     } else {
         set_default_threads(service, type, document);
-        good = job_spec_parse(type->name, document, random_seed(), spec, &problems);
+        good = job_spec_parse(type->name, document, choose_seed(), spec, &problems);
         if (!good)
             http_respond_json(response, 400, problem_json(400, "about:blank", "The specification can't be run",
                                                           "each entry of errors names a member, what it is and what it may be", &problems));

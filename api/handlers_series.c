@@ -107,8 +107,7 @@ static bool add_sample_csv(void *context, const sample_row *row)
     return true;
 }
 
-/* *csv: CSV is asked for. False: an unknown format, and the response says so. */
-static bool read_format(const http_request *request, http_response *response, bool *csv)
+bool read_format(const http_request *request, http_response *response, bool *csv)
 {
     const char *format = http_request_parameter(request, "format");
     *csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv");

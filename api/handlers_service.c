@@ -26,6 +26,7 @@ static json_t *landing_links(void)
         {"http://www.opengis.net/def/rel/ogc/1.0/conformance", "application/json", "/conformance"},
         {"http://www.opengis.net/def/rel/ogc/1.0/processes", "application/json", "/processes"},
         {"http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json", "/jobs"},
+        {"studies", "application/json", "/studies"},
         {"query", "application/json", "/query"},
         {"health", "application/json", "/healthz"},
         {"ready", "application/json", "/readyz"},

@@ -39,8 +39,10 @@ const http_route *routes_match(const http_route *table, size_t count, http_reque
     }
     if (allowed[0]) {
         http_respond_problem(response, 405, NULL, "Method not allowed", "%s allows %s", request->path, allowed);
-        /* At most GET and DELETE share an address, and then the list is one of three constants. */
-        response->allow = strcmp(allowed, "GET, HEAD") == 0 ? "GET, HEAD" : strcmp(allowed, "POST") == 0 ? "POST" : "GET, HEAD, DELETE";
+        /* GET comes before the other in the table; then the list is one of these constants. */
+        static const char *const lists[] = {"GET, HEAD", "POST", "GET, HEAD, POST", "GET, HEAD, DELETE"};
+        for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
+            if (strcmp(allowed, lists[i]) == 0) response->allow = lists[i];
     } else {
         http_respond_problem(response, 404, NULL, "Not found", "%.200s is no address of this service; / lists them", request->path);
     }

@@ -82,6 +82,7 @@ json_t *status_info(const job_record *job)
     set_time(info, "updated", job->updated);
     if (job->status == JOB_RUNNING && isfinite(job->eta_seconds))
         json_object_set_new(info, "eta_seconds", json_real(job->eta_seconds));
+    if (job->study[0]) json_object_set_new(info, "studyID", json_string(job->study));
     json_object_set(info, "label", job->label);
     json_object_set(info, "summary", job->summary);
     json_object_set_new(info, "links", links_of(job));

@@ -8,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#include "job_spec.h"
+#include "study_spec.h"
 
 typedef struct job_store job_store;
 
@@ -17,6 +17,7 @@ typedef enum store_status {
     STORE_NOT_FOUND,
     STORE_CONFLICT, /* the job is not in a state that allows this */
     STORE_FULL,     /* no room on the disk */
+    STORE_QUEUE_FULL, /* as many jobs wait as may */
     STORE_FAILED    /* anything else the database or the file system refused; the log has the reason */
 } store_status;
 
@@ -34,6 +35,7 @@ bool job_status_parse(const char *name, size_t length, job_status *status);
 typedef struct job_record {
     int64_t number; /* order of submission */
     char id[JOB_ID_SIZE], process[16];
+    char study[JOB_ID_SIZE]; /* id of the study it belongs to; "": none */
     job_status status;
     int attempt;
     double progress, eta_seconds; /* percent; s, NaN: unknown */
@@ -52,6 +54,7 @@ typedef struct job_filter {
     unsigned statuses;   /* bit 1 << job_status; 0: all */
     const char *process; /* NULL: all */
     const char *text;    /* to be found in the id or the label; NULL: all */
+    const char *study;   /* id; NULL: all */
     int64_t before;      /* only jobs with a smaller number; 0: all */
     int64_t limit;
 } job_filter;
@@ -64,6 +67,41 @@ store_status store_dismiss_job(job_store *store, const char *id);
 store_status store_find_job(job_store *store, const char *id, job_record *job);
 store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context); /* newest first */
 store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES]);
+
+typedef struct study_record {
+    int64_t number; /* order of submission */
+    char id[JOB_ID_SIZE], process[16], name[STUDY_NAME_SIZE];
+    int64_t cases, repeats, jobs, counts[JOB_STATUSES]; /* counts: of its jobs */
+    double progress, estimated_seconds;                 /* percent; s of one worker, when it was submitted */
+    char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], updated[JOB_TIME_SIZE]; /* updated: the last change of a job's state */
+} study_record;
+typedef bool study_visitor(void *context, const study_record *study);
+
+/* All its jobs in one commit, or none. */
+store_status store_add_study(job_store *store, const study_spec *study, const study_estimate *estimate, char id[JOB_ID_SIZE]);
+/* Dismisses its jobs that have not ended. STORE_CONFLICT: all have. */
+store_status store_dismiss_study(job_store *store, const char *id);
+store_status store_find_study(job_store *store, const char *id, study_record *study);
+store_status store_list_studies(job_store *store, int64_t before, int64_t limit, study_visitor *visit, void *context); /* newest first */
+store_status store_read_study(job_store *store, const char *id, char **text); /* its document, for free() */
+
+typedef struct study_case_row {
+    int64_t index;
+    const char *name, *inputs, *label; /* inputs, label: JSON objects */
+} study_case_row;
+typedef bool study_case_visitor(void *context, const study_case_row *row);
+store_status store_list_study_cases(job_store *store, const char *id, study_case_visitor *visit, void *context); /* in order */
+
+typedef struct study_run_row {
+    int64_t index; /* of its case */
+    job_status status;
+    const json_t *measures; /* {"angle_deg": 23.1, ...}: numbers and texts; what is not known is not in it */
+} study_run_row;
+typedef bool study_run_visitor(void *context, const study_run_row *row);
+store_status store_list_study_runs(job_store *store, const char *id, study_run_visitor *visit, void *context); /* in order of cases */
+
+/* How many jobs may wait. */
+int64_t store_queue_limit(const job_store *store);
 
 /* Texts are for free(). STORE_NOT_FOUND: no such job, or (results, failure) it has none. */
 store_status store_read_spec(job_store *store, const char *id, char **text);

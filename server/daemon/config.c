@@ -22,6 +22,7 @@ static const char usage[] =
     "  --data DIR           database and job folders, made when missing (./data)\n"
     "  --workers N          jobs at once, 1 to 256 (one for each core)\n"
     "  --threads N          threads of a job that does not ask, 1 to 256 (1)\n"
+    "  --queue-limit N      jobs that may wait, 1 to 1000000 (10000); a study that makes more is refused\n"
     "  --token-file FILE    clients must send \"Authorization: Bearer\" with its text; mode 0600\n"
     "  --allow-host NAME    accept this name in the Host header; may be given 8 times\n"
     "  --port-file FILE     write the port there once it is open\n"
@@ -63,6 +64,7 @@ static bool take_option(config *settings, const char *name, const char *value)
     if (strcmp(name, "port") == 0) return read_number(name, value, 0, 65535, &settings->port);
     if (strcmp(name, "workers") == 0) return read_number(name, value, 1, DISPATCHER_MOST_WORKERS, &settings->workers);
     if (strcmp(name, "threads") == 0) return read_number(name, value, 1, 256, &settings->threads);
+    if (strcmp(name, "queue-limit") == 0) return read_number(name, value, 1, 1000000, &settings->queue_limit);
     if (strcmp(name, "host") == 0) settings->host = value;
     if (strcmp(name, "data") == 0) settings->data = value;
     if (strcmp(name, "token-file") == 0) settings->token_file = value;
@@ -84,6 +86,7 @@ static enum config_outcome read_options(config *settings, int argc, char **argv)
 {
     static const struct option options[] = {
         {"host", 1, NULL, 0}, {"port", 1, NULL, 0}, {"data", 1, NULL, 0}, {"workers", 1, NULL, 0}, {"threads", 1, NULL, 0},
+        {"queue-limit", 1, NULL, 0},
         {"token-file", 1, NULL, 0}, {"allow-host", 1, NULL, 0}, {"port-file", 1, NULL, 0}, {"worker", 1, NULL, 0},
         {"web", 1, NULL, 0}, {"api-file", 1, NULL, 0}, {"help", 0, NULL, 'h'}, {NULL, 0, NULL, 0},
     };
@@ -116,7 +119,7 @@ static bool check(config *settings)
 enum config_outcome config_read(config *settings, int argc, char **argv)
 {
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    *settings = (config){.host = "127.0.0.1", .data = "data", .port = 8080, .threads = 1,
+    *settings = (config){.host = "127.0.0.1", .data = "data", .port = 8080, .threads = 1, .queue_limit = 10000,
                          .workers = cores < 1 ? 1 : cores > DISPATCHER_MOST_WORKERS ? DISPATCHER_MOST_WORKERS : (int)cores};
     const char *command = argc > 1 ? argv[1] : "";
     if (strcmp(command, "--version") == 0) {

@@ -8,7 +8,7 @@ enum { CONFIG_HOSTS = 8 };
 
 typedef struct config {
     const char *host, *data, *token_file, *port_file;
-    int port, workers, threads;
+    int port, workers, threads, queue_limit;
     char web[4096], worker[4096], api_file[4096];
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;

@@ -13,11 +13,12 @@
 #include "job_folder.h"
 #include "log.h"
 
-job_store *store_open(data_folder *data)
+job_store *store_open(data_folder *data, int64_t queue_limit)
 {
     job_store *store = calloc(1, sizeof *store);
     if (!store) return NULL;
     store->data = data;
+    store->queue_limit = queue_limit;
     pthread_mutex_init(&store->write_lock, NULL);
     pthread_mutex_init(&store->readers_lock, NULL);
     pthread_cond_init(&store->reader_is_free, NULL);
@@ -83,42 +84,74 @@ store_status store_end(job_store *store, store_status status)
 
 /* --- adding and dismissing --- */
 
-static bool choose_id(char id[JOB_ID_SIZE])
+bool store_random_bits(uint32_t *bits)
 {
-    uint32_t bits;
-    if (getrandom(&bits, sizeof bits, 0) != (ssize_t)sizeof bits) return false;
-    const time_t now = time(NULL);
-    struct tm parts;
-    gmtime_r(&now, &parts);
-    const size_t length = strftime(id, JOB_ID_SIZE, "%Y%m%d-%H%M%S-", &parts);
-    snprintf(id + length, JOB_ID_SIZE - length, "%08x", bits);
-    return true;
+    return getrandom(bits, sizeof *bits, 0) == (ssize_t)sizeof *bits;
 }
 
-static store_status insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const char *label)
+void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits)
+{
+    struct tm parts;
+    gmtime_r(&second, &parts);
+    const size_t length = strftime(id, JOB_ID_SIZE, "%Y%m%d-%H%M%S-", &parts);
+    snprintf(id + length, JOB_ID_SIZE - length, "%08x", bits);
+}
+
+int64_t store_queue_limit(const job_store *store)
+{
+    return store->queue_limit;
+}
+
+store_status store_check_queue(job_store *store, int64_t jobs)
+{
+    sqlite3_stmt *statement = sql_prepare(store->writer, "SELECT jobs FROM job_count WHERE status='accepted'", "");
+    if (!statement) return STORE_FAILED;
+    const int code = sqlite3_step(statement);
+    const int64_t waiting = code == SQLITE_ROW ? sqlite3_column_int64(statement, 0) : 0;
+    const store_status status = sql_finish(statement, code);
+    return status == STORE_OK && waiting + jobs > store->queue_limit ? STORE_QUEUE_FULL : status;
+}
+
+static store_status insert_row(job_store *store, const job_spec *spec, const char *id, const char *text, const char *label,
+                               const study_place *place, double speed)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
-    const job_estimate estimate = job_spec_estimate(spec, store_measured_speed(store));
+    const job_estimate estimate = job_spec_estimate(spec, speed);
     return sql_run(store->writer, NULL,
-                   "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated)"
-                   " VALUES(?,?,?,?,'accepted','waiting for a free worker',?,?,?,?,?)", "ttttiddtt",
-                   id, spec->process, label, text, (int64_t)spec->threads, estimate.wall_seconds, estimate.memory_bytes, now, now);
+                   "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
+                   "study,study_case,study_repeat) VALUES(?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
+                   "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11))", "ttttiddtiii",
+                   id, spec->process, label, text, (int64_t)spec->threads, estimate.wall_seconds, estimate.memory_bytes, now,
+                   place->study, place->index, place->repeat);
 }
 
-static store_status add_texts(job_store *store, const job_spec *spec, const char *text, const char *label, char id[JOB_ID_SIZE])
+store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place, double speed)
 {
-    if (!text || !label || !choose_id(id)) return STORE_FAILED;
+    char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
+    store_status status = label ? insert_row(store, spec, id, text, label, place, speed) : STORE_FAILED;
+    if (status == STORE_OK) status = process_inputs_insert(store->writer, sqlite3_last_insert_rowid(store->writer), spec);
+    free(label);
+    return status;
+}
+
+static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
+{
+    static const study_place of_no_study = {0, 0, 0};
+    uint32_t bits;
+    if (!text || !store_random_bits(&bits)) return STORE_FAILED;
+    store_write_id(id, time(NULL), bits);
     if (!job_folder_create(store->data, id, text)) {
         const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
         log_line("job %s: its folder can't be written: %s", id, strerror(errno));
         job_folder_discard(store->data, id);
         return reason;
     }
+    const double speed = store_measured_speed(store);
     store_status status = store_begin(store);
     if (status == STORE_OK) {
-        status = insert_job(store, spec, id, text, label);
-        if (status == STORE_OK) status = process_inputs_insert(store->writer, sqlite3_last_insert_rowid(store->writer), spec);
+        status = store_check_queue(store, 1);
+        if (status == STORE_OK) status = store_insert_job(store, spec, id, text, &of_no_study, speed);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);
@@ -128,9 +161,7 @@ static store_status add_texts(job_store *store, const job_spec *spec, const char
 store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE])
 {
     char *text = job_spec_to_text(spec);
-    char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
-    const store_status status = add_texts(store, spec, text, label, id);
-    free(label);
+    const store_status status = add_with_text(store, spec, text, id);
     free(text);
     return status;
 }
@@ -163,7 +194,7 @@ store_status store_dismiss_job(job_store *store, const char *id)
 
 /* --- texts, counts, files --- */
 
-static store_status read_text(job_store *store, const char *sql, const char *id, char **text)
+store_status store_read_text(job_store *store, const char *sql, const char *id, char **text)
 {
     *text = NULL;
     sqlite3 *reader = store_borrow_reader(store);
@@ -182,17 +213,17 @@ static store_status read_text(job_store *store, const char *sql, const char *id,
 
 store_status store_read_spec(job_store *store, const char *id, char **text)
 {
-    return read_text(store, "SELECT spec FROM job WHERE id=?", id, text);
+    return store_read_text(store, "SELECT spec FROM job WHERE id=?", id, text);
 }
 
 store_status store_read_results(job_store *store, const char *id, char **text)
 {
-    return read_text(store, "SELECT document FROM result JOIN job ON result.job=job.number WHERE job.id=?", id, text);
+    return store_read_text(store, "SELECT document FROM result JOIN job ON result.job=job.number WHERE job.id=?", id, text);
 }
 
 store_status store_read_failure(job_store *store, const char *id, char **text)
 {
-    return read_text(store, "SELECT failure FROM job WHERE id=?", id, text);
+    return store_read_text(store, "SELECT failure FROM job WHERE id=?", id, text);
 }
 
 store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES])

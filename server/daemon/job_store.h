@@ -4,6 +4,7 @@
 
 #include <pthread.h>
 #include <sqlite3.h>
+#include <time.h>
 
 #include "data_folder.h"
 #include "event_tail.h"
@@ -14,6 +15,7 @@ enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
 /* Everything below is private to job_store*.c, result_tables.c and query.c. */
 struct job_store {
     data_folder *data;
+    int64_t queue_limit; /* jobs that may wait */
     pthread_mutex_t write_lock; /* held for each transaction of the one writer */
     sqlite3 *writer;
     pthread_mutex_t readers_lock;
@@ -23,7 +25,7 @@ struct job_store {
     sqlite3 *query; /* for users' SQL alone: it has an authorizer and limits; the slow lane is its only thread */
 };
 
-job_store *store_open(data_folder *data);
+job_store *store_open(data_folder *data, int64_t queue_limit);
 void store_close(job_store *store);
 
 sqlite3 *store_borrow_reader(job_store *store);
@@ -32,6 +34,19 @@ void store_return_reader(job_store *store, sqlite3 *reader);
  * returns what became of it. */
 store_status store_begin(job_store *store);
 store_status store_end(job_store *store, store_status status);
+
+/* An id of this second; bits tell it from others of the same second. */
+void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits);
+bool store_random_bits(uint32_t *bits);
+/* Which job of which study; study 0: of none. */
+typedef struct study_place {
+    int64_t study, index, repeat;
+} study_place;
+/* Between begin and end: one job's rows. text: its canonical specification. */
+store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place, double speed);
+/* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */
+store_status store_check_queue(job_store *store, int64_t jobs);
+store_status store_read_text(job_store *store, const char *sql, const char *id, char **text);
 
 /* One attempt of one job: what every write a worker causes is fenced by. */
 typedef struct job_claim {

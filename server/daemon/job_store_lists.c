@@ -8,17 +8,18 @@
 #include "text_buffer.h"
 
 /* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary. */
-#define RECORD_COLUMNS 13
+#define RECORD_COLUMNS 14
 #define SELECT_JOBS                                                                                                   \
     "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"     \
-    " job.started, job.finished, job.updated, job.message, job.label,"                                                 \
+    " job.started, job.finished, job.updated, job.message, job.label, study.id,"                                       \
     " i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate, i.fill_fraction,"   \
     " i.particles, i.species, i.diameter, i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution,"     \
     " i.wall_friction, i.stiffness, i.duration, i.seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"    \
     " a.standard_error_deg, a.steady, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds"    \
     " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"              \
     " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                      \
-    " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"
+    " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"             \
+    " LEFT JOIN study ON study.number=job.study"
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
 {
@@ -58,6 +59,7 @@ static void fill_record(sqlite3_stmt *row, job_record *job)
     copy_text(job->finished, sizeof job->finished, row, 9);
     copy_text(job->updated, sizeof job->updated, row, 10);
     copy_text(job->message, sizeof job->message, row, 11);
+    copy_text(job->study, sizeof job->study, row, 13);
     job->label = json_loads((const char *)sqlite3_column_text(row, 12), 0, NULL);
     job->summary = summary_of(row);
 }
@@ -83,7 +85,8 @@ static void write_list_sql(const job_filter *filter, text_buffer *sql)
 {
     const bool single = (filter->statuses & (filter->statuses - 1U)) == 0U;
     text_buffer_print(sql, SELECT_JOBS " WHERE job.number<?1 AND (?2 IS NULL OR job.process=?2)"
-                           " AND (?3 IS NULL OR instr(lower(job.label), lower(?3)) OR instr(job.id, ?3))");
+                           " AND (?3 IS NULL OR instr(lower(job.label), lower(?3)) OR instr(job.id, ?3))"
+                           "%s", filter->study ? " AND job.study=(SELECT number FROM study WHERE id=?5)" : "");
     const char *before = single ? " AND job.status=" : " AND +job.status IN (";
     for (int i = 0; i < JOB_STATUSES; i++) {
         if (!(filter->statuses & (1U << i))) continue;
@@ -99,7 +102,8 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
     text_buffer_init(&sql, 8192);
     write_list_sql(filter, &sql);
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "itti", filter->before ? filter->before : INT64_MAX, filter->process, filter->text, filter->limit);
+    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, filter->study ? "ittit" : "itti",
+                                                             filter->before ? filter->before : INT64_MAX, filter->process, filter->text, filter->limit, filter->study);
     store_status status = STORE_FAILED;
     if (statement) {
         int code;

@@ -104,7 +104,7 @@ static bool announce(const parts *all)
 static bool open_parts(parts *all)
 {
     if (!data_folder_open(&all->data, all->settings.data)) return false;
-    all->store = store_open(&all->data);
+    all->store = store_open(&all->data, all->settings.queue_limit);
     if (!all->store || store_recover(all->store) != STORE_OK) return false;
     executor_local_init(&all->executor, all->settings.worker);
     if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.workers, all->settings.threads)) return false;

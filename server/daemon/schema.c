@@ -120,8 +120,51 @@ static const char run_summary_with_granule[] =
     " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
     " WHERE job.status='successful';";
 
+/* A study and its cases; its jobs say which case and repeat they are. What a study shows at every look (how many of
+ * its jobs are in which state) is kept by triggers, as job_count is. */
+static const char study_tables[] =
+    "CREATE TABLE study("
+    "  number INTEGER PRIMARY KEY," /* order of submission */
+    "  id TEXT NOT NULL UNIQUE,"
+    "  process TEXT NOT NULL,"
+    "  name TEXT NOT NULL,"
+    "  document TEXT NOT NULL," /* JSON, repeats and seed chosen */
+    "  cases INTEGER NOT NULL, repeats INTEGER NOT NULL, jobs INTEGER NOT NULL,"
+    "  estimated_seconds REAL NOT NULL,"
+    "  created TEXT NOT NULL, started TEXT, updated TEXT NOT NULL,"
+    "  accepted INTEGER NOT NULL DEFAULT 0, running INTEGER NOT NULL DEFAULT 0, successful INTEGER NOT NULL DEFAULT 0,"
+    "  failed INTEGER NOT NULL DEFAULT 0, dismissed INTEGER NOT NULL DEFAULT 0"
+    ") STRICT;"
+    "CREATE TABLE study_case("
+    "  study INTEGER NOT NULL REFERENCES study(number) ON DELETE CASCADE,"
+    "  position INTEGER NOT NULL,"
+    "  name TEXT NOT NULL,"
+    "  inputs TEXT NOT NULL," /* JSON object: what differs between cases */
+    "  label TEXT NOT NULL,"  /* JSON object */
+    "  PRIMARY KEY(study, position)) STRICT, WITHOUT ROWID;"
+    "ALTER TABLE job ADD COLUMN study INTEGER REFERENCES study(number);"
+    "ALTER TABLE job ADD COLUMN study_case INTEGER;"
+    "ALTER TABLE job ADD COLUMN study_repeat INTEGER;"
+    "CREATE UNIQUE INDEX job_of_study ON job(study, study_case, study_repeat) WHERE study IS NOT NULL;"
+    "CREATE TRIGGER study_job_counted AFTER INSERT ON job WHEN new.study IS NOT NULL BEGIN"
+    "  UPDATE study SET accepted=accepted+(new.status='accepted'), running=running+(new.status='running'),"
+    "   successful=successful+(new.status='successful'), failed=failed+(new.status='failed'),"
+    "   dismissed=dismissed+(new.status='dismissed') WHERE number=new.study; END;"
+    "CREATE TRIGGER study_job_moved AFTER UPDATE OF status ON job WHEN old.status<>new.status AND new.study IS NOT NULL BEGIN"
+    "  UPDATE study SET accepted=accepted+(new.status='accepted')-(old.status='accepted'),"
+    "   running=running+(new.status='running')-(old.status='running'),"
+    "   successful=successful+(new.status='successful')-(old.status='successful'),"
+    "   failed=failed+(new.status='failed')-(old.status='failed'),"
+    "   dismissed=dismissed+(new.status='dismissed')-(old.status='dismissed'),"
+    "   started=coalesce(started,new.started), updated=new.updated WHERE number=new.study; END;"
+    "CREATE TRIGGER study_job_forgotten AFTER DELETE ON job WHEN old.study IS NOT NULL BEGIN"
+    "  UPDATE study SET jobs=jobs-1, accepted=accepted-(old.status='accepted'), running=running-(old.status='running'),"
+    "   successful=successful-(old.status='successful'), failed=failed-(old.status='failed'),"
+    "   dismissed=dismissed-(old.status='dismissed') WHERE number=old.study; END;";
+
 const schema_migration schema_migrations[] = {
     {{job_tables, result_tables}},
     {{granule_tables, run_summary_with_granule}},
+    {{study_tables}},
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -157,6 +157,24 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
         call("/jobs/{id}", f"{url}/jobs/{unfinished}", 200, "DELETE")
     call("/jobs/{id}/results", f"{url}/jobs/{endless}/results", 404)
 
+    study = {"name": "of the contract", "base": {"inputs": SPEC}, "repeats": 2,
+             "cases": [{"name": "one", "inputs": {"contact": {"friction": 0.2}}, "label": {"paper": "25"}}]}
+    created = call("/studies", f"{url}/studies", 201, "POST", json=study)
+    study = created.headers["Location"]
+    assert study == f"/studies/{created.json()['studyID']}"
+    call("/studies/{id}", f"{url}{study}?wait=60", 200)
+    table = call("/studies/{id}/results", f"{url}{study}/results", 200).json()
+    assert table["status"] == "successful" and table["cases"][0]["results"]["angle_deg"]["error_from"] == "repeats"
+    call("/studies/{id}/results", f"{url}{study}/results?format=csv", 200)
+    call("/studies/{id}/results.csv", f"{url}{study}/results.csv", 200)
+    again = call("/studies/{id}/spec", f"{url}{study}/spec", 200).json()
+    call("/jobs", f"{url}/jobs?study={study.removeprefix('/studies/')}", 200)
+    call("/studies/{id}", f"{url}{study}", 409, "DELETE")
+    again = call("/studies", f"{url}/studies", 201, "POST", json=again).headers["Location"]
+    call("/studies/{id}", f"{url}{again}", 200, "DELETE")
+    older = call("/studies", f"{url}/studies?limit=1", 200).json()["links"][1]["href"]
+    call("/studies", url + older, 200)
+
     assert called == set(contract.operations)
     addresses = {re.sub(r"{\w+}", "", path) for _, path in contract.operations}
     assert {link["href"] for link in landing.json()["links"]} <= addresses
@@ -185,6 +203,13 @@ def test_every_error_is_a_documented_problem(daemon, contract):
         (400, jobs, {"url": f"{url}/jobs/{NO_JOB}?wait=forever"}),
         (400, "/query", {"url": f"{url}/query?sql=delete from job"}),
         (400, "/query", {"url": f"{url}/query"}),
+        (400, "/studies", {"method": "POST", "url": f"{url}/studies", "json": {"base": {"inputs": {}}, "cases": [1]}}),
+        (400, "/studies", {"url": f"{url}/studies?limit=x"}),
+        (404, "/studies/{id}", {"url": f"{url}/studies/{NO_JOB}"}),
+        (404, "/studies/{id}", {"method": "DELETE", "url": f"{url}/studies/{NO_JOB}"}),
+        (404, "/studies/{id}/results", {"url": f"{url}/studies/{NO_JOB}/results"}),
+        (404, "/studies/{id}/results.csv", {"url": f"{url}/studies/nothing/results.csv"}),
+        (404, "/studies/{id}/spec", {"url": f"{url}/studies/{NO_JOB}/spec"}),
     ]
     for status, path, request in bad:
         answer = requests.request(**({"method": "GET"} | request))
@@ -259,5 +284,11 @@ def test_examples_are_valid(contract):
     assert examples
     for example in examples:
         contract.validate(json.loads(example.read_text()), execute)
+    study = {"$ref": "#/components/schemas/Study"}
+    contract.validate(contract.operations["POST", "/studies"]["requestBody"]["content"]["application/json"]["example"], study)
+    studies = list((ROOT / "api/studies").glob("*.json"))
+    assert studies
+    for example in studies:
+        contract.validate(json.loads(example.read_text()), study)
     with pytest.raises(jsonschema.ValidationError):
         contract.validate({"inputs": SPEC | {"colour": "red"}}, execute)

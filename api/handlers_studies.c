@@ -1,0 +1,218 @@
+/* Studies: posting one, the list, one, its results and its document, cancelling it. */
+#include <stdio.h>
+#include <string.h>
+
+#include "handlers.h"
+#include "status_info.h"
+#include "study_info.h"
+#include "study_results.h"
+
+enum { STUDIES_DEFAULT_LIMIT = 50, STUDIES_HIGHEST_LIMIT = 500, LONGEST_WAIT = 60, RESULTS_BYTES = 64 << 20 };
+
+static void respond_no_such_study(http_response *response, const char *id)
+{
+    http_respond_problem(response, 404, NULL, "No such study", "there is no study \"%s\"; /studies lists them", id);
+}
+
+static bool find_study(api_service *service, const http_request *request, http_response *response, study_record *study)
+{
+    const char *id = request->segment[0];
+    const store_status status = job_id_is_valid(id) ? store_find_study(service->store, id, study) : STORE_NOT_FOUND;
+    if (status == STORE_NOT_FOUND) respond_no_such_study(response, id);
+    else if (status != STORE_OK) respond_store_failure(response, status, "read the study");
+    return status == STORE_OK;
+}
+
+/* --- posting --- */
+
+static void respond_created(api_service *service, http_response *response, const study_estimate *estimate, const char *id)
+{
+    study_record study;
+    json_t *info = store_find_study(service->store, id, &study) == STORE_OK ? study_info(&study)
+                                                                             : json_pack("{s:s, s:s}", "studyID", id, "status", "accepted");
+    json_object_set_new(info, "estimate", study_estimate_to_json(estimate));
+    http_respond_json(response, 201, info);
+    snprintf(response->location, sizeof response->location, "/studies/%s", id);
+}
+
+static void add_study(api_service *service, http_response *response, const study_spec *study, const study_estimate *estimate)
+{
+    char id[JOB_ID_SIZE];
+    const store_status status = store_add_study(service->store, study, estimate, id);
+    if (status != STORE_OK) {
+        respond_store_failure(response, status, "keep the study");
+        return;
+    }
+    service->jobs_changed(service->daemon);
+    respond_created(service, response, estimate, id);
+}
+
+/* Refused whole or kept whole: every job is read before any is added. */
+void create_study(api_service *service, const http_request *request, http_response *response)
+{
+    json_t *document = parse_body(request, response);
+    if (!document) return;
+    const study_options options = {.seed_if_missing = choose_seed(), .default_threads = service->default_threads,
+                                   .most_jobs = store_queue_limit(service->store)};
+    problem_list problems;
+    study_spec study;
+    study_estimate estimate;
+    if (!problem_list_init(&problems)) {
+        http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
+        json_decref(document);
+        return;
+    }
+    study_spec_parse(document, &options, &study, &problems);
+    json_decref(document);
+    if (study_check(&study, store_measured_speed(service->store), &estimate, &problems))
+        add_study(service, response, &study, &estimate);
+    else
+        http_respond_json(response, 400, problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",
+                                                      "each entry of errors names a place in the study, what is there and what may be", &problems));
+    study_spec_clear(&study);
+    problem_list_clear(&problems);
+}
+
+/* --- looking --- */
+
+/* ?wait=SECONDS answers as soon as every job has ended, at the latest when the time is up. */
+void show_study(api_service *service, const http_request *request, http_response *response)
+{
+    char problem[160];
+    int64_t wait;
+    study_record study;
+    if (!http_request_integer(request, "wait", 0, LONGEST_WAIT, 0, &wait, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return;
+    }
+    if (!find_study(service, request, response, &study)) return;
+    const job_status status = study_status(&study);
+    const bool has_ended = status != JOB_ACCEPTED && status != JOB_RUNNING;
+    if (!has_ended && request->may_wait && request->waited < (double)wait) response->wait = (double)wait - request->waited;
+    else http_respond_json(response, 200, study_info(&study));
+}
+
+typedef struct study_page {
+    json_t *studies;
+    int64_t limit, last; /* number of the last study on the page */
+    bool more;
+} study_page;
+
+static bool add_study_to_page(void *context, const study_record *study)
+{
+    study_page *page = context;
+    page->more = (int64_t)json_array_size(page->studies) == page->limit;
+    if (page->more) return false;
+    page->last = study->number;
+    return json_array_append_new(page->studies, study_info(study)) == 0;
+}
+
+void list_studies(api_service *service, const http_request *request, http_response *response)
+{
+    char problem[160];
+    int64_t before;
+    study_page page = {.studies = NULL};
+    if (!http_request_integer(request, "limit", 1, STUDIES_HIGHEST_LIMIT, STUDIES_DEFAULT_LIMIT, &page.limit, problem, sizeof problem)
+        || !http_request_integer(request, "cursor", 1, INT64_MAX, 0, &before, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return;
+    }
+    page.studies = json_array();
+    const store_status status = store_list_studies(service->store, before, page.limit + 1, add_study_to_page, &page);
+    if (status != STORE_OK) {
+        json_decref(page.studies);
+        respond_store_failure(response, status, "list the studies");
+        return;
+    }
+    json_t *links = json_pack("[o]", list_link(request, "self", 0));
+    if (page.more) json_array_append_new(links, list_link(request, "next", page.last));
+    http_respond_json(response, 200, json_pack("{s:o, s:o}", "studies", page.studies, "links", links));
+}
+
+void show_study_spec(api_service *service, const http_request *request, http_response *response)
+{
+    study_record study;
+    if (!find_study(service, request, response, &study)) return;
+    char *text = NULL;
+    const store_status status = store_read_study(service->store, study.id, &text);
+    if (status == STORE_OK) http_respond_text(response, 200, "application/json", text, strlen(text));
+    else respond_store_failure(response, status, "read the study");
+}
+
+void dismiss_study(api_service *service, const http_request *request, http_response *response)
+{
+    const char *id = request->segment[0];
+    const store_status status = job_id_is_valid(id) ? store_dismiss_study(service->store, id) : STORE_NOT_FOUND;
+    study_record study;
+    if (status == STORE_OK) {
+        service->jobs_changed(service->daemon);
+    } else if (status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
+        respond_store_failure(response, status, "dismiss the study");
+        return;
+    }
+    if (!find_study(service, request, response, &study)) return;
+    if (status == STORE_CONFLICT && study.counts[JOB_DISMISSED] == 0)
+        http_respond_problem(response, 409, NULL, "The study has ended", "all %lld jobs of study %s have ended; their results are kept",
+                             (long long)study.jobs, study.id);
+    else /* dismissing twice is no mistake */
+        http_respond_json(response, 200, study_info(&study));
+}
+
+/* --- results --- */
+
+static bool tabulate(api_service *service, const char *id, http_response *response, study_table *table)
+{
+    if (!study_table_init(table)) table->failed = true;
+    store_status status = store_list_study_cases(service->store, id, study_table_add_case, table);
+    if (status == STORE_OK) {
+        study_summing summing;
+        study_summing_init(&summing, table);
+        status = store_list_study_runs(service->store, id, study_summing_add_run, &summing);
+        study_summing_end(&summing);
+    }
+    if (status == STORE_OK && !table->failed) return true;
+    study_table_clear(table);
+    respond_store_failure(response, status == STORE_OK ? STORE_FAILED : status, "read the results");
+    return false;
+}
+
+static void respond_csv(http_response *response, const study_table *table)
+{
+    text_buffer out;
+    text_buffer_init(&out, RESULTS_BYTES);
+    study_table_write_csv(table, &out);
+    if (out.failed) {
+        text_buffer_clear(&out);
+        respond_store_failure(response, STORE_FAILED, "write the results");
+        return;
+    }
+    http_respond_text(response, 200, "text/csv; charset=utf-8", out.text, out.length);
+}
+
+static void show_table(api_service *service, const http_request *request, http_response *response, bool csv)
+{
+    study_record study;
+    study_table table;
+    if (!find_study(service, request, response, &study) || !tabulate(service, study.id, response, &table)) return;
+    if (csv) {
+        respond_csv(response, &table);
+    } else {
+        char href[80];
+        snprintf(href, sizeof href, "/studies/%s/results", study.id);
+        http_respond_json(response, 200, json_pack("{s:s, s:s, s:s, s:O, s:[o]}", "studyID", study.id, "name", study.name, "status",
+                                                   job_status_name(study_status(&study)), "cases", table.cases,
+                                                   "links", link_to("self", "application/json", href)));
+    }
+    study_table_clear(&table);
+}
+
+void show_study_results(api_service *service, const http_request *request, http_response *response)
+{
+    bool csv;
+    if (read_format(request, response, &csv)) show_table(service, request, response, csv);
+}
+
+void show_study_csv(api_service *service, const http_request *request, http_response *response)
+{
+    show_table(service, request, response, true);
+}

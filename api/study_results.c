@@ -1,0 +1,222 @@
+#include "study_results.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+const study_measure study_measures[STUDY_MEASURES] = {
+    {"angle_deg", "standard_error_deg"}, {"minimum_deg", NULL}, {"maximum_deg", NULL}, {"drift_deg_per_revolution", NULL},
+    {"interface_fluctuation", NULL}, {"radial_index", NULL}, {"axial_index", NULL}, {"lacey_index", NULL},
+    {"solid_fraction", NULL}, {"coordination_number", NULL}, {"maximum_overlap", NULL},
+    {"minimum_omega2", "error"}, {"minimum_rotation_rate", NULL}, {"slip_per_revolution", NULL},
+};
+
+bool study_table_init(study_table *table)
+{
+    *table = (study_table){.cases = json_array()};
+    return table->cases != NULL;
+}
+
+void study_table_clear(study_table *table)
+{
+    json_decref(table->cases);
+    table->cases = NULL;
+}
+
+/* The study's and the case's name are in the row already. */
+static json_t *label_of(const char *text)
+{
+    json_t *label = json_loads(text, 0, NULL);
+    json_object_del(label, "study");
+    json_object_del(label, "case");
+    return label;
+}
+
+bool study_table_add_case(void *context, const study_case_row *row)
+{
+    study_table *table = context;
+    json_t *one = json_pack("{s:s, s:o, s:o, s:i, s:i, s:i, s:n, s:{}}", "case", row->name, "inputs", json_loads(row->inputs, 0, NULL),
+                            "label", label_of(row->label), "repeats", 0, "finished", 0, "failed", 0, "regime", "results");
+    if (!one || json_array_append_new(table->cases, one) != 0) table->failed = true;
+    return !table->failed;
+}
+
+/* --- summing --- */
+
+static void begin_case(study_summing *summing, int64_t index)
+{
+    summing->index = index;
+    memset(summing->counts, 0, sizeof summing->counts);
+    for (int m = 0; m < STUDY_MEASURES; m++) summing->sums[m] = (study_sums){.run_error = NAN};
+    json_object_clear(summing->regimes);
+}
+
+void study_summing_init(study_summing *summing, study_table *table)
+{
+    summing->table = table;
+    summing->regimes = json_object();
+    begin_case(summing, -1);
+}
+
+/* Welford's recurrence: no difference of large sums. */
+static void add_value(study_sums *sums, double value)
+{
+    sums->count++;
+    const double off = value - sums->mean;
+    sums->mean += off / (double)sums->count;
+    sums->squares += off * (value - sums->mean);
+}
+
+/* {"mean", "standard_error", "error_from", "count"}. */
+static json_t *sums_to_json(const study_sums *sums)
+{
+    const bool several = sums->count > 1;
+    const double n = (double)sums->count;
+    const double error = several ? sqrt(sums->squares / (n - 1.0) / n) : sums->run_error;
+    const char *from = several ? "repeats" : isfinite(error) ? "run" : NULL;
+    return json_pack("{s:f, s:o, s:s?, s:I}", "mean", sums->mean, "standard_error", isfinite(error) ? json_real(error) : json_null(),
+                     "error_from", from, "count", (json_int_t)sums->count);
+}
+
+/* "rolling"; "rolling 2, slumping 1". */
+static json_t *regimes_to_json(const json_t *regimes)
+{
+    char text[300] = "";
+    const char *name;
+    json_t *runs;
+    json_object_foreach((json_t *)regimes, name, runs) {
+        const size_t length = strlen(text);
+        if (json_object_size(regimes) == 1) snprintf(text, sizeof text, "%s", name);
+        else snprintf(text + length, sizeof text - length, "%s%s %lld", length ? ", " : "", name, (long long)json_integer_value(runs));
+    }
+    return text[0] ? json_string(text) : json_null();
+}
+
+static void end_case(study_summing *summing)
+{
+    json_t *one = json_array_get(summing->table->cases, (size_t)summing->index);
+    if (summing->index < 0 || !one) return;
+    int64_t all = 0;
+    for (int i = 0; i < JOB_STATUSES; i++) all += summing->counts[i];
+    json_t *results = json_object();
+    for (int m = 0; m < STUDY_MEASURES; m++)
+        if (summing->sums[m].count > 0) json_object_set_new(results, study_measures[m].name, sums_to_json(&summing->sums[m]));
+    if (json_object_set_new(one, "repeats", json_integer(all)) != 0
+        || json_object_set_new(one, "finished", json_integer(summing->counts[JOB_SUCCESSFUL])) != 0
+        || json_object_set_new(one, "failed", json_integer(summing->counts[JOB_FAILED])) != 0
+        || json_object_set_new(one, "regime", regimes_to_json(summing->regimes)) != 0
+        || json_object_set_new(one, "results", results) != 0) summing->table->failed = true;
+}
+
+bool study_summing_add_run(void *context, const study_run_row *row)
+{
+    study_summing *summing = context;
+    if (row->index != summing->index) {
+        end_case(summing);
+        begin_case(summing, row->index);
+    }
+    summing->counts[row->status]++;
+    if (row->status != JOB_SUCCESSFUL) return true;
+    for (int m = 0; m < STUDY_MEASURES; m++) {
+        const json_t *value = json_object_get(row->measures, study_measures[m].name);
+        if (!json_is_number(value)) continue;
+        add_value(&summing->sums[m], json_number_value(value));
+        const json_t *error = study_measures[m].run_error ? json_object_get(row->measures, study_measures[m].run_error) : NULL;
+        summing->sums[m].run_error = json_is_number(error) ? json_number_value(error) : NAN;
+    }
+    const char *regime = json_string_value(json_object_get(row->measures, "regime"));
+    if (regime) json_object_set_new(summing->regimes, regime, json_integer(json_integer_value(json_object_get(summing->regimes, regime)) + 1));
+    return true;
+}
+
+void study_summing_end(study_summing *summing)
+{
+    end_case(summing);
+    json_decref(summing->regimes);
+    summing->regimes = NULL;
+}
+
+/* --- CSV --- */
+
+/* All names that the member (inputs, label, results) has in any row, in order of first sight. */
+static json_t *names_of(const study_table *table, const char *member)
+{
+    json_t *names = json_object();
+    size_t i;
+    json_t *row, *value;
+    const char *name;
+    json_array_foreach(table->cases, i, row)
+        json_object_foreach(json_object_get(row, member), name, value) json_object_set_new(names, name, json_null());
+    return names;
+}
+
+static void add_text(text_buffer *out, const char *before, const char *text, const char *after)
+{
+    char whole[800];
+    const int length = snprintf(whole, sizeof whole, "%s%s%s", before, text, after);
+    text_buffer_add_csv_field(out, whole, length < (int)sizeof whole ? (size_t)length : sizeof whole - 1);
+}
+
+static void add_json(text_buffer *out, const json_t *value)
+{
+    text_buffer_print(out, ",");
+    if (json_is_integer(value)) text_buffer_print(out, "%lld", (long long)json_integer_value(value));
+    else if (json_is_real(value)) text_buffer_add_number(out, json_real_value(value));
+    else if (json_is_string(value)) text_buffer_add_csv_field(out, json_string_value(value), json_string_length(value));
+    else if (json_is_boolean(value)) text_buffer_print(out, json_is_true(value) ? "true" : "false");
+    else if (json_is_object(value) || json_is_array(value)) {
+        char *text = json_dumps(value, JSON_COMPACT);
+        if (text) text_buffer_add_csv_field(out, text, strlen(text));
+        free(text);
+    }
+}
+
+static void write_head(const json_t *inputs, const json_t *labels, const json_t *results, text_buffer *out)
+{
+    const char *name;
+    json_t *unused;
+    text_buffer_print(out, "case");
+    json_object_foreach((json_t *)inputs, name, unused) text_buffer_print(out, ","), add_text(out, "", name, "");
+    json_object_foreach((json_t *)labels, name, unused) text_buffer_print(out, ","), add_text(out, "label/", name, "");
+    text_buffer_print(out, ",repeats,finished,failed,regime");
+    json_object_foreach((json_t *)results, name, unused) {
+        text_buffer_print(out, ","), add_text(out, "", name, "");
+        text_buffer_print(out, ","), add_text(out, "", name, "_standard_error");
+    }
+    if (json_object_get(results, "angle_deg")) text_buffer_print(out, ",error_from");
+    text_buffer_print(out, "\r\n");
+}
+
+static void write_row(const json_t *row, const json_t *inputs, const json_t *labels, const json_t *results, text_buffer *out)
+{
+    const char *name;
+    json_t *unused;
+    add_text(out, "", json_string_value(json_object_get(row, "case")), "");
+    json_object_foreach((json_t *)inputs, name, unused) add_json(out, json_object_get(json_object_get(row, "inputs"), name));
+    json_object_foreach((json_t *)labels, name, unused) add_json(out, json_object_get(json_object_get(row, "label"), name));
+    add_json(out, json_object_get(row, "repeats"));
+    add_json(out, json_object_get(row, "finished"));
+    add_json(out, json_object_get(row, "failed"));
+    add_json(out, json_object_get(row, "regime"));
+    json_object_foreach((json_t *)results, name, unused) {
+        const json_t *measure = json_object_get(json_object_get(row, "results"), name);
+        add_json(out, json_object_get(measure, "mean"));
+        add_json(out, json_object_get(measure, "standard_error"));
+    }
+    if (json_object_get(results, "angle_deg"))
+        add_json(out, json_object_get(json_object_get(json_object_get(row, "results"), "angle_deg"), "error_from"));
+    text_buffer_print(out, "\r\n");
+}
+
+void study_table_write_csv(const study_table *table, text_buffer *out)
+{
+    json_t *inputs = names_of(table, "inputs"), *labels = names_of(table, "label"), *results = names_of(table, "results");
+    size_t i;
+    json_t *row;
+    write_head(inputs, labels, results, out);
+    json_array_foreach(table->cases, i, row) write_row(row, inputs, labels, results, out);
+    json_decref(inputs);
+    json_decref(labels);
+    json_decref(results);
+}

@@ -1,0 +1,50 @@
+/* A study's results: a row a case, with the mean over its repeats and the standard error of that mean.
+ *
+ * Repeats differ in their random beginning alone, so they are independent, and the error of their mean is s/sqrt(n)
+ * with s^2 = sum (x - mean)^2/(n - 1). With one repeat there is no such thing; for the angle the run's own error,
+ * from block averages in time, stands in for it, and error_from says so. */
+#ifndef STUDY_RESULTS_H
+#define STUDY_RESULTS_H
+
+#include "store.h"
+#include "text_buffer.h"
+
+typedef struct study_measure {
+    const char *name;      /* as in the results document */
+    const char *run_error; /* name of a single run's own error of it; NULL: it has none */
+} study_measure;
+extern const study_measure study_measures[];
+enum { STUDY_MEASURES = 14 };
+
+typedef struct study_table {
+    json_t *cases; /* (n) rows, as GET /studies/{id}/results has them; owned */
+    bool failed;   /* no memory, or something in the database that is no JSON */
+} study_table;
+
+bool study_table_init(study_table *table);
+void study_table_clear(study_table *table);
+/* The cases in order, then the runs in order of cases, then once at the end. For the store to call; context: the table
+ * or the summing. */
+study_case_visitor study_table_add_case;
+
+typedef struct study_sums {
+    int64_t count;
+    double mean, squares, run_error; /* squares: sum of (x - mean)^2; run_error: of the last run; NaN: none */
+} study_sums;
+typedef struct study_summing {
+    study_table *table;
+    int64_t index; /* of the case being summed; -1: none yet */
+    int64_t counts[JOB_STATUSES];
+    study_sums sums[STUDY_MEASURES];
+    json_t *regimes; /* {"rolling": 2}: how many runs were so */
+} study_summing;
+
+void study_summing_init(study_summing *summing, study_table *table);
+study_run_visitor study_summing_add_run;
+void study_summing_end(study_summing *summing);
+
+/* One line a case. Columns: case, inputs, labels, counts, regime, then for each measure that any case has its mean and
+ * error. */
+void study_table_write_csv(const study_table *table, text_buffer *out);
+
+#endif
