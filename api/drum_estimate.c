@@ -8,7 +8,7 @@
 #define PARTICLE_STEPS_PER_SECOND 1.5e7
 /* A thread more does not bring all of its speed. */
 #define THREAD_GAIN 0.7
-/* A snapshot: so much for the file's structure, and for each particle after compression. */
+/* A snapshot: so much for the file's structure, and for each sphere after compression. */
 #define SNAPSHOT_FILE_BYTES 30e3
 #define SNAPSHOT_PARTICLE_BYTES 60.0
 /* A frame of measurement: some 16 numbers and the interface's height at steps of d/4, kept in memory. */
@@ -18,7 +18,7 @@
 static double smallest_diameter(const dem_drum_definition *drum)
 {
     double diameter = NAN;
-    for (size_t s = 0; s < drum->species_count; s++) diameter = fmin(diameter, drum->species[s].diameter);
+    for (size_t s = 0; s < drum->species_count; s++) diameter = fmin(diameter, dem_species_diameter(&drum->species[s]));
     return diameter;
 }
 
@@ -28,11 +28,19 @@ static double lining_spheres(const dem_drum_definition *drum)
     return DEM_PI * drum->diameter * drum->length / (drum->lining.pitch * drum->lining.pitch);
 }
 
+double drum_spheres_a_particle(const dem_drum_definition *drum)
+{
+    double mean = 0.0;
+    for (size_t s = 0; s < drum->species_count; s++)
+        mean += drum->species[s].share * fmax(1.0, (double)drum->species[s].cluster.sphere_count);
+    return mean;
+}
+
 job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_second)
 {
     const dem_drum_definition *drum = &spec->drum;
     const double speed = particle_steps_per_second > 0.0 ? particle_steps_per_second : PARTICLE_STEPS_PER_SECOND;
-    const double particles = (double)drum->particle_count;
+    const double particles = (double)drum->particle_count, spheres = particles * drum_spheres_a_particle(drum);
     const double frame_bytes = sizeof(double)
         * (FRAME_NUMBERS + FRAME_NUMBERS_PER_DIAMETER * drum->diameter / smallest_diameter(drum));
 
@@ -44,9 +52,9 @@ job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_secon
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
-    estimate.wall_seconds = particles * estimate.steps / (speed * (1.0 + THREAD_GAIN * (drum->threads - 1)));
-    estimate.memory_bytes = dem_memory_estimate(particles + lining_spheres(drum))
+    estimate.wall_seconds = spheres * estimate.steps / (speed * (1.0 + THREAD_GAIN * (drum->threads - 1)));
+    estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum))
                           + frame_bytes * spec->duration / spec->sample_interval;
-    estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * particles);
+    estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;
 }

@@ -4,12 +4,13 @@
 #include "drum_process.h"
 
 static const char *const ends_choices[] = {"periodic", NULL};
-static const char *const shape_choices[] = {"sphere", NULL};
+static const char *const shape_choices[] = {"sphere", "dumbbell", "tetrahedron", "cube", NULL}; /* as dem_shape counts them */
 /* in the order of dem_contact_law */
 static const char *const law_choices[] = {"walton-braun", "spring-dashpot", "hertz-mindlin", NULL};
 
 #define AT(member) .offset = offsetof(drum_inputs, member)
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
+#define AT_SPHERE(member) .offset = offsetof(dem_cluster_sphere, member)
 #define RANGE(low, high) .minimum = (low), .maximum = (high)
 #define OPEN_RANGE(low, high) .minimum = (low), .minimum_open = true, .maximum = (high)
 
@@ -27,10 +28,20 @@ static const spec_field fields[] = {
     {SPEC_INPUTS, "particles", FIELD_LIST, SPEC_PARTICLES, .required = true, RANGE(1, DEM_MAXIMUM_SPECIES),
      AT(species), .count_offset = offsetof(drum_inputs, species_count), .entry_size = sizeof(species_inputs),
      .meaning = "the kinds of particles"},
-    {SPEC_PARTICLES, "shape", FIELD_CHOICE, .unit = "", .choices = shape_choices, AT_SPECIES(shape),
-     .meaning = "shape of a particle"},
-    {SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN,
-     AT_SPECIES(diameter), .meaning = "diameter of the sphere"},
+    {SPEC_PARTICLES, "shape", FIELD_CHOICE_OR_OBJECT, SPEC_SHAPE, .unit = "", .choices = shape_choices, AT_SPECIES(shape),
+     .meaning = "shape of a particle: a sphere, or a rigid cluster of 2, 4 or 8 touching spheres, or of spheres placed one "
+                "by one, which must touch or overlap"},
+    {SPEC_SHAPE, "spheres", FIELD_LIST, SPEC_SPHERES, .required = true, RANGE(1, DEM_MAXIMUM_CLUSTER), AT_SPECIES(sphere),
+     .count_offset = offsetof(species_inputs, sphere_count), .entry_size = sizeof(dem_cluster_sphere),
+     .meaning = "the spheres of a cluster"},
+    {SPEC_SPHERES, "position", FIELD_PLACE, .required = true, .unit = "m", RANGE(-1.0, 1.0), .fallback = NAN, AT_SPHERE(position),
+     .meaning = "centre of the sphere, in any frame of the cluster's own"},
+    {SPEC_SPHERES, "diameter", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SPHERE(diameter),
+     .meaning = "diameter of this sphere. Default: the particle's diameter"},
+    {SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .spared_by = "shape", .unit = "m", RANGE(1e-5, 1.0),
+     .fallback = NAN, AT_SPECIES(diameter),
+     .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a "
+                "cluster has its own"},
     {SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0,
      AT_SPECIES(density), .meaning = "density of the particle itself, not of the bed"},
     {SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share),

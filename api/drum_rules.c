@@ -4,6 +4,7 @@
  * is reported once. */
 #include <math.h>
 
+#include "dem_cluster.h"
 #include "dem_rules.h"
 #include "drum_process.h"
 
@@ -23,24 +24,20 @@
 #define LEAST_LENGTH_DIAMETERS 3.0 /* below, a particle would feel its own periodic image */
 #define MOST_OVERLAP 0.25         /* of the smallest diameter: beyond half a radius a run is stopped */
 
-static double of_species(const drum_inputs *inputs, double (*number)(const species_inputs *), bool largest)
+static double of_species(const dem_drum_definition *drum, double (*number)(const dem_species *), bool largest)
 {
     double found = NAN;
-    for (size_t s = 0; s < inputs->species_count; s++) {
-        const double value = number(&inputs->species[s]);
+    for (size_t s = 0; s < drum->species_count; s++) {
+        const double value = number(&drum->species[s]);
         found = largest ? fmax(found, value) : fmin(found, value); /* fmax and fmin pass over NaN */
     }
     return found;
 }
 
-static double species_diameter(const species_inputs *species)
+/* Of the sphere that holds a particle. */
+static double species_width(const dem_species *species)
 {
-    return species->diameter;
-}
-
-static double species_mass(const species_inputs *species)
-{
-    return dem_sphere_mass(species->diameter, species->density);
+    return 2.0 * dem_species_reach(species);
 }
 
 static void share_out(drum_inputs *inputs, problem_list *problems)
@@ -73,10 +70,11 @@ static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_
     }
 }
 
-static void check_sizes(const drum_inputs *inputs, problem_list *problems)
+static void check_sizes(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
 {
-    const double largest = of_species(inputs, species_diameter, true);
-    const double smallest = of_species(inputs, species_diameter, false);
+    const double largest = of_species(drum, species_width, true);
+    const double largest_sphere = of_species(drum, dem_species_largest_sphere, true);
+    const double smallest_sphere = of_species(drum, dem_species_smallest_sphere, false);
     if (inputs->drum_diameter < LEAST_DRUM_DIAMETERS * largest)
         problem_list_add(problems, "/inputs/drum/diameter", "is %g m; must be at least %g m, %g of the largest "
                          "particle diameter", inputs->drum_diameter, LEAST_DRUM_DIAMETERS * largest,
@@ -86,9 +84,9 @@ static void check_sizes(const drum_inputs *inputs, problem_list *problems)
         problem_list_add(problems, "/inputs/drum/length", "is %g m; must be at least %g m, %g of the largest "
                          "particle diameter", inputs->drum_length, LEAST_LENGTH_DIAMETERS * largest,
                          LEAST_LENGTH_DIAMETERS);
-    if (largest > MOST_SIZE_RATIO * smallest)
+    if (largest_sphere > MOST_SIZE_RATIO * smallest_sphere)
         problem_list_add(problems, "/inputs/particles", "have diameters from %g m to %g m; the largest must be at "
-                         "most %g of the smallest", smallest, largest, MOST_SIZE_RATIO);
+                         "most %g of the smallest", smallest_sphere, largest_sphere, MOST_SIZE_RATIO);
 }
 
 static void check_lining(const drum_inputs *inputs, problem_list *problems)
@@ -110,18 +108,20 @@ static void check_lining(const drum_inputs *inputs, problem_list *problems)
                          "allowed", inputs->lining_pitch, spheres, MOST_PARTICLES);
 }
 
-static void derive_species(const drum_inputs *inputs, dem_drum_definition *drum)
+static void derive_species(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     double sum = 0.0;
     for (size_t s = 0; s < inputs->species_count; s++) sum += inputs->species[s].share;
     drum->species_count = inputs->species_count;
     for (size_t s = 0; s < inputs->species_count; s++) {
-        const species_inputs *species = &inputs->species[s];
-        drum->species[s] = (dem_species){species->diameter, species->density, species->share / sum};
+        species_inputs *species = &inputs->species[s];
+        drum->species[s] = (dem_species){.diameter = species->diameter, .density = species->density, .share = species->share / sum};
+        if (isnan(species->shape)) drum->species[s].diameter = NAN; /* refused */
+        else if (species->shape != DEM_SPHERE) drum_cluster_derive(species, s, &drum->species[s].cluster, problems);
     }
     if (drum->species_count == 0) { /* a refused list: not a number, so that nothing is said of what follows from it */
         drum->species_count = 1;
-        drum->species[0] = (dem_species){NAN, NAN, NAN};
+        drum->species[0] = (dem_species){.diameter = NAN, .density = NAN, .share = NAN};
     }
 }
 
@@ -143,13 +143,17 @@ static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition
             problem_list_add(problems, "/inputs/fill_fraction", "is %g, which makes %.3g particles; must make 8 to "
                              "%.0f", inputs->fill_fraction, count, MOST_PARTICLES);
     }
+    const double spheres = count * drum_spheres_a_particle(drum);
+    if (count <= MOST_PARTICLES && spheres > MOST_PARTICLES)
+        problem_list_add(problems, isnan(inputs->particle_count) ? "/inputs/fill_fraction" : "/inputs/particle_count",
+                         "makes %.3g spheres; must make at most %.0f", spheres, MOST_PARTICLES);
     drum->particle_count = count >= 0.0 && count <= MOST_PARTICLES ? (size_t)count : 0;
 }
 
 /* What stiffness is chosen for: the heaviest particle at the speed at which it meets the wall. */
 typedef struct collision {
-    double heaviest, lightest; /* kg */
-    double smallest, largest;  /* m, diameters */
+    double heaviest, lightest; /* kg; the lightest that a contact can move */
+    double smallest, largest;  /* m, diameters of spheres, also those of clusters */
     double speed;              /* m/s */
 } collision;
 
@@ -188,9 +192,10 @@ static void derive_hertzian(const drum_inputs *inputs, const collision *worst, d
 static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     const dem_contact_law law = (dem_contact_law)inputs->contact_law;
-    collision worst = {of_species(inputs, species_mass, true), of_species(inputs, species_mass, false),
-                       of_species(inputs, species_diameter, false), of_species(inputs, species_diameter, true), 0.0};
-    worst.speed = dem_impact_speed(drum->diameter, worst.largest, drum->gravity, inputs->friction, drum->rotation_rate);
+    collision worst = {of_species(drum, dem_species_mass, true), of_species(drum, dem_species_contact_mass, false),
+                       of_species(drum, dem_species_smallest_sphere, false), of_species(drum, dem_species_largest_sphere, true), 0.0};
+    worst.speed = dem_impact_speed(drum->diameter, of_species(drum, dem_species_diameter, true), drum->gravity, inputs->friction,
+                                   drum->rotation_rate);
     drum->contact = (dem_contact_parameters){
         .law = law,
         .restitution = inputs->restitution,
@@ -207,7 +212,7 @@ static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum,
     (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, drum, problems);
 }
 
-static void derive_drum(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     *drum = (dem_drum_definition){
         .diameter = inputs->drum_diameter,
@@ -218,7 +223,9 @@ static void derive_drum(const drum_inputs *inputs, dem_drum_definition *drum, pr
         .threads = isnan(inputs->threads) ? 1 : (int)inputs->threads,
     };
     if (!isnan(inputs->lining_diameter)) drum->lining = (dem_lining){inputs->lining_diameter, inputs->lining_pitch};
-    derive_species(inputs, drum);
+    derive_species(inputs, drum, problems);
+    check_sizes(inputs, drum, problems);
+    check_lining(inputs, problems);
     derive_particle_count(inputs, drum, problems);
     derive_contact(inputs, drum, problems);
 }
@@ -259,8 +266,6 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
                                                 : inputs->revolutions * 2.0 * DEM_PI / inputs->rotation_rate;
     share_out(inputs, problems);
     set_dependent_defaults(inputs, spec->duration, seed_if_missing);
-    check_sizes(inputs, problems);
-    check_lining(inputs, problems);
     derive_drum(inputs, &spec->drum, problems);
     spec->maximum_overlap = isnan(inputs->maximum_overlap) ? 0.0 : inputs->maximum_overlap;
     spec->sample_interval = inputs->sample_interval;

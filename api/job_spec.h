@@ -17,8 +17,10 @@
 /* The inputs as asked for, with defaults. All are doubles so that one table of fields can read, write and
  * describe them; NaN: not given, because its alternative was (or, for the lining, because there is none). */
 typedef struct species_inputs {
-    double shape; /* index into the choices of the table */
+    double shape; /* index into the choices of the table; the one behind the last: the spheres below */
     double diameter, density, share;
+    size_t sphere_count;
+    dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
 } species_inputs;
 
 typedef struct drum_inputs {

@@ -39,6 +39,12 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
     case FIELD_CHOICE:
         schema = choice_schema(field);
         break;
+    case FIELD_PLACE:
+        schema = json_pack("{s:s, s:i, s:i, s:o}", "type", "array", "minItems", 3, "maxItems", 3, "items", number_schema(field));
+        break;
+    case FIELD_CHOICE_OR_OBJECT:
+        schema = json_pack("{s:[o, o]}", "oneOf", choice_schema(field), group_schema(table, field->child));
+        break;
     case FIELD_LIST:
         schema = json_pack("{s:s, s:I, s:I, s:o}", "type", "array", "minItems", (json_int_t)field->minimum, "maxItems",
                            (json_int_t)field->maximum, "items", group_schema(table, field->child));
@@ -68,7 +74,7 @@ static json_t *group_schema(const spec_table *table, spec_group group)
         const spec_field *field = &table->field[f];
         if (field->group != group) continue;
         json_object_set_new(properties, field->name, field_schema(table, field));
-        if (field->required) json_array_append_new(required, json_string(field->name));
+        if (field->required && !field->spared_by) json_array_append_new(required, json_string(field->name));
         if (field->excludes && !isnan(field->fallback)) json_array_append_new(exclusions, exclusion(field, field->excludes));
         if (field->excludes_too) json_array_append_new(exclusions, exclusion(field, field->excludes_too));
     }

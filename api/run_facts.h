@@ -4,7 +4,7 @@
 
 /* How the run went; NaN where unknown. Counts are doubles, as in the inputs: all fit exactly. */
 typedef struct run_facts {
-    double particles, steps, time_step; /* steps: since creation, settling included; s */
+    double particles, spheres, steps, time_step; /* steps: since creation, settling included; s */
     double simulated_seconds;           /* s of rotation */
     double settling_seconds;            /* s simulated before rotation began */
     double wall_seconds;                /* s, of all attempts */

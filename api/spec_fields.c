@@ -62,7 +62,7 @@ void spec_field_path(const spec_table *table, const spec_field *field, char *pat
     path[0] = '\0';
     if (field->group != SPEC_INPUTS)
         for (size_t f = 0; f < table->count; f++)
-            if (table->field[f].kind >= FIELD_OBJECT && table->field[f].child == field->group)
+            if (table->field[f].kind >= FIELD_CHOICE_OR_OBJECT && table->field[f].child == field->group)
                 spec_field_path(table, &table->field[f], path, size);
     const size_t length = strlen(path);
     snprintf(path + length, size - length, "%s%s", length ? "/" : "", field->name);

@@ -89,6 +89,8 @@ static double read_choice(const spec_field *field, const json_t *value, const ch
         const size_t length = strlen(available);
         snprintf(available + length, sizeof available - length, "%s\"%s\"", c ? ", " : "", field->choices[c]);
     }
+    if (field->kind == FIELD_CHOICE_OR_OBJECT)
+        snprintf(available + strlen(available), sizeof available - strlen(available), ", or an object");
     problem_list_add(problems, pointer, "is %s; available: %s", seen, available);
     return NAN;
 }
@@ -197,12 +199,44 @@ static double read_scalar(const spec_field *field, const json_t *object, const c
     }
     if (value && field->kind == FIELD_CHOICE) return read_choice(field, value, pointer, problems);
     if (value) return read_number(field, value, pointer, problems);
-    if (field->required) {
+    if (field->required && !(field->spared_by && json_is_object(json_object_get(object, field->spared_by)))) {
         char range[120];
         range_text(field, range, sizeof range);
         problem_list_add(problems, pointer, "is missing; must be a number in %s", range);
     }
     return excluded ? NAN : field->fallback;
+}
+
+/* Three numbers of the field's range. */
+static void read_place(const spec_field *field, const json_t *value, const char *pointer, double place[3], problem_list *problems)
+{
+    char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
+    range_text(field, range, sizeof range);
+    for (int c = 0; c < 3; c++) place[c] = NAN;
+    if (json_array_size(value) != 3) {
+        json_value_text(value, seen, sizeof seen);
+        problem_list_add(problems, pointer, "is %s; must be a list of three numbers, each in %s", value ? seen : "missing", range);
+        return;
+    }
+    for (size_t c = 0; c < 3; c++) {
+        snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
+        place[c] = read_number(field, json_array_get(value, c), entry, problems);
+    }
+}
+
+static void read_choice_or_object(const spec_table *table, const spec_field *field, const json_t *value, const char *pointer,
+                                  char *place, problem_list *problems)
+{
+    double *choice = (double *)(place + field->offset);
+    *choice = field->fallback;
+    if (json_is_object(value)) {
+        size_t words = 0;
+        while (field->choices[words]) words++;
+        *choice = (double)words;
+        read_group(table, field->child, value, pointer, place, problems);
+    } else if (value) {
+        *choice = read_choice(field, value, pointer, problems);
+    }
 }
 
 static void read_group(const spec_table *table, spec_group group, const json_t *object, const char *pointer, char *place,
@@ -219,6 +253,10 @@ static void read_group(const spec_table *table, spec_group group, const json_t *
                              field->kind == FIELD_LIST ? "a list of objects" : "an object");
         } else if (field->kind == FIELD_LIST) {
             read_list(table, field, value, member, place, problems);
+        } else if (field->kind == FIELD_PLACE) {
+            read_place(field, value, member, (double *)(place + field->offset), problems);
+        } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {
+            read_choice_or_object(table, field, value, member, place, problems);
         } else if (field->kind >= FIELD_OBJECT) {
             read_object(table, field, value, member, place, problems);
         } else {
@@ -233,6 +271,7 @@ static void set_nothing_given(const spec_table *table, spec_group group, char *p
     for (size_t f = 0; f < table->count; f++) {
         const spec_field *field = &table->field[f];
         if (field->group != group) continue;
+        if (field->kind == FIELD_CHOICE_OR_OBJECT) set_nothing_given(table, field->child, place);
         if (field->kind < FIELD_OBJECT) *(double *)(place + field->offset) = NAN;
         else if (field->kind < FIELD_LIST) set_nothing_given(table, field->child, place);
         else {

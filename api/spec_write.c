@@ -42,7 +42,13 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
         const spec_field *field = &table->field[f];
         if (field->group != group) continue;
         json_t *member;
-        if (field->kind >= FIELD_OBJECT) {
+        if (field->kind == FIELD_PLACE) {
+            const double *x = (const double *)(place + field->offset);
+            member = json_pack("[f, f, f]", x[0], x[1], x[2]);
+        } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {
+            const char *word = field->choices[(size_t) * (const double *)(place + field->offset)];
+            member = word ? json_string(word) : write_group(table, field->child, place);
+        } else if (field->kind >= FIELD_OBJECT) {
             member = write_member(table, field, place);
         } else {
             const double value = *(const double *)(place + field->offset);

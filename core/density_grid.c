@@ -33,25 +33,56 @@ static double kernel_value(double r, double radius, double spread)
     return sum / (RINGS * SPOKES);
 }
 
+/* over: m, the length along the axis that the volume is spread over. */
+static void kernel_fill(density_grid *grid, size_t kernel, double diameter, double over, double spread)
+{
+    for (int p = 0; p < KERNEL_POINTS; p++)
+        grid->kernel[kernel * KERNEL_POINTS + (size_t)p]
+            = kernel_value(grid->reach * p / (KERNEL_POINTS - 1), 0.5 * diameter, spread) / over;
+}
+
+/* One kernel for each diameter that a species' spheres have. Spheres that overlap in a cluster count for less, so that
+ * together they have its volume. Returns how many kernels are in use then. */
+static size_t species_kernels(density_grid *grid, const dem_drum_definition *definition, size_t k, size_t used, double spread)
+{
+    const dem_species *species = &definition->species[k];
+    const dem_cluster *cluster = &species->cluster;
+    int32_t *of = grid->kernel_of + k * DEM_MAXIMUM_CLUSTER;
+    if (cluster->sphere_count == 0) {
+        kernel_fill(grid, used, species->diameter, definition->length, spread);
+        of[0] = (int32_t)used;
+        return used + 1;
+    }
+    double volume = 0.0;
+    for (size_t m = 0; m < cluster->sphere_count; m++) volume += dem_sphere_mass(cluster->sphere[m].diameter, 1.0);
+    for (size_t m = 0; m < cluster->sphere_count; m++) {
+        size_t like = 0;
+        while (cluster->sphere[like].diameter != cluster->sphere[m].diameter) like++;
+        of[m] = like < m ? of[like] : (int32_t)used;
+        if (like == m) kernel_fill(grid, used++, cluster->sphere[m].diameter, definition->length * volume / cluster->volume, spread);
+    }
+    return used;
+}
+
 dem_status density_grid_init(density_grid *grid, const dem_scene *scene)
 {
     const dem_drum_definition *definition = &scene->definition;
     const double spread = mean_diameter(scene);
+    size_t most = definition->species_count;
+    for (size_t k = 0; k < definition->species_count; k++) most += definition->species[k].cluster.sphere_count;
     memset(grid, 0, sizeof *grid);
     grid->cells = density_grid_cells(scene);
     grid->size = definition->diameter / grid->cells;
     grid->reach = 0.5 * (scene->spheres.largest_diameter + spread);
     grid->value = array_create((size_t)grid->cells * (size_t)grid->cells, sizeof *grid->value);
-    grid->kernel = array_create(definition->species_count * KERNEL_POINTS, sizeof *grid->kernel);
-    if (!grid->value || !grid->kernel) {
+    grid->kernel = array_create(most * KERNEL_POINTS, sizeof *grid->kernel);
+    grid->kernel_of = array_create(definition->species_count * DEM_MAXIMUM_CLUSTER, sizeof *grid->kernel_of);
+    if (!grid->value || !grid->kernel || !grid->kernel_of) {
         density_grid_clear(grid);
         return DEM_NO_MEMORY;
     }
-    for (size_t k = 0; k < definition->species_count; k++)
-        for (int p = 0; p < KERNEL_POINTS; p++)
-            grid->kernel[k * KERNEL_POINTS + (size_t)p]
-                = kernel_value(grid->reach * p / (KERNEL_POINTS - 1), 0.5 * definition->species[k].diameter, spread)
-                / definition->length;
+    size_t used = 0;
+    for (size_t k = 0; k < definition->species_count; k++) used = species_kernels(grid, definition, k, used, spread);
     return DEM_OK;
 }
 
@@ -59,6 +90,7 @@ void density_grid_clear(density_grid *grid)
 {
     free(grid->value);
     free(grid->kernel);
+    free(grid->kernel_of);
     memset(grid, 0, sizeof *grid);
 }
 
@@ -109,7 +141,9 @@ void density_grid_deposit(density_grid *grid, const dem_scene *scene, double tur
     memset(grid->value, 0, (size_t)grid->cells * (size_t)grid->cells * sizeof *grid->value);
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = s->row[i].x;
-        deposit_one(grid, c * x[0] + sine * x[1], c * x[1] - sine * x[0], grid->kernel + s->species[i] * KERNEL_POINTS);
+        const size_t of_body = i < s->single_count ? 0 : i - (size_t)s->clusters.body[particle_of_sphere(s, i) - s->single_count].first_sphere;
+        const int32_t kernel = grid->kernel_of[(size_t)s->species[i] * DEM_MAXIMUM_CLUSTER + of_body];
+        deposit_one(grid, c * x[0] + sine * x[1], c * x[1] - sine * x[0], grid->kernel + kernel * KERNEL_POINTS);
     }
     grid->core = core_value(grid);
 }

@@ -10,14 +10,15 @@ typedef struct density_grid {
     double turned;     /* rad: column axis s = x cos + y sin, height axis h = -x sin + y cos */
     double core;       /* solid fraction of the bed's core: median over cells above half of the densest */
     float *value;      /* (cells, cells): columns in s, then h upwards */
-    double *kernel;    /* (species, KERNEL_POINTS) */
+    double *kernel;    /* (kernels, KERNEL_POINTS) */
+    int32_t *kernel_of; /* (species, DEM_MAXIMUM_CLUSTER) of each sphere of a cluster; of a sphere, the first */
     double reach;      /* m, of the widest kernel */
 } density_grid;
 
 /* Cells of a quarter of the mean diameter. Errors: DEM_NO_MEMORY. */
 dem_status density_grid_init(density_grid *grid, const dem_scene *scene);
 void density_grid_clear(density_grid *grid);
-/* Each sphere's volume projected along the axis and spread over one mean diameter. */
+/* Each sphere's volume (of a cluster's: its share of the cluster's volume) projected along the axis and spread over one mean diameter. */
 void density_grid_deposit(density_grid *grid, const dem_scene *scene, double turned);
 /* Per column: the height where the solid fraction falls, from the bed up, through half the core's; NaN: no bed
  * there. heights: (cells) m. */

@@ -1,11 +1,16 @@
 #include "failure.h"
 
+/* what: its particles are spheres; the failure that is kept has the particles that these are, or are a part of. */
 static dem_status fail(dem_scene *scene, const dem_failure *what)
 {
     scene->failure = *what;
     scene->failure.step = scene->step_count;
     scene->failure.time = dem_scene_time(scene);
-    if (what->particle >= 0) memcpy(scene->failure.position, scene->spheres.row[what->particle].x, 3 * sizeof(double));
+    if (what->particle >= 0) {
+        memcpy(scene->failure.position, scene->spheres.row[what->particle].x, 3 * sizeof(double));
+        scene->failure.particle = (int64_t)particle_of_sphere(&scene->spheres, (size_t)what->particle);
+    }
+    if (what->other >= 0) scene->failure.other = (int64_t)particle_of_sphere(&scene->spheres, (size_t)what->other);
     return what->status;
 }
 

@@ -7,32 +7,58 @@
  * is still quick (it jams at 0.38). */
 static const double REGION_FRACTION = 0.5, PLACING_FRACTION = 0.28;
 
-static void assign_species(spheres *s, const dem_drum_definition *definition)
+/* Spheres by themselves, from id `first` on. */
+static void assign_spheres(spheres *s, const dem_species *species, size_t k, size_t first, size_t count)
 {
-    /* Cumulative rounding: every species within one particle of its share, the total exact. */
-    double share = 0.0;
-    size_t i = 0;
-    for (size_t k = 0; k < definition->species_count; k++) {
-        const dem_species *species = &definition->species[k];
-        share += species->share;
-        const size_t end = k + 1 == definition->species_count ? s->mobile_count
-                                                              : (size_t)floor(share * (double)s->mobile_count + 0.5);
-        for (; i < end; i++) {
-            const double mass = dem_sphere_mass(species->diameter, species->density), r = (double)(real)(0.5 * species->diameter);
-            s->species[i] = (int32_t)k;
-            s->full_radius[i] = r;
-            s->inverse_mass[i] = 1.0 / mass;
-            s->inverse_inertia[i] = 1.0 / (0.4 * mass * r * r);
-        }
-    }
-    s->smallest_diameter = INFINITY;
-    for (i = 0; i < s->mobile_count; i++) {
-        s->smallest_diameter = fmin(s->smallest_diameter, 2 * s->full_radius[i]);
-        s->largest_diameter = fmax(s->largest_diameter, 2 * s->full_radius[i]);
+    const double mass = dem_sphere_mass(species->diameter, species->density), r = (double)(real)(0.5 * species->diameter);
+    for (size_t i = first; i < first + count; i++) {
+        s->species[i] = (int32_t)k;
+        s->full_radius[i] = r;
+        s->inverse_mass[i] = 1.0 / mass;
+        s->inverse_inertia[i] = 1.0 / (0.4 * mass * r * r);
     }
 }
 
-/* Spheres placed so far, in linked cells. */
+/* Clusters from `body` on, their spheres from `sphere` on. */
+static void assign_clusters(spheres *s, const dem_species *species, size_t k, size_t body, size_t sphere, size_t count)
+{
+    const dem_cluster *cluster = &species->cluster;
+    for (size_t b = body; b < body + count; b++) {
+        s->clusters.body[b].species = (int32_t)k;
+        s->clusters.body[b].first_sphere = (int32_t)sphere;
+        for (size_t m = 0; m < cluster->sphere_count; m++, sphere++) {
+            s->species[sphere] = (int32_t)k;
+            s->inverse_mass[sphere] = 1.0 / s->clusters.shape[k].mass;
+            s->full_radius[sphere] = (double)(real)(0.5 * cluster->sphere[m].diameter);
+            s->clusters.of_sphere[sphere - s->single_count] = (int32_t)b;
+        }
+    }
+}
+
+static void assign_species(spheres *s, const dem_drum_definition *definition)
+{
+    size_t single = 0, body = 0, joined = s->single_count;
+    for (size_t k = 0; k < definition->species_count; k++) {
+        const dem_species *species = &definition->species[k];
+        const size_t count = species_particles(definition, k);
+        if (species->cluster.sphere_count == 0) {
+            assign_spheres(s, species, k, single, count);
+            single += count;
+        } else {
+            assign_clusters(s, species, k, body, joined, count);
+            body += count;
+            joined += count * species->cluster.sphere_count;
+        }
+    }
+    s->smallest_diameter = INFINITY;
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        s->smallest_diameter = fmin(s->smallest_diameter, 2 * s->full_radius[i]);
+        s->largest_diameter = fmax(s->largest_diameter, 2 * s->full_radius[i]);
+    }
+    for (size_t p = 0; p < particles_count(s); p++) s->largest_reach = fmax(s->largest_reach, particle_reach(s, p));
+}
+
+/* Particles placed so far, each as the sphere that holds it, in linked cells. */
 typedef struct placing {
     int cells[3];
     double size[3], radius, length;
@@ -59,9 +85,9 @@ static bool is_free(const placing *p, const spheres *s, const double x[3], doubl
             for (int dz = -1; dz <= 1; dz++) {
                 const size_t cell = cell_of(p, cx + dx, cy + dy, (cz + dz + p->cells[2]) % p->cells[2]);
                 for (int32_t j = p->head[cell]; j >= 0; j = p->next[j]) {
-                    const double *o = s->row[j].x;
+                    const double *o = particle_place(s, (size_t)j);
                     const double ex = o[0] - x[0], ey = o[1] - x[1], ez = wrap_axial(o[2] - x[2], p->length, 1 / p->length);
-                    const double reach = radius + scale * s->full_radius[j];
+                    const double reach = radius + scale * particle_reach(s, (size_t)j);
                     if (ex * ex + ey * ey + ez * ez < reach * reach) return false;
                 }
             }
@@ -75,20 +101,54 @@ static void insert(placing *p, const double x[3], int32_t i)
     p->head[cell] = i;
 }
 
-/* One sphere at a random place of the region below `level`; false when many tries found none free. */
-static bool place_one(placing *p, spheres *s, size_t i, double room, double level, double scale, random_stream *random)
+/* One for places, one for orientations: a particle's place does not depend on whether others have an orientation. */
+typedef struct random_streams {
+    random_stream place, turn;
+} random_streams;
+
+/* Evenly over all orientations (Shoemake 1992). */
+static quaternion random_orientation(random_stream *random)
 {
-    const double radius = scale * s->full_radius[i], outer = room - s->full_radius[i];
+    const double u = random_uniform(random), a = 2 * DEM_PI * random_uniform(random), b = 2 * DEM_PI * random_uniform(random);
+    return (quaternion){ sqrt(1 - u) * sin(a), sqrt(1 - u) * cos(a), sqrt(u) * sin(b), sqrt(u) * cos(b) };
+}
+
+/* One particle at a random place of the region below `level`; false when many tries found none free. */
+static bool place_one(placing *p, spheres *s, size_t i, double room, double level, double scale, random_streams *random)
+{
+    const double radius = scale * particle_reach(s, i), outer = room - particle_reach(s, i);
     for (int attempt = 0; attempt < 20000; attempt++) {
-        const double x[3] = { (2 * random_uniform(random) - 1) * outer,
-                              -outer + random_uniform(random) * (outer + fmin(level * room, outer)),
-                              (random_uniform(random) - 0.5) * p->length };
+        const double x[3] = { (2 * random_uniform(&random->place) - 1) * outer,
+                              -outer + random_uniform(&random->place) * (outer + fmin(level * room, outer)),
+                              (random_uniform(&random->place) - 0.5) * p->length };
         if (x[0] * x[0] + x[1] * x[1] > outer * outer || !is_free(p, s, x, radius, scale)) continue;
-        memcpy(s->row[i].x, x, sizeof x);
+        if (i < s->single_count) {
+            memcpy(s->row[i].x, x, sizeof x);
+        } else {
+            cluster_body *body = &s->clusters.body[i - s->single_count];
+            memcpy(body->x, x, sizeof x);
+            body->orientation = random_orientation(&random->turn);
+        }
         insert(p, x, (int32_t)i);
         return true;
     }
     return false;
+}
+
+static void clusters_place_spheres(spheres *s, const container *drum)
+{
+    for (size_t b = 0; b < s->clusters.count; b++) {
+        const cluster_body *body = &s->clusters.body[b];
+        const cluster_shape *shape = &s->clusters.shape[body->species];
+        double a[3][3];
+        quaternion_matrix(body->orientation, a);
+        for (size_t k = 0; k < shape->sphere_count; k++) {
+            const vector4 r = cluster_offset(shape, k, a, s->scale);
+            double *x = s->row[(size_t)body->first_sphere + k].x;
+            for (int c = 0; c < 3; c++) x[c] = body->x[c] + r[c];
+            x[2] = wrap_axial(x[2], drum->length, 1 / drum->length);
+        }
+    }
 }
 
 static dem_status placing_init(placing *p, const spheres *s, const container *drum)
@@ -97,38 +157,45 @@ static dem_status placing_init(placing *p, const spheres *s, const container *dr
     const double side[3] = { 2 * drum->radius, 2 * drum->radius, drum->length };
     size_t cells = 1;
     for (int a = 0; a < 3; a++) {
-        p->cells[a] = (int)fmax(1.0, fmin(512.0, floor(side[a] / s->largest_diameter)));
+        p->cells[a] = (int)fmax(1.0, fmin(512.0, floor(side[a] / (2 * s->largest_reach))));
         p->size[a] = side[a] / p->cells[a];
         cells *= (size_t)p->cells[a];
     }
     p->head = array_create(cells, sizeof *p->head);
-    p->next = array_create(s->mobile_count, sizeof *p->next);
+    p->next = array_create(particles_count(s), sizeof *p->next);
     if (!p->head || !p->next) return DEM_NO_MEMORY;
     for (size_t c = 0; c < cells; c++) p->head[c] = -1;
     return DEM_OK;
 }
 
-/* The large first, since they find room the hardest. Species are contiguous in id. */
+/* The large first, since they find room the hardest. */
 static bool place_all(placing *p, spheres *s, const dem_drum_definition *definition, double room, double level,
-                      double scale, random_stream *random)
+                      double scale, random_streams *random)
 {
     bool placed[DEM_MAXIMUM_SPECIES] = { false };
     for (size_t round = 0; round < definition->species_count; round++) {
         size_t largest = DEM_MAXIMUM_SPECIES;
         for (size_t k = 0; k < definition->species_count; k++)
             if (!placed[k] && (largest == DEM_MAXIMUM_SPECIES
-                               || definition->species[k].diameter > definition->species[largest].diameter)) largest = k;
+                               || dem_species_reach(&definition->species[k]) > dem_species_reach(&definition->species[largest])))
+                largest = k;
         placed[largest] = true;
-        for (size_t i = 0; i < s->mobile_count; i++)
-            if (s->species[i] == (int32_t)largest && !place_one(p, s, i, room, level, scale, random)) return false;
+        for (size_t i = 0; i < particles_count(s); i++)
+            if (particle_species(s, i) == (int32_t)largest && !place_one(p, s, i, room, level, scale, random)) return false;
     }
     return true;
 }
 
-static double total_volume(const spheres *s)
+/* Of the particles themselves, and of the spheres that hold them. */
+static double total_volume(const spheres *s, const dem_drum_definition *definition, double *held)
 {
     double volume = 0.0;
-    for (size_t i = 0; i < s->mobile_count; i++) volume += dem_sphere_mass(2 * s->full_radius[i], 1.0);
+    *held = 0.0;
+    for (size_t p = 0; p < particles_count(s); p++) {
+        const double holding = dem_sphere_mass(2 * particle_reach(s, p), 1.0);
+        *held += holding;
+        volume += p < s->single_count ? holding : definition->species[particle_species(s, p)].cluster.volume;
+    }
     return volume;
 }
 
@@ -137,14 +204,14 @@ static void set_schedule(filling *f, const spheres *s, const dem_drum_definition
 {
     const double fall = sqrt(definition->diameter / definition->gravity);
     const double speed = 0.1 * definition->diameter / fall;
-    const double growing = 4 * (1.001 - f->start_scale) * s->largest_diameter / speed;
+    const double growing = 4 * (1.001 - f->start_scale) * (2 * s->largest_reach) / speed;
     f->growing_steps = (int64_t)ceil(growing / definition->time_step);
     f->growing_drag = 10 / growing;
     f->settling_drag = 4 / fall;
     f->settling_steps_least = (int64_t)ceil(0.5 * fall / definition->time_step);
     f->settling_steps_most = (int64_t)ceil(40 * fall / definition->time_step);
     double mass = 0.0;
-    for (size_t i = 0; i < s->mobile_count; i++) mass += 1 / s->inverse_mass[i];
+    for (size_t p = 0; p < particles_count(s); p++) mass += particle_mass(s, p);
     f->rest_energy = 1e-4 * mass * definition->gravity * s->smallest_diameter;
 }
 
@@ -152,20 +219,22 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
 {
     assign_species(s, definition);
     const double room = drum->inner_radius;
-    const double fraction = total_volume(s) / (DEM_PI * room * room * drum->length);
-    if (room < 1.5 * s->largest_diameter || fraction > 0.62) return DEM_DOES_NOT_FIT;
+    double held;
+    const double volume = total_volume(s, definition, &held), fraction = volume / (DEM_PI * room * room * drum->length);
+    if (room < 3 * s->largest_reach || fraction > 0.62) return DEM_DOES_NOT_FIT;
     const double share = fmin(1.0, fraction / REGION_FRACTION), region_fraction = fmax(REGION_FRACTION, fraction);
     /* at least as high as one sphere needs */
     const double level = share < 1 ? fmax(circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / room - 1)) : 1.0;
 
-    random_stream random;
-    random_seed(&random, definition->seed);
+    random_streams random;
+    random_seed(&random.place, definition->seed);
+    random_seed(&random.turn, ~definition->seed);
     placing p;
     dem_status status = placing_init(&p, s, drum);
     /* A region few diameters across holds fewer: try again with smaller spheres that grow further. */
     double target = PLACING_FRACTION;
     for (bool done = false; status == DEM_OK && !done; target *= 0.7) {
-        f->start_scale = fmin(1.0, cbrt(target / region_fraction));
+        f->start_scale = fmin(1.0, cbrt(target / (region_fraction * (held / volume))));
         done = place_all(&p, s, definition, room, level, f->start_scale, &random);
         if (!done && target < 0.05) status = DEM_DOES_NOT_FIT;
         if (!done) {
@@ -177,6 +246,7 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
     free(p.next);
     if (status != DEM_OK) return status;
     spheres_set_scale(s, f->start_scale);
+    clusters_place_spheres(s, drum);
     set_schedule(f, s, definition);
     return DEM_OK;
 }

@@ -1,5 +1,5 @@
-/* The random start of a bed: spheres placed at random in the lower part of the drum at a share of their size,
- * grown to full size without gravity or friction, then let fall and come to rest. */
+/* The random start of a bed: particles placed and turned at random in the lower part of the drum at a share of their
+ * size, grown to full size without gravity or friction, then let fall and come to rest. */
 #ifndef FILLING_H
 #define FILLING_H
 
@@ -7,7 +7,7 @@
 #include "spheres.h"
 
 typedef struct filling {
-    double start_scale;    /* share of full size at which spheres are placed */
+    double start_scale;    /* share of full size at which particles are placed */
     int64_t growing_steps;
     double growing_drag;   /* 1/s */
     double settling_drag;  /* 1/s */
@@ -15,7 +15,7 @@ typedef struct filling {
     double rest_energy;    /* J: the bed is at rest when its kinetic energy is below */
 } filling;
 
-/* Mass, inertia and species of every sphere, and its place at start_scale.
+/* Mass, inertia and species of every particle, its place and orientation at start_scale.
  * Errors: DEM_DOES_NOT_FIT, DEM_NO_MEMORY. */
 dem_status filling_place(filling *filling, spheres *spheres, const container *drum, const dem_drum_definition *definition);
 /* Share of full size after so many steps of growing. */

@@ -1,4 +1,5 @@
-/* Leap-frog: positions and forces on the step, velocities at the half step (Eqns 1-4 of Walton & Braun 1993). */
+/* Leap-frog: positions and forces on the step, velocities at the half step (Eqns 1-4 of Walton & Braun 1993), and the
+ * rotation of clusters (Eqns 5-23). */
 #ifndef INTEGRATOR_H
 #define INTEGRATOR_H
 
@@ -8,9 +9,10 @@
 typedef struct body_forces {
     double gravity; /* m/s2 along -y */
     double drag;    /* 1/s: velocities and spins decay at this rate; only while a bed is being made */
+    double scale;   /* share of full size that clusters have after the step */
 } body_forces;
 
-/* One step for all mobile spheres. picked_velocity: (mobile) m/s. Returns a bound on |v - picked_velocity| of every
+/* One step for all particles. picked_velocity: (mobile) m/s. Returns a bound on |v - picked_velocity| of every
  * sphere, m/s: from the largest of each component. */
 double integrator_advance(spheres *spheres, const container *drum, const body_forces *body,
                           const vector4 *picked_velocity, double dt, int threads);

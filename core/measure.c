@@ -38,11 +38,23 @@ double frame_window_deviation(const frame_window *window, size_t column)
     return deviation;
 }
 
-static double coordination_number(const int32_t *contacts, size_t count)
+static double coordination_number(const spheres *s, const int32_t *contacts)
 {
     double sum = 0.0;
-    for (size_t i = 0; i < count; i++) sum += contacts[i];
-    return sum / (double)count;
+    for (size_t i = 0; i < s->mobile_count; i++) sum += contacts[i];
+    return sum / (double)particles_count(s);
+}
+
+/* From each sphere's own contacts to those of the particle that it is a part of. */
+static void join_contacts(const spheres *s, int32_t *contacts)
+{
+    for (size_t b = 0; b < s->clusters.count; b++) {
+        const cluster_body *body = &s->clusters.body[b];
+        const size_t first = (size_t)body->first_sphere, end = first + s->clusters.shape[body->species].sphere_count;
+        int32_t sum = 0;
+        for (size_t i = first; i < end; i++) sum += contacts[i];
+        for (size_t i = first; i < end; i++) contacts[i] = sum;
+    }
 }
 
 dem_status dem_frame_measure(dem_scene *scene, double *frame)
@@ -52,10 +64,11 @@ dem_status dem_frame_measure(dem_scene *scene, double *frame)
     if (!contacts) return DEM_NO_MEMORY;
     neighbor_list_count_contacts(&scene->neighbors, &scene->spheres, &scene->drum, contacts);
     frame[FRAME_TIME] = dem_scene_time(scene);
+    frame[FRAME_COORDINATION] = coordination_number(&scene->spheres, contacts);
+    join_contacts(&scene->spheres, contacts);
     const dem_status status = measure_repose_frame(scene, contacts, frame);
     if (status == DEM_OK) {
         measure_regime_frame(scene, contacts, frame);
-        frame[FRAME_COORDINATION] = coordination_number(contacts, n);
         frame[FRAME_KINETIC_ENERGY] = dem_scene_kinetic_energy(scene);
         frame[FRAME_RADIAL_INDEX] = measure_radial_index(scene);
     }

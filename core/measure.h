@@ -22,7 +22,7 @@ double frame_window_mean(const frame_window *window, size_t column);
 double frame_window_deviation(const frame_window *window, size_t column);
 
 /* Angles and interface of the present configuration: frame[FRAME_SURFACE_FIT ... FRAME_SOLID_FRACTION] and the
- * interface behind the scalars. contacts: (mobile). */
+ * interface behind the scalars. contacts: (mobile spheres) of the particle that each is a part of. */
 dem_status measure_repose_frame(const dem_scene *scene, const int32_t *contacts, double *frame);
 dem_status measure_repose_results(const dem_scene *scene, const double *frames, size_t count, size_t width,
                                   dem_repose_result *result, frame_window *window);

@@ -11,9 +11,10 @@ static double degrees(double radians) { return radians * (180 / DEM_PI); }
 static double center_of_mass_angle(const spheres *s)
 {
     double x = 0.0, y = 0.0;
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        x += s->row[i].x[0] / s->inverse_mass[i];
-        y += s->row[i].x[1] / s->inverse_mass[i];
+    for (size_t p = 0; p < particles_count(s); p++) {
+        const double *place = particle_place(s, p), mass = particle_mass(s, p);
+        x += place[0] * mass;
+        y += place[1] * mass;
     }
     return atan2(x, -y);
 }
@@ -64,7 +65,7 @@ static double level_frame(density_grid *grid, const dem_scene *scene, surface_he
     return angle;
 }
 
-/* Tops of columns one diameter wide, of spheres with two contacts or more, in the frame of the surface. */
+/* Tops of columns one diameter wide, of particles with two contacts or more, in the frame of the surface. */
 static double theil_sen_angle(const dem_scene *scene, const int32_t *contacts, double angle, double half_length)
 {
     const spheres *s = &scene->spheres;

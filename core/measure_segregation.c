@@ -1,4 +1,5 @@
 /* Segregation of the species by size: radial, axial, and Lacey's mixing index. */
+#include "dem_rules.h"
 #include "density_grid.h"
 #include "measure.h"
 
@@ -7,8 +8,9 @@ static void size_extremes(const dem_scene *scene, int32_t *smallest, int32_t *la
     const dem_drum_definition *definition = &scene->definition;
     *smallest = *largest = 0;
     for (size_t k = 1; k < definition->species_count; k++) {
-        if (definition->species[k].diameter < definition->species[*smallest].diameter) *smallest = (int32_t)k;
-        if (definition->species[k].diameter > definition->species[*largest].diameter) *largest = (int32_t)k;
+        const double volume = dem_species_volume(&definition->species[k]);
+        if (volume < dem_species_volume(&definition->species[*smallest])) *smallest = (int32_t)k;
+        if (volume > dem_species_volume(&definition->species[*largest])) *largest = (int32_t)k;
     }
     /* Equal sizes (species that differ by density alone): the first against the last. */
     if (*smallest == *largest) *largest = (int32_t)definition->species_count - 1;
@@ -20,10 +22,10 @@ double measure_radial_index(const dem_scene *scene)
     size_extremes(scene, &smallest, &largest);
     if (smallest == largest) return NAN;
     double sum[2] = { 0 }, n[2] = { 0 };
-    for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
-        const int32_t species = scene->spheres.species[i];
+    for (size_t p = 0; p < particles_count(&scene->spheres); p++) {
+        const int32_t species = particle_species(&scene->spheres, p);
         if (species != smallest && species != largest) continue;
-        const double *x = scene->spheres.row[i].x;
+        const double *x = particle_place(&scene->spheres, p);
         sum[species == largest] += hypot(x[0], x[1]);
         n[species == largest] += 1;
     }
@@ -41,10 +43,11 @@ static mixing mixing_over_cells(const int32_t *cell_of, const spheres *s, int32_
     memset(count, 0, cells * sizeof *count);
     memset(of_species, 0, cells * sizeof *of_species);
     double total = 0.0, total_of_species = 0.0;
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        count[cell_of[i]] += 1;
-        of_species[cell_of[i]] += s->species[i] == species;
-        total_of_species += s->species[i] == species;
+    for (size_t p = 0; p < particles_count(s); p++) {
+        const bool of_it = particle_species(s, p) == species;
+        count[cell_of[p]] += 1;
+        of_species[cell_of[p]] += of_it;
+        total_of_species += of_it;
         total += 1;
     }
     mixing m = { .share = total_of_species / total };
@@ -65,12 +68,12 @@ static size_t assign_cells(const dem_scene *scene, bool slices, int32_t *cell_of
 {
     const double side = 3 * mean_diameter(scene), radius = scene->drum.radius, length = scene->drum.length;
     const int across = slices ? 1 : (int)fmax(1, ceil(2 * radius / side)), along = slices ? (int)fmax(1, floor(length / side)) : 1;
-    for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
-        const double *x = scene->spheres.row[i].x;
+    for (size_t p = 0; p < particles_count(&scene->spheres); p++) {
+        const double *x = particle_place(&scene->spheres, p);
         const int a = (int)fmin(across - 1, fmax(0, (x[0] + radius) / (2 * radius) * across));
         const int b = (int)fmin(across - 1, fmax(0, (x[1] + radius) / (2 * radius) * across));
         const int c = (int)fmin(along - 1, fmax(0, (x[2] / length + 0.5) * along));
-        cell_of[i] = (a * across + b) * along + c;
+        cell_of[p] = (a * across + b) * along + c;
     }
     return (size_t)across * (size_t)across * (size_t)along;
 }
@@ -94,7 +97,7 @@ dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_r
     int32_t smallest, largest;
     size_extremes(scene, &smallest, &largest);
     result->radial_index = measure_radial_index(scene);
-    int32_t *cell_of = array_create(scene->spheres.mobile_count, sizeof *cell_of);
+    int32_t *cell_of = array_create(particles_count(&scene->spheres), sizeof *cell_of);
     if (!cell_of) return DEM_NO_MEMORY;
     dem_status status = DEM_OK;
     for (int slices = 0; slices < 2 && status == DEM_OK; slices++) {

@@ -84,8 +84,18 @@ static dem_status part_reserve(pair_part *part, size_t capacity)
     return DEM_OK;
 }
 
+/* Spheres of one cluster never meet: their ids follow each other, so those after i come first. */
+static size_t drop_own_particle(int32_t *found, size_t count, const spheres *s, size_t i)
+{
+    if (i < s->single_count) return count;
+    size_t own = 0;
+    while (own < count && (size_t)found[own] < s->mobile_count && particle_of_sphere(s, (size_t)found[own]) == particle_of_sphere(s, i)) own++;
+    memmove(found, found + own, (count - own) * sizeof *found);
+    return count - own;
+}
+
 /* Spheres after i within the skin of it, ascending, appended to the part. */
-static dem_status append_neighbors(pair_part *part, const cell_grid *grid, size_t i, double skin, size_t *count)
+static dem_status append_neighbors(pair_part *part, const spheres *s, const cell_grid *grid, size_t i, double skin, size_t *count)
 {
     enum { USUAL_ROOM = 64 };
     size_t room = USUAL_ROOM;
@@ -94,7 +104,9 @@ static dem_status append_neighbors(pair_part *part, const cell_grid *grid, size_
         *count = cell_grid_neighbors(grid, i, skin, part->second + part->count, room);
         if (*count <= room) break;
     }
-    sort_ascending(part->second + part->count, *count);
+    int32_t *found = part->second + part->count;
+    sort_ascending(found, *count);
+    *count = drop_own_particle(found, *count, s, i);
     part->count += *count;
     return DEM_OK;
 }
@@ -105,7 +117,7 @@ static dem_status outer_part(neighbor_list *list, const spheres *s, int which, i
     const size_t n = s->mobile_count, from = n * (size_t)which / (size_t)parts, to = n * (size_t)(which + 1) / (size_t)parts;
     list->part[which].count = 0;
     for (size_t i = from; i < to; i++) {
-        const dem_status status = append_neighbors(&list->part[which], &list->grid, i, list->skin, &list->start[i + 1]);
+        const dem_status status = append_neighbors(&list->part[which], s, &list->grid, i, list->skin, &list->start[i + 1]);
         if (status != DEM_OK) return status;
         list->built_at[i] = place_of(&s->row[i]);
     }

@@ -2,6 +2,9 @@
 
 #include <math.h>
 
+#include "dem_cluster.h"
+#include "dem_rules.h"
+
 static bool is_positive(double x) { return isfinite(x) && x > 0; }
 
 /* A modulus may be infinite: rigid; not both. */
@@ -17,7 +20,19 @@ static bool is_law(const dem_contact_parameters *c)
     return false;
 }
 
-dem_status parameters_check(const dem_drum_definition *d)
+/* One body, of spheres each of which adds to it. */
+static bool is_cluster(const dem_cluster *c)
+{
+    int in;
+    bool good = c->sphere_count <= DEM_MAXIMUM_CLUSTER;
+    for (size_t k = 0; good && k < c->sphere_count; k++) {
+        const dem_cluster_sphere *s = &c->sphere[k];
+        good = is_positive(s->diameter) && isfinite(s->position[0]) && isfinite(s->position[1]) && isfinite(s->position[2]);
+    }
+    return good && dem_cluster_loose_sphere(c) < 0 && dem_cluster_hidden_sphere(c, &in) < 0;
+}
+
+static dem_status parameters_check(const dem_drum_definition *d)
 {
     const dem_contact_parameters *c = &d->contact;
     bool good = is_positive(d->diameter) && is_positive(d->length) && isfinite(d->rotation_rate) && is_positive(d->gravity)
@@ -28,13 +43,22 @@ dem_status parameters_check(const dem_drum_definition *d)
     double shares = 0.0, largest = 0.0;
     for (size_t k = 0; good && k < d->species_count; k++) {
         const dem_species *s = &d->species[k];
-        good = is_positive(s->diameter) && is_positive(s->density) && s->share >= 0;
+        good = (s->cluster.sphere_count ? is_positive(s->cluster.volume) : is_positive(s->diameter)) && is_positive(s->density) && s->share >= 0;
         shares += s->share;
-        largest = fmax(largest, s->diameter);
+        largest = fmax(largest, 2 * dem_species_reach(s));
     }
     good = good && fabs(shares - 1) < 1e-6 && largest < 0.5 * d->diameter && d->length > 2 * largest;
     if (good && d->lining.diameter != 0)
         good = is_positive(d->lining.diameter) && is_positive(d->lining.pitch)
             && d->lining.diameter < 0.25 * d->diameter && d->lining.pitch <= d->length;
     return good ? DEM_OK : DEM_BAD_PARAMETER;
+}
+
+dem_status parameters_complete(dem_drum_definition *d)
+{
+    for (size_t k = 0; k < d->species_count && k < DEM_MAXIMUM_SPECIES; k++) {
+        if (!is_cluster(&d->species[k].cluster)) return DEM_BAD_PARAMETER;
+        if (d->species[k].cluster.volume == 0) dem_cluster_complete(&d->species[k].cluster);
+    }
+    return parameters_check(d);
 }

@@ -4,6 +4,7 @@
 
 #include "dem_types.h"
 
-dem_status parameters_check(const dem_drum_definition *definition);
+/* Completes the clusters. Errors: DEM_BAD_PARAMETER. */
+dem_status parameters_complete(dem_drum_definition *definition);
 
 #endif

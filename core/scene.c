@@ -5,11 +5,15 @@
 dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
 {
     *out = NULL;
-    dem_status status = parameters_check(definition);
-    if (status != DEM_OK) return status;
     dem_scene *scene = array_create(1, sizeof *scene);
     if (!scene) return DEM_NO_MEMORY;
     scene->definition = *definition;
+    dem_status status = parameters_complete(&scene->definition);
+    if (status != DEM_OK) {
+        free(scene);
+        return status;
+    }
+    definition = &scene->definition;
     scene->rotation_start = -1;
     container_init(&scene->drum, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
@@ -49,7 +53,9 @@ const dem_failure *dem_scene_failure(const dem_scene *scene) { return &scene->fa
 dem_phase dem_scene_phase(const dem_scene *scene) { return scene->phase; }
 int64_t dem_scene_step_count(const dem_scene *scene) { return scene->step_count; }
 int64_t dem_scene_rotation_start(const dem_scene *scene) { return scene->rotation_start; }
-size_t dem_scene_particle_count(const dem_scene *scene) { return scene->spheres.mobile_count; }
+size_t dem_scene_particle_count(const dem_scene *scene) { return particles_count(&scene->spheres); }
+size_t dem_scene_sphere_count(const dem_scene *scene) { return scene->spheres.mobile_count; }
+bool dem_scene_has_clusters(const dem_scene *scene) { return scene->spheres.clusters.count > 0; }
 double dem_scene_kinetic_energy(const dem_scene *scene) { return spheres_kinetic_energy(&scene->spheres); }
 
 double dem_scene_time(const dem_scene *scene)
@@ -64,6 +70,13 @@ double dem_scene_maximum_overlap(const dem_scene *scene)
     return scene->maximum_overlap / scene->spheres.smallest_diameter;
 }
 
+static void sphere_orientation(const spheres *s, size_t i, double wxyz[4])
+{
+    static const double none[4] = { 1, 0, 0, 0 };
+    if (i < s->single_count) memcpy(wxyz, none, sizeof none);
+    else quaternion_to_wxyz(s->clusters.body[particle_of_sphere(s, i) - s->single_count].orientation, wxyz);
+}
+
 void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arrays)
 {
     const spheres *s = &scene->spheres;
@@ -75,6 +88,8 @@ void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arra
         }
         if (arrays->radius) arrays->radius[i] = (double)s->row[i].radius;
         if (arrays->species) arrays->species[i] = s->species[i];
+        if (arrays->cluster) arrays->cluster[i] = (int32_t)particle_of_sphere(s, i);
+        if (arrays->orientation) sphere_orientation(s, i, arrays->orientation + 4 * i);
     }
     if (arrays->contacts) neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, arrays->contacts);
 }

@@ -4,6 +4,8 @@
 #include "step.h"
 
 enum { STATE_INTEGERS = 4, STATE_NUMBERS = 1, HISTORY_NUMBERS = 5 };
+/* What a cluster's spheres don't tell of it. */
+enum { CLUSTER_PLACE = 0, CLUSTER_VELOCITY = 3, CLUSTER_SPIN = 6, CLUSTER_SPIN_CHANGE = 9, CLUSTER_ORIENTATION = 12, CLUSTER_NUMBERS = 16 };
 
 static void *state_add(dem_state *state, const char *name, dem_element element, size_t rows, size_t columns)
 {
@@ -57,6 +59,23 @@ static bool save_vectors(dem_state *state, const char *name, const vector4 *from
     return to != NULL;
 }
 
+/* A scene of spheres alone has no such array. */
+static bool save_clusters(dem_state *state, const clusters *c)
+{
+    double *numbers = c->count ? state_add(state, "cluster", DEM_FLOAT64, c->count, CLUSTER_NUMBERS) : NULL;
+    for (size_t k = 0; numbers && k < c->count; k++, numbers += CLUSTER_NUMBERS) {
+        const cluster_body *b = &c->body[k];
+        const quaternion q = b->orientation;
+        const double orientation[4] = { q.q1, q.q2, q.q3, q.q4 };
+        memcpy(numbers + CLUSTER_PLACE, b->x, sizeof b->x);
+        memcpy(numbers + CLUSTER_VELOCITY, &b->velocity, 3 * sizeof *numbers);
+        memcpy(numbers + CLUSTER_SPIN, b->spin, sizeof b->spin);
+        memcpy(numbers + CLUSTER_SPIN_CHANGE, b->spin_change, sizeof b->spin_change);
+        memcpy(numbers + CLUSTER_ORIENTATION, orientation, sizeof orientation);
+    }
+    return c->count == 0 || numbers != NULL;
+}
+
 dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
 {
     const spheres *s = &scene->spheres;
@@ -67,6 +86,7 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     double *position = state_add(state, "position", DEM_FLOAT64, n, 3), *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
     if (!integers || !numbers || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
         || !save_vectors(state, "angular_velocity", s->angular_velocity, n)
+        || !save_clusters(state, &s->clusters)
         || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
         || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
         dem_state_clear(state);
@@ -139,6 +159,19 @@ static void restore_spheres(dem_scene *scene, const double *position, const doub
     }
 }
 
+static void restore_clusters(clusters *c, const double *numbers)
+{
+    for (size_t k = 0; k < c->count; k++, numbers += CLUSTER_NUMBERS) {
+        cluster_body *b = &c->body[k];
+        const double *q = numbers + CLUSTER_ORIENTATION;
+        memcpy(b->x, numbers + CLUSTER_PLACE, sizeof b->x);
+        for (int a = 0; a < 3; a++) b->velocity[a] = numbers[CLUSTER_VELOCITY + a];
+        memcpy(b->spin, numbers + CLUSTER_SPIN, sizeof b->spin);
+        memcpy(b->spin_change, numbers + CLUSTER_SPIN_CHANGE, sizeof b->spin_change);
+        b->orientation = (quaternion){ q[0], q[1], q[2], q[3] };
+    }
+}
+
 dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
 {
     const size_t n = scene->spheres.mobile_count;
@@ -150,7 +183,9 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
         vectors[k] = state_find(state, name[k], DEM_FLOAT64, k < 3 ? 3 : 1);
         if (!vectors[k] || vectors[k]->rows != n) return DEM_STATE_MISMATCH;
     }
-    if (!integers || !numbers) return DEM_STATE_MISMATCH;
+    const size_t bodies = scene->spheres.clusters.count;
+    const dem_state_array *of_clusters = state_find(state, "cluster", DEM_FLOAT64, CLUSTER_NUMBERS);
+    if (!integers || !numbers || (bodies > 0 && !of_clusters) || (of_clusters && of_clusters->rows != bodies)) return DEM_STATE_MISMATCH;
     const int64_t *counter = integers->data;
     if (counter[0] < DEM_PHASE_GROWING || counter[0] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
 
@@ -173,6 +208,7 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     scene->phase = (dem_phase)counter[0];
     scene->drum.angle = scene->phase == DEM_PHASE_ROTATING ? scene->definition.rotation_rate * dem_scene_time(scene) : 0.0;
     scene_enter_phase(scene, scene->phase);
+    if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);
     restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);
     return scene_update_neighbors(scene);
 }

@@ -4,12 +4,33 @@
 
 size_t spheres_count(const spheres *s) { return s->mobile_count + s->lining_count; }
 
+static size_t particles_before(const dem_drum_definition *definition, size_t species)
+{
+    double share = 0.0;
+    for (size_t k = 0; k < species; k++) share += definition->species[k].share;
+    return species == definition->species_count ? definition->particle_count
+                                                : (size_t)floor(share * (double)definition->particle_count + 0.5);
+}
+
+size_t species_particles(const dem_drum_definition *definition, size_t species)
+{
+    return particles_before(definition, species + 1) - particles_before(definition, species);
+}
+
 dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_t lining_count)
 {
-    const size_t n = definition->particle_count, all = n + lining_count;
+    size_t singles = 0, bodies = 0, joined = 0;
+    for (size_t k = 0; k < definition->species_count; k++) {
+        const size_t count = species_particles(definition, k), of_each = definition->species[k].cluster.sphere_count;
+        *(of_each ? &bodies : &singles) += count;
+        joined += count * of_each;
+    }
+    const size_t n = singles + joined, all = n + lining_count;
     memset(s, 0, sizeof *s);
     s->mobile_count = n;
+    s->single_count = singles;
     s->lining_count = lining_count;
+    const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->row = array_create(all + 2, sizeof *s->row);
     s->species = array_create(n, sizeof *s->species);
     s->full_radius = array_create(all, sizeof *s->full_radius);
@@ -17,10 +38,10 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->angular_velocity = array_create(n, sizeof *s->angular_velocity);
     s->load = array_create(n, sizeof *s->load);
     s->inverse_mass = array_create(n, sizeof *s->inverse_mass);
-    s->inverse_inertia = array_create(n, sizeof *s->inverse_inertia);
+    s->inverse_inertia = array_create(singles, sizeof *s->inverse_inertia);
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
-    if (!s->row || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity || !s->load
+    if (status != DEM_OK || !s->row || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity || !s->load
         || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
@@ -32,6 +53,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
 
 void spheres_clear(spheres *s)
 {
+    clusters_clear(&s->clusters);
     free(s->row);
     free(s->species);
     free(s->full_radius);
@@ -57,8 +79,8 @@ void spheres_set_scale(spheres *s, double scale)
 
 double spheres_kinetic_energy(const spheres *s)
 {
-    double energy = 0.0;
-    for (size_t i = 0; i < s->mobile_count; i++) {
+    double energy = clusters_kinetic_energy(&s->clusters);
+    for (size_t i = 0; i < s->single_count; i++) {
         const vector4 v = s->velocity[i], w = s->angular_velocity[i];
         energy += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / s->inverse_mass[i]
                 + 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) / s->inverse_inertia[i];

@@ -1,10 +1,10 @@
-/* The spheres of a scene: mobile ones first (index = id), then the lining's, then two that no list names but in its
- * padding: one of zeros at the origin, one of zeros far away. */
+/* The spheres of a scene: mobile ones first, then the lining's, then two that no list names but in its padding: one of
+ * zeros at the origin, one of zeros far away. Of the mobile ones, those that are particles by themselves come first
+ * (index = the particle's id), then the spheres of clusters, cluster after cluster. */
 #ifndef SPHERES_H
 #define SPHERES_H
 
-#include "dem_types.h"
-#include "wide.h"
+#include "cluster.h"
 
 /* What a contact reads of a sphere: one cache line in single precision. wide.h reads rows by this order. */
 typedef struct sphere_row {
@@ -30,17 +30,20 @@ static inline void sphere_row_store(sphere_row *row, vector4 x, vector4 v, vecto
 
 typedef struct spheres {
     size_t mobile_count, lining_count;
+    size_t single_count;       /* of the mobile: particles by themselves */
+    clusters clusters;         /* the bodies that the other mobile spheres make up */
     sphere_row *row;           /* (mobile + lining + 2) */
     int32_t *species;          /* (mobile) */
     double *full_radius;       /* (mobile + lining) m, rounded to real */
     vector4 *velocity;         /* (mobile) m/s at the half step */
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
     row8 *load;                /* (mobile) force N, 0, torque N m about the centre, 0: contacts only */
-    double *inverse_mass;      /* (mobile) 1/kg */
-    double *inverse_inertia;   /* (mobile) 1/(kg m2) */
+    double *inverse_mass;      /* (mobile) 1/kg, of the particle that the sphere is or is a part of */
+    double *inverse_inertia;   /* (single) 1/(kg m2) */
     double *fallen_time;       /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
     vector4 *lining_place;     /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */
+    double largest_reach;      /* m: radius of the smallest sphere that can hold any of the particles */
     double scale;              /* share of full size that the mobile spheres have now */
 } spheres;
 
@@ -49,6 +52,31 @@ void spheres_clear(spheres *spheres);
 size_t spheres_count(const spheres *spheres); /* mobile and lining */
 static inline int32_t sphere_of_zeros(const spheres *s) { return (int32_t)(s->mobile_count + s->lining_count); }
 static inline int32_t sphere_far_away(const spheres *s) { return sphere_of_zeros(s) + 1; }
+/* Particles: spheres by themselves, then clusters. */
+static inline size_t particles_count(const spheres *s) { return s->single_count + s->clusters.count; }
+static inline const double *particle_place(const spheres *s, size_t p) /* (3) m, centre of mass */
+{
+    return p < s->single_count ? s->row[p].x : s->clusters.body[p - s->single_count].x;
+}
+static inline int32_t particle_species(const spheres *s, size_t p)
+{
+    return p < s->single_count ? s->species[p] : s->clusters.body[p - s->single_count].species;
+}
+static inline double particle_mass(const spheres *s, size_t p)
+{
+    return p < s->single_count ? 1 / s->inverse_mass[p] : s->clusters.shape[s->clusters.body[p - s->single_count].species].mass;
+}
+static inline double particle_reach(const spheres *s, size_t p) /* m, at full size */
+{
+    return p < s->single_count ? s->full_radius[p] : s->clusters.shape[particle_species(s, p)].reach;
+}
+static inline size_t particle_of_sphere(const spheres *s, size_t i)
+{
+    return i < s->single_count ? i : s->single_count + (size_t)s->clusters.of_sphere[i - s->single_count];
+}
+
+/* How many particles a species has: shares by number, every species within one of its share, the total exact. */
+size_t species_particles(const dem_drum_definition *definition, size_t species);
 /* Radii of the mobile spheres at `scale` of their full size, in the rows. */
 void spheres_set_scale(spheres *spheres, double scale);
 double spheres_kinetic_energy(const spheres *spheres); /* J */

@@ -1,14 +1,15 @@
 /* The step:
  *     neighbor lists, made again when a displacement asks for it; contact history carried over
  *     forces of contacts between spheres, and with the container
- *     each sphere's sum over its contacts
- *     velocities and positions (Eqns 3, 4)
+ *     each sphere's sum over its contacts, and each cluster's over its spheres
+ *     velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
  *     the container turns; the phase may change
  */
 #include "step.h"
 
 #include "contact_forces.h"
 #include "failure.h"
+#include "filling.h"
 
 dem_status scene_update_neighbors(dem_scene *scene)
 {
@@ -36,12 +37,14 @@ static dem_status step_contacts(dem_scene *scene)
 static body_forces forces_of_phase(const dem_scene *scene)
 {
     switch (scene->phase) {
-    case DEM_PHASE_GROWING: return (body_forces){ .drag = scene->filling.growing_drag };
+    case DEM_PHASE_GROWING:
+        return (body_forces){ .drag = scene->filling.growing_drag,
+                              .scale = filling_scale(&scene->filling, scene->step_count + 1 - scene->phase_start) };
     case DEM_PHASE_SETTLING:
-        return (body_forces){ .gravity = scene->definition.gravity, .drag = scene->filling.settling_drag };
+        return (body_forces){ .gravity = scene->definition.gravity, .drag = scene->filling.settling_drag, .scale = 1 };
     case DEM_PHASE_ROTATING: break;
     }
-    return (body_forces){ .gravity = scene->definition.gravity };
+    return (body_forces){ .gravity = scene->definition.gravity, .scale = 1 };
 }
 
 static void turn_container(dem_scene *scene)

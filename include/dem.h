@@ -25,11 +25,13 @@ dem_phase dem_scene_phase(const dem_scene *scene);
 int64_t dem_scene_step_count(const dem_scene *scene);      /* since creation */
 int64_t dem_scene_rotation_start(const dem_scene *scene);  /* step at which rotation began; -1 before */
 double dem_scene_time(const dem_scene *scene);             /* s since rotation began; negative before: less the time since creation */
-size_t dem_scene_particle_count(const dem_scene *scene);   /* mobile particles, without the lining */
+size_t dem_scene_particle_count(const dem_scene *scene);   /* mobile particles, each sphere or cluster one; without the lining */
+size_t dem_scene_sphere_count(const dem_scene *scene);     /* spheres that these are made of */
+bool dem_scene_has_clusters(const dem_scene *scene);
 double dem_scene_maximum_overlap(const dem_scene *scene);  /* since rotation began, as a share of the smallest diameter */
 double dem_scene_kinetic_energy(const dem_scene *scene);   /* J, translation and rotation */
 
-/* Fill the arrays that are not NULL; each has dem_scene_particle_count rows, ordered by id. */
+/* Fill the arrays that are not NULL; each has dem_scene_sphere_count rows. */
 void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arrays);
 
 /* Save and restore. A scene created from the same definition and restored continues bit for bit.

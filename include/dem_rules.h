@@ -20,11 +20,63 @@ static inline double dem_sphere_mass(double diameter, double density)
     return DEM_PI / 6.0 * diameter * diameter * diameter * density;
 }
 
+/* Of one particle of a species; a cluster's must be complete (dem_cluster.h). */
+static inline double dem_species_volume(const dem_species *s)
+{
+    return s->cluster.sphere_count ? s->cluster.volume : dem_sphere_mass(s->diameter, 1.0);
+}
+
+static inline double dem_species_mass(const dem_species *s)
+{
+    return s->cluster.sphere_count ? s->cluster.volume * s->density : dem_sphere_mass(s->diameter, s->density);
+}
+
+/* Diameter of the sphere of the same volume, m. */
+static inline double dem_species_diameter(const dem_species *s)
+{
+    return s->cluster.sphere_count ? cbrt(6.0 / DEM_PI * s->cluster.volume) : s->diameter;
+}
+
+/* Radius of the sphere about its centre of mass that holds the particle, m. */
+static inline double dem_species_reach(const dem_species *s)
+{
+    return s->cluster.sphere_count ? s->cluster.reach : 0.5 * s->diameter;
+}
+
+/* Diameter of its smallest sphere, m. */
+static inline double dem_species_smallest_sphere(const dem_species *s)
+{
+    double smallest = s->cluster.sphere_count ? INFINITY : s->diameter;
+    for (size_t k = 0; k < s->cluster.sphere_count; k++) smallest = fmin(smallest, s->cluster.sphere[k].diameter);
+    return smallest;
+}
+
+static inline double dem_species_largest_sphere(const dem_species *s)
+{
+    double largest = s->cluster.sphere_count ? 0.0 : s->diameter;
+    for (size_t k = 0; k < s->cluster.sphere_count; k++) largest = fmax(largest, s->cluster.sphere[k].diameter);
+    return largest;
+}
+
+/* The least mass, kg, that a contact can move: a cluster pushed beside its centre also turns,
+ * 1/m + |r|^2/I with r from its centre to the sphere's, which is as long as the arm of the force can be. */
+static inline double dem_species_contact_mass(const dem_species *s)
+{
+    const dem_cluster *c = &s->cluster;
+    if (c->sphere_count == 0) return dem_species_mass(s);
+    double arm2 = 0.0;
+    for (size_t k = 0; k < c->sphere_count; k++) {
+        const double *x = c->sphere[k].position;
+        arm2 = fmax(arm2, x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    }
+    return s->density / (1.0 / c->volume + arm2 / fmin(c->inertia[0], fmin(c->inertia[1], c->inertia[2])));
+}
+
 /* Mean volume of a particle, m3, for shares by number. */
 static inline double dem_mean_volume(const dem_species *species, size_t count)
 {
     double volume = 0.0;
-    for (size_t s = 0; s < count; s++) volume += species[s].share * dem_sphere_mass(species[s].diameter, 1.0);
+    for (size_t s = 0; s < count; s++) volume += species[s].share * dem_species_volume(&species[s]);
     return volume;
 }
 

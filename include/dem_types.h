@@ -10,7 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { DEM_MAXIMUM_SPECIES = 16 };
+enum { DEM_MAXIMUM_SPECIES = 16, DEM_MAXIMUM_CLUSTER = 64 };
 
 typedef enum dem_status {
     DEM_OK = 0,
@@ -25,10 +25,27 @@ typedef enum dem_status {
     DEM_STATE_MISMATCH       /* a saved state does not belong to this definition */
 } dem_status;
 
+typedef struct dem_cluster_sphere {
+    double position[3]; /* m, of the centre, in a frame of the cluster's own */
+    double diameter;    /* m */
+} dem_cluster_sphere;
+
+/* Spheres joined for good: a rigid body of the shape, volume and inertia of their union. */
+typedef struct dem_cluster {
+    size_t sphere_count; /* 0: no cluster, but a sphere of the species' diameter */
+    dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
+    /* What follows from the spheres: filled in by dem_cluster_complete (dem_cluster.h), which also moves the frame to
+     * the centre of mass and turns it to the principal axes. volume 0: not yet done; a scene does it for itself. */
+    double volume;     /* m3 */
+    double inertia[3]; /* m5: principal moments at a density of 1 */
+    double reach;      /* m: radius of the sphere about the centre of mass that holds the cluster */
+} dem_cluster;
+
 typedef struct dem_species {
-    double diameter; /* m */
-    double density;  /* kg/m3 */
-    double share;    /* of the particles by number; shares of all species sum to 1 */
+    double diameter;     /* m; of no meaning for a cluster */
+    double density;      /* kg/m3 */
+    double share;        /* of the particles by number; shares of all species sum to 1 */
+    dem_cluster cluster;
 } dem_species;
 
 /* Equations and sources of each: core/NUMERICS.md. */
@@ -88,21 +105,25 @@ typedef struct dem_failure {
     double time;           /* s since rotation began; negative before */
     int64_t particle;      /* id, -1: none in particular */
     int64_t other;         /* id of the other particle, -1: the wall or none */
-    double position[3];    /* m */
+    double position[3];    /* m, of the sphere in question */
     double value, limit;   /* what was seen and what is allowed, in the unit below */
     const char *quantity;  /* "overlap", "distance from the axis", "velocity", ... */
     const char *unit;
     const char *likely_cause;
 } dem_failure;
 
-/* The particles' state, ordered by id, for snapshots. Arrays belong to the caller. */
+/* The state of all n spheres, for snapshots: spheres that are particles by themselves, then those of clusters, cluster
+ * after cluster. Arrays belong to the caller. */
 typedef struct dem_particle_arrays {
     double *position;         /* (n,3) m, z within [-length/2, length/2) */
     double *velocity;         /* (n,3) m/s, half a step before the positions */
     double *angular_velocity; /* (n,3) rad/s, likewise */
     double *radius;           /* (n) m */
     int32_t *species;         /* (n) index into the definition's species */
-    int32_t *contacts;        /* (n) contacts with other particles, lining and wall */
+    int32_t *contacts;        /* (n) contacts of this sphere with other particles, lining and wall */
+    int32_t *cluster;         /* (n) id of the particle that the sphere is, or is a part of */
+    double *orientation;      /* (n,4) w, x, y, z: turns the particle's own frame into the drum's; 1, 0, 0, 0 for a sphere
+                                 by itself, whose orientation nothing depends on */
 } dem_particle_arrays;
 
 /* Everything a scene needs to go on bit for bit: saved by dem_scene_save, owned by the caller.

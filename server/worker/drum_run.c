@@ -207,16 +207,17 @@ static enum worker_exit run_to_the_end(run *r)
 static run_facts facts_of(const run *r)
 {
     const dem_drum_definition *drum = &r->spec->drum;
-    const double particles = (double)dem_scene_particle_count(r->scene);
+    const double spheres = (double)dem_scene_sphere_count(r->scene);
     const double steps = (double)dem_scene_step_count(r->scene), wall = progress_wall_seconds(&r->progress);
     return (run_facts){
-        .particles = particles,
+        .particles = (double)dem_scene_particle_count(r->scene),
+        .spheres = spheres,
         .steps = steps,
         .time_step = drum->time_step,
         .simulated_seconds = dem_scene_time(r->scene),
         .settling_seconds = (double)dem_scene_rotation_start(r->scene) * drum->time_step,
         .wall_seconds = wall,
-        .particle_steps_per_second = particles * steps / wall,
+        .particle_steps_per_second = spheres * steps / wall,
         .maximum_overlap = dem_scene_maximum_overlap(r->scene),
         .stiffness = drum->contact.stiffness,
         .fill_fraction = drum->fill_fraction,

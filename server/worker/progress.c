@@ -26,7 +26,7 @@ void progress_init(progress *run, const job_spec *spec, const schedule *plan, co
         .started = now,
         .last_report = now,
         .earlier_seconds = earlier_seconds,
-        .particles = (double)dem_scene_particle_count(scene),
+        .spheres = (double)dem_scene_sphere_count(scene),
         .settling_steps_expected = dem_settling_time_estimate(drum->diameter, drum->gravity) / drum->time_step,
         .rotation_steps = (double)plan->rotation_steps,
         .last_step = dem_scene_step_count(scene),
@@ -59,7 +59,7 @@ bool progress_is_due(progress *run, const dem_scene *scene, progress_report *rep
     *report = (progress_report){
         .percent = run->last_percent,
         .eta_seconds = (total - (double)step) / run->steps_per_second,
-        .particle_steps_per_second = run->particles * run->steps_per_second,
+        .particle_steps_per_second = run->spheres * run->steps_per_second,
     };
     return true;
 }
@@ -72,6 +72,6 @@ double progress_wall_seconds(const progress *run)
 int64_t progress_short_run(const progress *run)
 {
     /* A cautious guess until the first report. */
-    const double speed = run->steps_per_second > 0.0 ? run->steps_per_second : 1e6 / fmax(run->particles, 1.0);
+    const double speed = run->steps_per_second > 0.0 ? run->steps_per_second : 1e6 / fmax(run->spheres, 1.0);
     return (int64_t)fmax(1.0, fmin(1e6, speed * SHORT_RUN_SECONDS));
 }

@@ -12,7 +12,7 @@
 typedef struct progress {
     double started, last_report;  /* s, monotonic clock */
     double earlier_seconds;       /* spent by earlier attempts on the way to where this one started */
-    double particles, settling_steps_expected, rotation_steps;
+    double spheres, settling_steps_expected, rotation_steps;
     double steps_per_second;      /* of late; 0: not known yet */
     int64_t last_step;
     double last_percent;          /* never goes back */

@@ -36,7 +36,7 @@ static void add_one(hdf_file *file, const char *path, int64_t number)
     hdf_add_array(file, &(hdf_array){path, H5T_NATIVE_INT64, H5T_STD_I64LE, 1, 0, &number}, HDF_PLAIN);
 }
 
-/* Each particle is a cell of one point. rising, vertices: room for n + 1 and n. */
+/* Each sphere is a cell of one point. rising, vertices: room for n + 1 and n. */
 static void add_cells(hdf_file *file, size_t n, int64_t *rising, uint8_t *vertices)
 {
     for (size_t i = 0; i <= n; i++) rising[i] = (int64_t)i;
@@ -51,10 +51,10 @@ static void add_cells(hdf_file *file, size_t n, int64_t *rising, uint8_t *vertic
     hdf_add_array(file, &(hdf_array){"/VTKHDF/Types", H5T_NATIVE_UINT8, H5T_STD_U8LE, n, 0, vertices}, HDF_COMPRESSED);
 }
 
-/* reals: room for 3 n, used for one field after the other, as is integers with n. */
-static void add_particles(hdf_file *file, const dem_scene *scene, double *reals, int32_t *integers)
+/* reals: room for 4 n, used for one field after the other, as is integers with n. */
+static void add_spheres(hdf_file *file, const dem_scene *scene, double *reals, int32_t *integers)
 {
-    const size_t n = dem_scene_particle_count(scene);
+    const size_t n = dem_scene_sphere_count(scene);
     dem_scene_particles(scene, &(dem_particle_arrays){.position = reals});
     add_reals(file, "/VTKHDF/Points", reals, n, 3);
     dem_scene_particles(scene, &(dem_particle_arrays){.radius = reals});
@@ -73,6 +73,12 @@ static void add_particles(hdf_file *file, const dem_scene *scene, double *reals,
     add_integers(file, "/VTKHDF/PointData/species", integers, n);
     dem_scene_particles(scene, &(dem_particle_arrays){.contacts = integers});
     add_integers(file, "/VTKHDF/PointData/contacts", integers, n);
+    dem_scene_particles(scene, &(dem_particle_arrays){.cluster = integers});
+    add_integers(file, "/VTKHDF/PointData/cluster", integers, n);
+    /* A sphere by itself turns without anything depending on where it points to: it has none. */
+    if (!dem_scene_has_clusters(scene)) return;
+    dem_scene_particles(scene, &(dem_particle_arrays){.orientation = reals});
+    add_reals(file, "/VTKHDF/PointData/orientation", reals, n, 4);
 }
 
 static void add_groups(hdf_file *file, const char *params)
@@ -96,8 +102,8 @@ static bool write_file(const char *name, const dem_scene *scene, const char *par
     hdf_file file;
     hdf_create(&file, name);
     add_groups(&file, params);
-    add_cells(&file, dem_scene_particle_count(scene), rising, vertices);
-    add_particles(&file, scene, reals, integers);
+    add_cells(&file, dem_scene_sphere_count(scene), rising, vertices);
+    add_spheres(&file, scene, reals, integers);
     hdf_add_array(&file, &(hdf_array){"/VTKHDF/FieldData/time", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &time},
                   HDF_PLAIN);
     add_one(&file, "/VTKHDF/FieldData/step", dem_scene_step_count(scene));
@@ -109,8 +115,8 @@ bool snapshot_file_write(const dem_scene *scene, int64_t number, const char *par
 {
     char name[64];
     snprintf(name, sizeof name, JOB_SNAPSHOT_FOLDER "/" JOB_SNAPSHOT_FILE_FORMAT, (long long)number);
-    const size_t n = dem_scene_particle_count(scene);
-    double *reals = malloc(3 * n * sizeof *reals);
+    const size_t n = dem_scene_sphere_count(scene);
+    double *reals = malloc(4 * n * sizeof *reals);
     int64_t *rising = malloc((n + 1) * sizeof *rising);
     int32_t *integers = malloc(n * sizeof *integers);
     uint8_t *vertices = malloc(n);

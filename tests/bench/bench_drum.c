@@ -30,7 +30,7 @@ static dem_drum_definition paper_drum(int argc, char **argv)
 {
     dem_drum_definition d = { .diameter = 0.126, .gravity = 9.81, .fill_fraction = 0.5, .species_count = 1, .seed = 1 };
     d.particle_count = (size_t)argument(argc, argv, 1, 2500);
-    d.species[0] = (dem_species){ argument(argc, argv, 2, 3.78) * 1e-3, 2500, 1.0 };
+    d.species[0] = (dem_species){ .diameter = argument(argc, argv, 2, 3.78) * 1e-3, .density = 2500, .share = 1.0 };
     d.threads = (int)argument(argc, argv, 3, 1);
     d.rotation_rate = argument(argc, argv, 5, DEM_PI / 2);
     const double one = dem_particles_of_fill(d.diameter, 1.0, d.fill_fraction, d.species, 1);

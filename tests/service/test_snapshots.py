@@ -54,7 +54,7 @@ def test_the_grid_has_one_vertex_a_particle(job, last):
 def test_every_field_of_a_particle_is_there_compressed(job, last):
     n = result(job)["run"]["particles"]
     fields = last["VTKHDF/PointData"]
-    assert set(fields) == {"radius", "id", "velocity", "angular_velocity", "species", "contacts", "speed"}
+    assert set(fields) == {"radius", "id", "velocity", "angular_velocity", "species", "contacts", "speed", "cluster"}
     for name, shape in (("radius", (n,)), ("velocity", (n, 3)), ("angular_velocity", (n, 3)), ("speed", (n,))):
         assert fields[name].shape == shape and fields[name].dtype == numpy.float32, name
         assert fields[name].compression == "gzip" and fields[name].shuffle, name

@@ -212,14 +212,79 @@ static void what_is_not_available_yet_is_refused_with_what_is(void **state)
 {
     (void)state;
     expect_problem("drum/ends", "\"walls\"", "/inputs/drum/ends: is \"walls\"; available: \"periodic\"\n");
-    expect_problem("particles/0/shape", "\"cube\"", "/inputs/particles/0/shape: is \"cube\"; available: \"sphere\"\n");
-    expect_problem("particles/0/shape", "{\"spheres\": []}",
-                   "/inputs/particles/0/shape: is an object; available: \"sphere\"\n");
+    expect_problem("particles/0/shape", "\"cone\"", "/inputs/particles/0/shape: is \"cone\"; available: \"sphere\", "
+                   "\"dumbbell\", \"tetrahedron\", \"cube\", or an object\n");
     expect_problem("contact/law", "\"hertz\"", "/inputs/contact/law: is \"hertz\"; available: \"walton-braun\", \"spring-dashpot\", \"hertz-mindlin\"\n");
     char *problems = problems_of(json_pack("{s:s, s:o}", "process", "heap", "inputs",
                                            json_incref(json_object_get(load(minimal), "inputs"))));
     assert_string_equal(problems, "/process: is \"heap\"; was sent to the process \"drum\"\n");
     free(problems);
+}
+
+/* Volume of two touching spheres of 2 mm and 3 mm: 4.19 and 14.14 mm3. */
+static void a_cluster_of_named_or_given_spheres_is_one_particle(void **state)
+{
+    (void)state;
+    static const char *const given = "[{\"shape\": {\"spheres\": [{\"position\": [0, 0, 0], \"diameter\": 0.002},"
+                                     "{\"position\": [0, 0.0025, 0], \"diameter\": 0.003}]}}]";
+    static const char *const by_default = "[{\"diameter\": 0.003, \"shape\": {\"spheres\": [{\"position\": [0, 0, 0], \"diameter\": 0.002},"
+                                          "{\"position\": [0, 0.0025, 0]}]}}]";
+    for (int k = 0; k < 2; k++) {
+        job_spec spec = parse_or_fail(minimal_with("particles", k ? by_default : given));
+        const dem_cluster *cluster = &spec.drum.species[0].cluster;
+        assert_int_equal(cluster->sphere_count, 2);
+        assert_true(fabs(cluster->volume - 3.14159265358979 / 6 * (8e-9 + 27e-9)) < 1e-20);
+        assert_true(fabs(cluster->reach - 0.0025 * 27 / 35 - 0.001) < 1e-12); /* the centre divides the distance 27 : 8 */
+        char *text = job_spec_to_text(&spec);
+        json_t *again = json_loads(text, 0, NULL);
+        job_spec second = parse_or_fail(again);
+        char *text_again = job_spec_to_text(&second);
+        assert_string_equal(text, text_again); /* canonical */
+        assert_memory_equal(&spec.drum, &second.drum, sizeof spec.drum);
+        free(text);
+        free(text_again);
+        job_spec_clear(&spec);
+        job_spec_clear(&second);
+    }
+    /* a fill counts bodies, by their volume; stiffness grows with their mass */
+    job_spec sphere = parse_or_fail(minimal_with("particles", "[{\"diameter\": 0.002}]"));
+    job_spec cube = parse_or_fail(minimal_with("particles", "[{\"diameter\": 0.002, \"shape\": \"cube\"}]"));
+    assert_true(fabs((double)sphere.drum.particle_count / (double)cube.drum.particle_count - 8) < 0.05);
+    assert_true(cube.drum.contact.stiffness > 8 * sphere.drum.contact.stiffness);
+    job_spec_clear(&sphere);
+    job_spec_clear(&cube);
+}
+
+static void a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault(void **state)
+{
+    (void)state;
+    static const struct { const char *spheres, *problem; } bad[] = {
+        { "[{\"position\": [0, 0, 0]}, {\"position\": [0, 0.0051, 0]}]",
+          "/1: is joined to sphere 0 by no chain of touching spheres; a cluster must be one body" },
+        { "[{\"position\": [0, 0, 0]}, {\"position\": [0, 0, 0]}]", "/1: lies within sphere 0; each sphere of a cluster must reach "
+          "beyond every other" },
+        { "[{\"position\": [0, 0.001, 0], \"diameter\": 0.003}, {\"position\": [0, 0, 0]}]",
+          "/0: lies within sphere 1; each sphere of a cluster must reach beyond every other" },
+        { "[{\"position\": [0, 0]}]", "/0/position: is a list; must be a list of three numbers, each in [-1, 1] m" },
+        { "[{\"diameter\": 0.003}]", "/0/position: is missing; must be a list of three numbers, each in [-1, 1] m" },
+        { "[{\"position\": [0, \"x\", 2]}]", "/0/position/1: is \"x\"; must be a number in [-1, 1] m\n"
+          "/inputs/particles/0/shape/spheres/0/position/2: is 2 m; must be in [-1, 1] m" },
+        { "[{\"position\": [0, 0, 0], \"diameter\": 1.5}]", "/0/diameter: is 1.5 m; must be in [1e-05, 1] m" },
+        { "[]", ": has 0 entries; must have 1 to 64" },
+    };
+    for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+        char shape[300], expected[300];
+        snprintf(shape, sizeof shape, "{\"spheres\": %s}", bad[k].spheres);
+        snprintf(expected, sizeof expected, "/inputs/particles/0/shape/spheres%s\n", bad[k].problem);
+        expect_problem("particles/0/shape", shape, expected);
+    }
+    expect_problem("particles", "[{\"shape\": {\"spheres\": [{\"position\": [0, 0, 0]}]}}]",
+                   "/inputs/particles/0/shape/spheres/0: has no diameter; must have one, in m, or the particle must\n");
+    expect_problem("particles", "[{\"shape\": \"cube\"}]", "/inputs/particles/0/diameter: is missing; must be a number in [1e-05, 1] m\n");
+    expect_problem("particles/0/shape", "{}", "/inputs/particles/0/shape/spheres: is missing; must be a list of objects\n");
+    expect_problem("particles/0/shape", "\"tetrahedron\"", "/inputs/drum/diameter: is 0.05 m; must be at least 0.0889898 m, 8 of the "
+                   "largest particle diameter\n/inputs/drum/length: is 0.02 m; must be at least 0.0333712 m, 3 of the largest particle "
+                   "diameter\n");
 }
 
 static void each_law_takes_its_own_elasticity(void **state)
@@ -380,6 +445,8 @@ int main(void)
         cmocka_unit_test(whole_numbers_are_asked_for_where_they_are_needed),
         cmocka_unit_test(unknown_members_are_refused_with_the_nearest_name),
         cmocka_unit_test(what_is_not_available_yet_is_refused_with_what_is),
+        cmocka_unit_test(a_cluster_of_named_or_given_spheres_is_one_particle),
+        cmocka_unit_test(a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault),
         cmocka_unit_test(each_law_takes_its_own_elasticity),
         cmocka_unit_test(one_of_two_alternatives_is_enough_and_both_are_too_much),
         cmocka_unit_test(all_problems_are_listed_at_once),
