@@ -5,6 +5,7 @@
 #include <sys/random.h>
 
 #include "handlers.h"
+#include "json_text.h"
 #include "process_type.h"
 #include "status_info.h"
 
@@ -34,10 +35,14 @@ void show_process(api_service *service, const http_request *request, http_respon
 
 json_t *parse_body(const http_request *request, http_response *response)
 {
-    json_error_t error;
-    json_t *document = json_loadb(request->body ? request->body : "", request->body_length, JSON_REJECT_DUPLICATES, &error);
-    if (!document)
-        http_respond_problem(response, 400, NULL, "Not JSON", "line %d, column %d: %s", error.line, error.column, error.text);
+    problem_list problems;
+    if (!problem_list_init(&problems)) {
+        http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
+        return NULL;
+    }
+    json_t *document = json_text_load(request->body ? request->body : "", request->body_length, &problems);
+    if (!document) http_respond_json(response, 400, problem_json(400, "about:blank", "Not JSON", "the body can't be read", &problems));
+    problem_list_clear(&problems);
     return document;
 }
 

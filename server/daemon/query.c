@@ -76,6 +76,16 @@ static int is_past(void *deadline)
     return monotonic_seconds() > *(const double *)deadline;
 }
 
+/* Spaces, semicolons and comments after a statement are none. */
+static bool holds_statement(sqlite3 *database, const char *sql)
+{
+    sqlite3_stmt *statement = NULL;
+    int code = SQLITE_OK;
+    while (*sql && !statement && code == SQLITE_OK) code = sqlite3_prepare_v2(database, sql, -1, &statement, &sql);
+    sqlite3_finalize(statement);
+    return statement || code != SQLITE_OK;
+}
+
 static sqlite3_stmt *prepare_one(sqlite3 *database, const char *sql, char *problem, size_t size)
 {
     sqlite3_stmt *statement = NULL;
@@ -84,7 +94,7 @@ static sqlite3_stmt *prepare_one(sqlite3 *database, const char *sql, char *probl
     if (code == SQLITE_OK) tail += strspn(tail, " \t\r\n;");
     if (code != SQLITE_OK) snprintf(problem, size, "%s", sqlite3_errmsg(database));
     else if (!statement) snprintf(problem, size, "the query is empty");
-    else if (*tail) snprintf(problem, size, "only one statement is allowed; a second begins with \"%.40s\"", tail);
+    else if (holds_statement(database, tail)) snprintf(problem, size, "only one statement is allowed; a second begins with \"%.40s\"", tail);
     else if (!sqlite3_stmt_readonly(statement)) snprintf(problem, size, "only reading is allowed");
     else return statement;
     sqlite3_finalize(statement);

@@ -77,6 +77,10 @@ def test_bad_bodies_are_told_apart(fake):
         answer = requests.post(path, data=body, headers=headers)
         assert answer.status_code == 400 and answer.headers["Content-Type"] == "application/problem+json", body[:40]
         assert answer.headers["Connection"] == "close"
+        assert answer.json()["errors"][0]["detail"], body[:40]
+    vanishing = json.dumps({"inputs": SPEC}).replace('"interval": 0.1', '"interval": 1e-400')  # would be 0: no series of snapshots
+    answer = requests.post(path, data=vanishing, headers=headers)
+    assert answer.status_code == 400 and "too close to 0" in answer.json()["errors"][0]["detail"]
     answer = fake.post(SPEC | {"fill_fraction": 1.4, "friction": 1, "contact": {"friction": -1}})
     pointers = {error["pointer"] for error in answer.json()["errors"]}
     assert pointers == {"/inputs/fill_fraction", "/inputs/friction", "/inputs/contact/friction"}

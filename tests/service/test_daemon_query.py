@@ -38,7 +38,7 @@ def test_text_survives_json(filled):
     "delete from job", "update job set status='failed'", "insert into job_count values('x', 1)", "drop table job",
     "create table t(x)", "create temp table t(x)", "vacuum", "vacuum into '/tmp/reposed-vacuum'", "attach 'x' as y", "pragma user_version",
     "pragma journal_mode=delete", "begin", "select load_extension('x')", "select readfile('x')", "select randomblob(1000)",
-    "select zeroblob(1000)", "select 1; select 2", "", ";", "selec 1", "select * from nothing", "select * from pragma_table_info('job')",
+    "select zeroblob(1000)", "select 1; select 2", "select 1; drop table job", "select 1; nonsense", "", ";", "selec 1", "select * from nothing", "select * from pragma_table_info('job')",
     "select * from dbstat", "select count(*) from pragma_table_info('job')"])
 def test_everything_but_one_bounded_select_is_refused(filled, sql):
     answer = ask(filled, sql)
@@ -101,6 +101,11 @@ def test_rows_and_bytes_are_capped(filled):
     wide = "with recursive n(i) as (select 1 union all select i+1 from n limit 9000) select i, printf('%.*c', 2000, 'x') from n"
     answer = ask(filled, wide)
     assert len(answer.content) < 9e6 and answer.json()["truncated"] is True and 1000 < len(answer.json()["rows"]) < 9000
+
+
+@pytest.mark.parametrize("sql", ["select 1 as x;", "select 1 as x; -- done", "/* a */ select 1 as x -- b\n ; ; /* c */", "select 1 as x; ;"])
+def test_comments_and_semicolons_are_no_second_statement(fake, sql):
+    assert ask(fake, sql).json()["rows"] == [[1]]
 
 
 def test_a_missing_query_is_explained(fake):
