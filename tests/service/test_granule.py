@@ -85,6 +85,17 @@ def test_sql_has_granules_beside_drums(daemon):
     assert [job["processID"] for job in daemon.get("/jobs?processID=granule").json()["jobs"]] == ["granule", "granule"]
 
 
+def test_figure_8_is_one_study(daemon):
+    study = json.loads((ROOT / "api/studies/figure8.json").read_text())
+    answer = requests.post(f"{daemon.url}/studies", json=study, timeout=30)
+    assert answer.status_code == 201, answer.text
+    address = f"/studies/{answer.json()['studyID']}"
+    assert daemon.get(f"{address}?wait=30").json()["status"] == "successful"
+    found = {case["inputs"]["friction"]: case["results"]["minimum_omega2"]["mean"] for case in daemon.get(f"{address}/results").json()["cases"]}
+    expected = {0.05: 4.207, 0.1: 3.632, 0.2: 2.861, 0.3: 2.377, 0.4: 2.053, 0.5: 1.826, 0.6: 1.662, 0.7: 1.540, 0.8: 1.447, 0.9: 1.376, 1.0: 1.319}
+    assert found == pytest.approx(expected, abs=6e-4)  # found before by steps through time: three decimals, some rounded up
+
+
 def test_every_problem_is_named_at_once(daemon):
     answer = post(daemon, {"radius": -1, "rotation_rate": "fast", "revolutions": 2.5, "tolerance": 1, "threads": 2, "fricton": 0.5})
     assert answer.status_code == 400
