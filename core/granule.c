@@ -124,23 +124,31 @@ static bool can_stick(const granule *g)
     return fabs(cos(g->theta)) <= g->mu * (g->omega2 - sin(g->theta));
 }
 
+/* The first event on the way from theta to next, and its angle; SLIP_EVENTS: none. */
+static slip_event first_event(const granule *g, const slip *p, double next, double *at)
+{
+    slip_event first = SLIP_EVENTS;
+    *at = next;
+    for (slip_event event = LEAVES_WALL; event < SLIP_EVENTS; event++) {
+        if (event_value(p, g->omega2, event, next) >= 0) continue;
+        const double angle = event_angle(p, g->omega2, event, g->theta, next);
+        if (first != SLIP_EVENTS && angle >= *at) continue;
+        first = event;
+        *at = angle;
+    }
+    return first;
+}
+
 /* Slips to the next angle of the grid or to the event before it. */
 static slip_event slip_on(granule *g, const slip *p, double next)
 {
-    for (slip_event event = LEAVES_WALL; event < SLIP_EVENTS; event++) {
-        if (event_value(p, g->omega2, event, next) >= 0) continue;
-        const double at = event_angle(p, g->omega2, event, g->theta, next);
-        if (event != COMES_TO_REST) g->time += slip_time(p, g->theta, at);
-        g->theta = at;
-        g->w = event == MEETS_WALL_SPEED ? g->omega2 : slip_w(p, at);
-        note_normal_force(g);
-        return event;
-    }
-    g->time += slip_time(p, g->theta, next);
-    g->theta = next;
-    g->w = slip_w(p, next);
+    double at;
+    const slip_event event = first_event(g, p, next, &at);
+    if (event != COMES_TO_REST) g->time += slip_time(p, g->theta, at);
+    g->theta = at;
+    g->w = event == MEETS_WALL_SPEED ? g->omega2 : slip_w(p, at);
     note_normal_force(g);
-    return SLIP_EVENTS;
+    return event;
 }
 
 /* Having come to rest on the rising side it slides back along the very same w(theta), friction being the same, until it

@@ -120,6 +120,30 @@ static void stepping_through_time_finds_the_same_slip(void **unused)
     }
 }
 
+static dem_regime regime_by_steps(double mu, double omega2)
+{
+    const double omega = sqrt(omega2), dt = 2e-4;
+    stepped p = { .theta = -0.5 * M_PI, .u = omega };
+    for (int k = 0; k < 400000 && !p.fell && p.theta < 3.5 * M_PI; k++) step(&p, mu, omega, dt); /* 80 sqrt(R/g): a dozen swings */
+    if (p.fell) return DEM_RAINING;
+    if (p.theta < 1.5 * M_PI) return DEM_SLIPPING;
+    return fabs(p.lag) > 1e-9 ? DEM_SLIDING : DEM_CENTRIFUGING;
+}
+
+static void stepping_through_time_finds_the_same_regimes(void **unused)
+{
+    (void)unused;
+    dice d = { 11 };
+    int seen[DEM_CENTRIFUGING + 1] = { 0 };
+    for (int k = 0; k < 100; k++) {
+        const double mu = exp(dice_uniform(&d, log(0.02), log(2))), omega2 = exp(dice_uniform(&d, log(0.1), log(6)));
+        const dem_granule_motion m = followed(mu, omega2, 3);
+        assert_int_equal(m.regime, regime_by_steps(mu, omega2));
+        seen[m.regime]++;
+    }
+    assert_true(seen[DEM_SLIPPING] > 3 && seen[DEM_RAINING] > 3 && seen[DEM_SLIDING] > 3 && seen[DEM_CENTRIFUGING] > 3);
+}
+
 static void at_full_friction_it_slips_an_eighth_of_a_radian_at_most(void **unused)
 {
     (void)unused;
@@ -250,6 +274,7 @@ int main(void)
         cmocka_unit_test(the_least_rates_are_those_of_the_table),
         cmocka_unit_test(stepping_through_time_finds_the_same_boundary),
         cmocka_unit_test(stepping_through_time_finds_the_same_slip),
+        cmocka_unit_test(stepping_through_time_finds_the_same_regimes),
         cmocka_unit_test(at_full_friction_it_slips_an_eighth_of_a_radian_at_most),
         cmocka_unit_test(one_revolution_tells_what_thirty_tell),
         cmocka_unit_test(the_error_is_a_bound),
