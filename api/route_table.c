@@ -1,7 +1,7 @@
 #include "handlers.h"
 
 const http_route route_table[] = {
-    {"GET", "/", " status q cursor open ", show_landing, .open = true}, /* read by the page: what it shows */
+    {"GET", "/", " status q study cursor open ", show_landing, .open = true}, /* read by the page: what it shows */
     {"GET", "/web/{}", "", show_asset, .open = true},
     {"GET", "/conformance", "", show_conformance, .open = true},
     {"GET", "/api", "", show_api, .open = true},

@@ -41,13 +41,17 @@ async function reasonIn(answer) {
   }
 }
 
-export function listJobs({ status, q, cursor, limit }) {
+export function listJobs({ status, q, study, cursor, limit }) {
   const query = new URLSearchParams({ limit });
   if (status) query.set('status', status);
   if (q) query.set('q', q);
+  if (study) query.set('study', study);
   if (cursor) query.set('cursor', cursor);
   return json(`/jobs?${query}`);
 }
 
 export const jobPath = id => `/jobs/${encodeURIComponent(id)}`;
 export const dismissJob = id => json(jobPath(id), { method: 'DELETE' });
+
+export const studyPath = id => `/studies/${encodeURIComponent(id)}`;
+export const dismissStudy = id => json(studyPath(id), { method: 'DELETE' });

@@ -88,6 +88,7 @@ function showLinks(box, job) {
   replaceIfChanged(box, job.status, () => [
     h('ul', { class: 'links' },
       job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results', `${job.jobID}-results.json`)) : null,
+      job.studyID ? h('li', null, h('a', { href: `/web/studies.html#${job.studyID}` }, 'Study')) : null,
       h('li', null, fileLink(`${path}/spec`, 'Spec', `${job.jobID}-spec.json`)),
       h('li', null, fileLink(`${path}/log`, 'Log', `${job.jobID}-log.txt`)),
       series ? h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)', `${job.jobID}-samples.json`)) : null,

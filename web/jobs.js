@@ -1,7 +1,8 @@
 // The page: one list of jobs, newest first, never more of them than a page. It reads the view from the URL,
 // asks the daemon for that list again and again, and shows what changed.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { ApiError, dismissJob, listJobs, token } from './api.js';
+import { dismissJob, listJobs, token } from './api.js';
+import { confirmed, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { answerInWords, count } from './format.js';
 import { createRow, nameOf } from './job_row.js';
 import { startPolling } from './polling.js';
@@ -14,7 +15,8 @@ let view = readView();
 const filters = new Map(['', ...STATES].map(status => [status, createFilter(status)]));
 byId('states').append(...filters.values());
 let rows = new Map(); // by job id, in the order shown
-const refresh = startPolling(ask, showFailure);
+const refresh = startPolling(ask, (error, pause) => showFailure(error, pause, refresh));
+takeToken(refresh);
 
 async function ask() {
   const asked = view;
@@ -25,6 +27,7 @@ async function ask() {
   showRows(list.jobs);
   showPages(list.links);
   showEmptiness(list);
+  showStudy();
   return (list.counts?.accepted ?? 0) + (list.counts?.running ?? 0) > 0;
 }
 
@@ -39,7 +42,7 @@ function showStates(counts = {}) {
   const running = counts.running ?? 0;
   document.title = running ? `(${running} running) reposed` : 'reposed: jobs';
   for (const [status, link] of filters) {
-    link.href = addressOf({ status, q: view.q });
+    link.href = addressOf({ status, q: view.q, study: view.study });
     if (view.status === status) link.setAttribute('aria-current', 'true'); else link.removeAttribute('aria-current');
     link.lastElementChild.textContent = count(status ? counts[status] ?? 0 : all);
   }
@@ -89,12 +92,7 @@ function toggle(id) {
 }
 
 async function stop(job) {
-  const dialog = byId('confirm');
-  byId('confirm-what').textContent = nameOf(job);
-  dialog.returnValue = 'keep';
-  dialog.showModal();
-  await new Promise(closed => dialog.addEventListener('close', closed, { once: true }));
-  if (dialog.returnValue !== 'cancel') return;
+  if (!await confirmed(nameOf(job))) return;
   try {
     await dismissJob(job.jobID);
     byId('announcements').textContent = `${nameOf(job)}: cancelled`;
@@ -124,11 +122,17 @@ function pageLink(text, cursor) {
   return h('a', { href: addressOf({ ...view, open: null, cursor }), onclick: follow }, text);
 }
 
+function showStudy() {
+  byId('of-study').hidden = !view.study;
+  if (view.study) replaceIfChanged(byId('of-study'), view.study, () => [
+    h('span', null, 'Only jobs of the study ', h('a', { href: `/web/studies.html#${view.study}` }, view.study)), h('a', { href: '/' }, 'Show all jobs')]);
+}
+
 function showEmptiness(list) {
   const nothing = list.jobs.length === 0;
   byId('jobs').hidden = nothing;
   byId('empty').hidden = !nothing;
-  const filtered = Boolean(view.status || view.q || view.cursor);
+  const filtered = Boolean(view.status || view.q || view.cursor || view.study);
   if (nothing) replaceIfChanged(byId('empty'), [filtered, view.status, view.q], () => filtered ? noMatch() : firstJob());
 }
 
@@ -151,29 +155,6 @@ function firstJob() {
       ' has a unit, a range and, but for the drum and its particles, a default.')];
 }
 
-function showConnected() {
-  byId('token').hidden = true;
-  showTrouble('');
-  replaceIfChanged(byId('connection'), 'live', () => h('span', { class: 'live' }, 'live'));
-}
-
-function showFailure(error, pause) {
-  if (!(error instanceof ApiError)) console.error(error);
-  replaceIfChanged(byId('connection'), 'away', () => h('span', { class: 'away' }, 'not live'));
-  byId('token').hidden = error.status !== 401;
-  const again = `Trying again in ${Math.round(pause / 1000)} s.`;
-  if (error.status === 401) showTrouble('');
-  else if (error.status === 0) showTrouble(`The daemon is out of reach: ${error.message}. What you see may be old. ${again}`, true);
-  else if (error.status) showTrouble(`The daemon answered ${error.status}: ${error.message} ${again}`, true);
-  else showTrouble(`The answer was not understood: ${error.message}. ${again}`, true);
-}
-
-function showTrouble(text, canRetry = false) {
-  byId('trouble').hidden = text === '';
-  replaceIfChanged(byId('trouble'), [text, canRetry], () => text === '' ? [] : [
-    h('span', null, text), canRetry ? h('button', { onclick: refresh }, 'Try now') : null]);
-}
-
 byId('q').value = view.q;
 let typing = 0;
 byId('q').addEventListener('input', () => {
@@ -183,11 +164,6 @@ byId('q').addEventListener('input', () => {
 byId('search').addEventListener('submit', event => {
   event.preventDefault();
   go({ q: byId('q').value.trim(), cursor: '' }, { step: false });
-});
-byId('token').addEventListener('submit', event => {
-  event.preventDefault();
-  token.keep(byId('token-value').value.trim());
-  refresh();
 });
 window.addEventListener('popstate', () => {
   view = readView();

@@ -1,5 +1,5 @@
 // What is being looked at, kept in the URL so that a reload, a bookmark or a colleague sees the same:
-// ?status=failed&q=table+1&cursor=...&open=ID,ID
+// ?status=failed&q=table+1&study=ID&cursor=...&open=ID,ID
 
 export const STATES = ['accepted', 'running', 'successful', 'failed', 'dismissed'];
 
@@ -9,15 +9,17 @@ export function readView() {
   return {
     status: STATES.includes(status) ? status : '',
     q: query.get('q') ?? '',
+    study: query.get('study') ?? '',
     cursor: query.get('cursor') ?? '',
     open: new Set((query.get('open') ?? '').split(',').filter(Boolean)),
   };
 }
 
-export function addressOf({ status, q, cursor, open }) {
+export function addressOf({ status, q, study, cursor, open }) {
   const query = new URLSearchParams();
   if (status) query.set('status', status);
   if (q) query.set('q', q);
+  if (study) query.set('study', study);
   if (cursor) query.set('cursor', cursor);
   if (open?.size) query.set('open', [...open].join(','));
   const text = query.toString();

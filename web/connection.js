@@ -1,0 +1,46 @@
+// What both pages show of their connection: live or not, what is wrong, and the question for a token. Asking to
+// confirm is here, too.
+import { byId, h, replaceIfChanged } from './dom.js';
+import { ApiError, token } from './api.js';
+
+export function showConnected() {
+  byId('token').hidden = true;
+  showTrouble('');
+  replaceIfChanged(byId('connection'), 'live', () => h('span', { class: 'live' }, 'live'));
+}
+
+// refresh: what "Try now" does.
+export function showFailure(error, pause, refresh) {
+  if (!(error instanceof ApiError)) console.error(error);
+  replaceIfChanged(byId('connection'), 'away', () => h('span', { class: 'away' }, 'not live'));
+  byId('token').hidden = error.status !== 401;
+  const again = `Trying again in ${Math.round(pause / 1000)} s.`;
+  if (error.status === 401) showTrouble('');
+  else if (error.status === 0) showTrouble(`The daemon is out of reach: ${error.message}. What you see may be old. ${again}`, refresh);
+  else if (error.status) showTrouble(`The daemon answered ${error.status}: ${error.message} ${again}`, refresh);
+  else showTrouble(`The answer was not understood: ${error.message}. ${again}`, refresh);
+}
+
+export function showTrouble(text, refresh = null) {
+  byId('trouble').hidden = text === '';
+  replaceIfChanged(byId('trouble'), [text, Boolean(refresh)], () => text === '' ? [] : [
+    h('span', null, text), refresh ? h('button', { onclick: refresh }, 'Try now') : null]);
+}
+
+export function takeToken(refresh) {
+  byId('token').addEventListener('submit', event => {
+    event.preventDefault();
+    token.keep(byId('token-value').value.trim());
+    refresh();
+  });
+}
+
+// Resolves to true when the user wants it cancelled.
+export async function confirmed(what) {
+  const dialog = byId('confirm');
+  byId('confirm-what').textContent = what;
+  dialog.returnValue = 'keep';
+  dialog.showModal();
+  await new Promise(closed => dialog.addEventListener('close', closed, { once: true }));
+  return dialog.returnValue === 'cancel';
+}

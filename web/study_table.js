@@ -1,0 +1,58 @@
+// The table of a study's cases: what differs between them, how many runs have ended, and mean ± standard error.
+import { h } from './dom.js';
+import { count, degrees, percent, significant } from './format.js';
+
+const ROWS_SHOWN = 500;
+
+// Name in the results, heading, and how a number is written.
+const MEASURES = [
+  ['angle_deg', 'angle of repose', degrees],
+  ['maximum_deg', 'highest angle', degrees],
+  ['minimum_omega2', 'least ω²R/g', plain],
+  ['radial_index', 'radial segregation', plain],
+  ['lacey_index', 'Lacey index', plain],
+  ['solid_fraction', 'solid fraction', plain],
+  ['maximum_overlap', 'largest overlap', value => percent(value)],
+];
+
+// As many decimals as the error has meaning.
+function plain(mean, error) {
+  if (!(error > 0)) return significant(mean);
+  const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(error)), 0), 12);
+  return `${mean.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
+}
+
+export function caseTable(cases) {
+  const named = member => [...new Set(cases.flatMap(one => Object.keys(one[member])))];
+  const inputs = named('inputs'), labels = named('label');
+  const measures = MEASURES.filter(([name]) => cases.some(one => one.results[name]));
+  const withRegime = cases.some(one => one.regime);
+  const table = h('table', { class: 'grid cases' },
+    h('caption', { class: 'unseen' }, 'Cases, with means over their repeats and standard errors'),
+    h('thead', null, h('tr', null, ['case', ...inputs, ...labels, 'runs', ...(withRegime ? ['regime'] : [])].map(name => h('th', { scope: 'col' }, name)),
+      measures.map(([, heading]) => h('th', { scope: 'col', class: 'measure' }, heading)))),
+    h('tbody', null, cases.slice(0, ROWS_SHOWN).map(one => row(one, inputs, labels, measures, withRegime))));
+  const left = cases.length - ROWS_SHOWN;
+  return left > 0 ? [table, h('p', { class: 'quiet' }, `The first ${ROWS_SHOWN} cases; the CSV has all ${count(cases.length)}.`)] : [table];
+}
+
+function row(one, inputs, labels, measures, withRegime) {
+  return h('tr', null,
+    h('th', { scope: 'row' }, one.case),
+    inputs.map(name => h('td', null, inWords(one.inputs[name]))),
+    labels.map(name => h('td', null, inWords(one.label[name]))),
+    h('td', null, `${count(one.finished)} of ${count(one.repeats)}`, one.failed ? h('small', { class: 'why' }, `${count(one.failed)} failed`) : null),
+    withRegime ? h('td', null, one.regime ?? '–') : null,
+    measures.map(([name, , write]) => measure(one.results[name], write)));
+}
+
+function inWords(value) {
+  if (value === null || value === undefined) return '–';
+  return typeof value === 'number' ? significant(value, 6) : typeof value === 'object' ? JSON.stringify(value) : String(value);
+}
+
+function measure(result, write) {
+  if (!result) return h('td', { class: 'measure' }, '–');
+  const from = { repeats: `standard error over ${result.count} repeats`, run: 'standard error of the one run' }[result.error_from] ?? 'no error known';
+  return h('td', { class: 'measure', title: from }, write(result.mean, result.standard_error));
+}
