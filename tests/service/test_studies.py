@@ -347,6 +347,22 @@ def test_drums_of_other_sizes_turn_at_the_same_froude_number():
     assert froude == pytest.approx([froude[1]] * 3, rel=1e-5)
 
 
+def test_a_process_without_a_seed_is_not_repeated_but_varied(daemon):
+    study = {"base": {"process": "granule", "inputs": {"friction": 0.1}}, "vary": {"/inputs/friction": [0.5, 1.0]}}
+    (pointer, detail), = errors_of(post(daemon, study | {"repeats": 2}))
+    assert pointer == "/repeats" and "granule" in detail and "seed" in detail
+    study = submit(daemon, study)
+    assert ended(daemon, study)["status"] == "successful"
+    rows = daemon.get(f"/studies/{study}/results").json()["cases"]
+    for row, job in zip(rows, jobs_of(daemon, study)[::-1], strict=True):
+        result = daemon.get(f"/jobs/{job['jobID']}/results").json()["granule"]
+        found = row["results"]["minimum_omega2"]
+        # answers have 15 digits, results all of them
+        assert [found["mean"], found["standard_error"]] == pytest.approx([result["minimum_omega2"], result["error"]], rel=1e-14)
+        assert found["error_from"] == "run"
+        assert row["inputs"] == {"friction": job["summary"]["friction"]} and "angle_deg" not in row["results"]
+
+
 def test_a_study_with_the_real_worker(daemon):
     study = submit(daemon, {"name": "real", "base": {"inputs": SPEC}, "vary": {FRICTION: [0.1, 0.6]}, "repeats": 3})
     assert ended(daemon, study, 120)["status"] == "successful"
