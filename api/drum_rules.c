@@ -194,8 +194,8 @@ static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum,
     const dem_contact_law law = (dem_contact_law)inputs->contact_law;
     collision worst = {of_species(drum, dem_species_mass, true), of_species(drum, dem_species_contact_mass, false),
                        of_species(drum, dem_species_smallest_sphere, false), of_species(drum, dem_species_largest_sphere, true), 0.0};
-    worst.speed = dem_impact_speed(drum->diameter, of_species(drum, dem_species_diameter, true), drum->gravity, inputs->friction,
-                                   drum->rotation_rate);
+    worst.speed = dem_impact_speed(drum->diameter, of_species(drum, dem_species_diameter, true), drum->gravity,
+                                   dem_bed_friction(inputs->friction, drum->species, drum->species_count), drum->rotation_rate);
     drum->contact = (dem_contact_parameters){
         .law = law,
         .restitution = inputs->restitution,

@@ -12,6 +12,14 @@ static double inner_radius(const dem_scene *scene)
     return scene->drum.radius * sqrt(fmax(0.0, 1 - scene->definition.fill_fraction));
 }
 
+/* Share of the cross-section that the bed takes up. Clusters pack looser, each shape in its own way, than the solid
+ * fraction by which a fill is counted. */
+static double bed_fill(const dem_scene *scene, double solid_fraction)
+{
+    const double fill = scene->definition.fill_fraction;
+    return scene->spheres.clusters.count && solid_fraction > 0 ? fill * DEM_BED_SOLID_FRACTION / solid_fraction : fill;
+}
+
 typedef struct mean {
     double sum, count;
 } mean;
@@ -40,7 +48,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     const double wall = scene->drum.inner_radius, inner = inner_radius(scene);
     const double angle = frame[FRAME_SURFACE_FIT] * (DEM_PI / 180), c = cos(angle), sine = sin(angle);
     /* The chord that the fill makes in the frame of the surface: in flight is what is well above it without contact. */
-    const double chord = circle_level(fmin(scene->definition.fill_fraction, 1.0)) * scene->drum.radius;
+    const double chord = circle_level(fmin(bed_fill(scene, frame[FRAME_SOLID_FRACTION]), 1.0)) * scene->drum.radius;
     mean wall_spin = { 0 }, surface_spin = { 0 }, flow = { 0 }, airborne = { 0 };
     bool bins[WALL_BINS] = { false };
     for (size_t i = 0; i < s->mobile_count; i++) {

@@ -107,6 +107,14 @@ static inline double dem_impact_speed(double drum_diameter, double largest_diame
     return sqrt(falling * falling + thrown * thrown);
 }
 
+/* Friction of the bed of spheres that is as steep: clusters interlock, whatever their friction. */
+static inline double dem_bed_friction(double friction, const dem_species *species, size_t count)
+{
+    bool interlock = false;
+    for (size_t s = 0; s < count; s++) interlock = interlock || species[s].cluster.sphere_count > 1;
+    return interlock ? fmax(friction, 0.5) : friction;
+}
+
 /* K1, N/m, for the heaviest particle to overlap with what does not give way by at most `overlap` (m) at that speed:
  * alpha = v sqrt(m/K1). */
 static inline double dem_stiffness_for_overlap(double impact_speed, double heaviest_mass, double overlap)

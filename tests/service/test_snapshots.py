@@ -5,7 +5,7 @@ import json
 import h5py
 import numpy
 import pytest
-from worker_runs import events, result, run, small, snapshot_bytes, write_spec
+from worker_runs import events, result, run, small, snapshot_bytes, start, wait_until, write_spec
 
 
 @pytest.fixture(scope="module")
@@ -138,3 +138,64 @@ def test_a_label_in_any_script_survives_in_the_file(tmp_path):
         params = file["run"].attrs["params_json"]
     params = params.decode() if isinstance(params, bytes) else params
     assert json.loads(params)["label"] == spec["label"]
+
+
+MIXED = [{"shape": "tetrahedron", "diameter": 0.0012, "share": 0.5},
+         {"shape": {"spheres": [{"position": [0, 0, 0], "diameter": 0.002}, {"position": [0.001, 0, 0], "diameter": 0.0016}]}, "share": 0.2},
+         {"diameter": 0.002, "share": 0.3}]
+
+
+@pytest.fixture(scope="module")
+def clusters(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("clusters")
+    spec = small(particles=MIXED, duration={"seconds": 0.2}, contact={"maximum_overlap": 0.03})
+    code, _, stderr = run(write_spec(folder, spec), folder / "job")
+    assert code == 0, stderr
+    return folder / "job"
+
+
+def rotated(orientation, vector):
+    """Turned by the quaternions w, x, y, z."""
+    w, axis = orientation[:, :1], orientation[:, 1:]
+    return vector + 2 * w * numpy.cross(axis, vector) + 2 * numpy.cross(axis, numpy.cross(axis, vector))
+
+
+def test_a_cluster_is_its_spheres_and_they_keep_their_distances(clusters):
+    """Spheres by themselves first, then those of clusters, cluster after cluster."""
+    facts = result(clusters)["run"]
+    for path in sorted((clusters / "snapshots").iterdir()):
+        with h5py.File(path, "r") as file:
+            points, fields = file["VTKHDF/Points"][:].astype(float), file["VTKHDF/PointData"]
+            body, species, orientation = fields["cluster"][:], fields["species"][:], fields["orientation"][:].astype(float)
+        assert len(points) == facts["spheres"] and body[-1] + 1 == facts["particles"]
+        assert orientation.shape == (len(points), 4) and numpy.allclose(numpy.linalg.norm(orientation, axis=1), 1, atol=1e-6)
+        for which, members in ((0, 4), (1, 2), (2, 1)):
+            of_it = numpy.flatnonzero(species == which)
+            assert len(of_it) % members == 0 and numpy.all(body[of_it].reshape(-1, members).T == body[of_it][::members])
+        tetrahedra, pairs = numpy.flatnonzero(species == 0).reshape(-1, 4), numpy.flatnonzero(species == 1).reshape(-1, 2)
+        for a, b, distance in [(tetrahedra[:, i], tetrahedra[:, j], 0.0012) for i in range(4) for j in range(i)] \
+                + [(pairs[:, 0], pairs[:, 1], 0.001)]:
+            apart = points[a] - points[b]
+            apart[:, 2] -= 0.01 * numpy.rint(apart[:, 2] / 0.01)  # across the period
+            assert numpy.allclose(numpy.linalg.norm(apart, axis=1), distance, atol=1e-8)  # places are in single precision
+        # the pair's axis is an axis of its own frame, whichever: turned, it is along the line of centres
+        axes = [rotated(orientation[pairs[:, 0]], numpy.tile(e, (len(pairs), 1))) for e in numpy.eye(3)]
+        along = [numpy.abs((axis * apart).sum(axis=1)) / 0.001 for axis in axes]
+        assert any(numpy.allclose(cosine, 1, atol=1e-4) for cosine in along)
+        # one body, one spin
+        first = numpy.searchsorted(body, body)
+        with h5py.File(path, "r") as file:
+            spin = file["VTKHDF/PointData/angular_velocity"][:]
+        assert numpy.array_equal(spin, spin[first])
+
+
+def test_a_run_of_clusters_goes_on_from_a_checkpoint_with_the_same_bits(clusters, tmp_path):
+    """Checkpoints as often as can be; stopped somewhere on the way, the second attempt ends with the same files."""
+    spec = write_spec(tmp_path, json.loads((clusters / "spec.json").read_text()))
+    worker = start(spec, tmp_path / "job", "--checkpoint-seconds", 0)
+    wait_until(lambda: len(events(tmp_path / "job", "checkpoint")) >= 3)
+    worker.terminate()
+    assert worker.wait(20) in (0, 3)
+    code, _, stderr = run(spec, tmp_path / "job")
+    assert code == 0, stderr
+    assert snapshot_bytes(tmp_path / "job") == snapshot_bytes(clusters)

@@ -19,18 +19,18 @@ static inline dem_drum_definition small_drum(void)
     return d;
 }
 
-/* Stiffness and time step from the rules, for this overlap as a share of the smallest diameter. */
+/* Stiffness and time step from the rules (clusters complete), for this overlap as a share of the smallest diameter. */
 static inline void follow_rules(dem_drum_definition *d, double overlap)
 {
     double smallest = INFINITY, largest = 0, lightest = INFINITY, heaviest = 0;
     for (size_t k = 0; k < d->species_count; k++) {
-        const double mass = dem_sphere_mass(d->species[k].diameter, d->species[k].density);
-        smallest = fmin(smallest, d->species[k].diameter);
-        largest = fmax(largest, d->species[k].diameter);
-        lightest = fmin(lightest, mass);
-        heaviest = fmax(heaviest, mass);
+        smallest = fmin(smallest, dem_species_smallest_sphere(&d->species[k]));
+        largest = fmax(largest, dem_species_diameter(&d->species[k]));
+        lightest = fmin(lightest, dem_species_contact_mass(&d->species[k]));
+        heaviest = fmax(heaviest, dem_species_mass(&d->species[k]));
     }
-    const double speed = dem_impact_speed(d->diameter, largest, d->gravity, d->contact.friction, d->rotation_rate);
+    const double friction = dem_bed_friction(d->contact.friction, d->species, d->species_count);
+    const double speed = dem_impact_speed(d->diameter, largest, d->gravity, friction, d->rotation_rate);
     d->contact.stiffness = dem_stiffness_for_overlap(speed, heaviest, overlap * smallest);
     d->time_step = dem_time_step(d->contact.stiffness, lightest, d->contact.restitution);
 }

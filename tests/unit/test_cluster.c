@@ -4,7 +4,6 @@
 #include "dem_cluster.h"
 #include "scene.h"
 #include "small_drum.h"
-#include "step.h"
 
 /* ---- volume and inertia ---- */
 
@@ -346,9 +345,7 @@ static dem_drum_definition mixed_drum(void)
     for (int k = 0; k < 3; k++) dem_cluster_complete(&d.species[k].cluster);
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, 0.4, d.species, 3);
     d.fill_fraction = 0.4;
-    const double speed = dem_impact_speed(d.diameter, 0.004, d.gravity, d.contact.friction, d.rotation_rate);
-    d.contact.stiffness = dem_stiffness_for_overlap(speed, dem_species_mass(&d.species[2]), 0.03 * 0.002);
-    d.time_step = dem_time_step(d.contact.stiffness, dem_species_contact_mass(&d.species[1]), d.contact.restitution);
+    follow_rules(&d, 0.05);
     return d;
 }
 
@@ -367,31 +364,29 @@ static bool same_bits(dem_scene *a, dem_scene *b)
     return same;
 }
 
+/* A scene of two threads takes over from one thread's state in each phase, and both go on. */
 static void threads_and_restarts_leave_the_same_bits_in_every_phase(void **unused)
 {
     (void)unused;
     dem_drum_definition d = mixed_drum();
     dem_scene *one = drum_scene(&d);
     d.threads = 2;
-    dem_scene *two = drum_scene(&d);
-    for (int look = 0; look < 9; look++) {
-        const dem_phase phase = (dem_phase)(look / 3);
-        run_to_phase(one, phase);
-        run_to_phase(two, phase);
+    for (int look = 0; look < 6; look++) {
+        run_to_phase(one, (dem_phase)(look / 2));
         run(one, 173);
-        run(two, 100);
+        dem_scene *two = drum_scene(&d);
         dem_state state;
-        assert_int_equal(dem_scene_save(two, &state), DEM_OK);
-        dem_scene_free(two);
-        two = drum_scene(&d);
+        assert_int_equal(dem_scene_save(one, &state), DEM_OK);
         assert_int_equal(dem_scene_restore(two, &state), DEM_OK);
         dem_state_clear(&state);
+        run(one, 120);
         run(two, 73);
+        run(two, 47);
         assert_true(same_bits(one, two));
+        dem_scene_free(two);
     }
     assert_int_equal(dem_scene_phase(one), DEM_PHASE_ROTATING);
     dem_scene_free(one);
-    dem_scene_free(two);
 }
 
 /* Every sphere is where its cluster's place and orientation, as a snapshot has them, put it: by e p e*, written out. */
@@ -470,7 +465,7 @@ static motion motion_of(const dem_scene *scene)
     return m;
 }
 
-/* A drum of 24 dumbbells or bent clusters without weight, all at rest at places of their own but the first two. */
+/* A drum of 24 bent clusters without weight, all at rest at places of their own but the first two. */
 static dem_scene *weightless_clusters(dem_drum_definition *d, double friction, double restitution)
 {
     *d = mixed_drum();
@@ -484,7 +479,13 @@ static dem_scene *weightless_clusters(dem_drum_definition *d, double friction, d
     d->contact.restitution = restitution;
     d->time_step /= 4;
     dem_scene *scene = drum_scene(d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    dem_state state; /* goes on at full size and rotating, without a bed being made first */
+    assert_int_equal(dem_scene_save(scene, &state), DEM_OK);
+    ((int64_t *)state.array[0].data)[0] = DEM_PHASE_ROTATING;
+    ((int64_t *)state.array[0].data)[3] = 0;
+    assert_string_equal(state.array[0].name, "counters");
+    assert_int_equal(dem_scene_restore(scene, &state), DEM_OK);
+    dem_state_clear(&state);
     scene->definition.gravity = 0;
     for (size_t b = 0; b < d->particle_count; b++) {
         const double x[3] = { b < 2 ? 0 : 0.01 * ((double)(b % 5) - 2), b < 2 ? 0.02 : -0.02, b < 2 ? 0 : 0.01 * (double)(b / 5) - 0.02 }, none[3] = { 0 };

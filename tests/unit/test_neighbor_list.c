@@ -1,4 +1,5 @@
 /* Claims about the neighbor lists: against a search of all pairs at every step, no contact is ever missed. */
+#include "dem_cluster.h"
 #include "scene.h"
 #include "small_drum.h"
 
@@ -55,11 +56,24 @@ static void count_pairs(const dem_scene *scene, listed *l, census *c)
             const double *x = s->row[i].x, *y = s->row[j].x, reach = (double)s->row[i].radius + (double)s->row[j].radius;
             const double dx = y[0] - x[0], dy = y[1] - x[1];
             if (i >= l->mobile || fabs(dy) > reach) continue;
+            if (j < l->mobile && particle_of_sphere(s, i) == particle_of_sphere(s, j)) continue; /* one rigid body */
             const double dz = remainder(y[2] - x[2], scene->drum.length);
             if (dx * dx + dy * dy + dz * dz >= reach * reach) continue;
             c->touching++;
             c->missed += !l->pair[i * l->all + j];
         }
+}
+
+/* Pairs within one cluster that are listed all the same. */
+static size_t count_own_pairs(const dem_scene *scene)
+{
+    const contact_list *pairs = &scene->neighbors.pairs;
+    const spheres *s = &scene->spheres;
+    size_t own = 0;
+    for (size_t k = 0; k < pairs->count; k++)
+        own += (size_t)pairs->second[k] < s->mobile_count
+            && particle_of_sphere(s, (size_t)pairs->first[k]) == particle_of_sphere(s, (size_t)pairs->second[k]);
+    return own;
 }
 
 static void count_walls(const dem_scene *scene, census *c)
@@ -86,6 +100,7 @@ static census take_census(dem_scene *scene, dem_phase last, int64_t stride, int6
         listed_mark(&l, &scene->neighbors.pairs, 1);
         count_pairs(scene, &l, &c);
         count_walls(scene, &c);
+        assert_int_equal(count_own_pairs(scene), 0);
         listed_mark(&l, &scene->neighbors.pairs, 0);
     }
     free(l.pair);
@@ -155,6 +170,26 @@ static void no_contact_is_missed_along_a_very_short_axis(void **unused)
     check_run(&d);
 }
 
+/* Spheres of a turning cluster leave straight paths all the time, and while clusters grow they move apart: bent
+ * clusters of three that overlap, tetrahedra and spheres, thrown about the drum. */
+static void no_contact_is_missed_among_tumbling_clusters(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = small_drum();
+    d.diameter = 0.05;
+    d.length = 0.02;
+    d.species_count = 3;
+    for (int k = 0; k < 3; k++) d.species[k] = (dem_species){ .diameter = 0.003, .density = 2500, .share = 1.0 / 3 };
+    dem_cluster_of_shape(&d.species[0].cluster, DEM_TETRAHEDRON, 0.002);
+    d.species[1].cluster = (dem_cluster){ .sphere_count = 3, .sphere = { { { 0, 0, 0 }, 0.004 }, { { 0.003, 0, 0 }, 0.003 },
+                                                                        { { 0.003, 0.002, 0 }, 0.002 } } };
+    for (int k = 0; k < 2; k++) dem_cluster_complete(&d.species[k].cluster);
+    d.fill_fraction = 0.35;
+    d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 3);
+    d.rotation_rate = fast_rate(&d);
+    check_run(&d);
+}
+
 /* The order by which every sphere's sum is the same whenever a list was made. */
 static void contacts_are_listed_in_the_order_of_their_ids(void **unused)
 {
@@ -208,6 +243,7 @@ int main(void)
         cmocka_unit_test(no_contact_is_missed_with_a_lining),
         cmocka_unit_test(no_contact_is_missed_in_a_slow_drum_turning_backwards),
         cmocka_unit_test(no_contact_is_missed_along_a_very_short_axis),
+        cmocka_unit_test(no_contact_is_missed_among_tumbling_clusters),
         cmocka_unit_test(contacts_are_listed_in_the_order_of_their_ids),
         cmocka_unit_test(contacts_of_each_particle_are_counted_as_by_all_pairs),
     };
