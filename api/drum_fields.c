@@ -87,9 +87,15 @@ static const spec_field fields[] = {
 
     {SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, .meaning = "how long the drum turns"},
     {SPEC_DURATION, "revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = 1.25,
-     .excludes = "seconds", AT(revolutions), .meaning = "revolutions of the drum"},
+     .excludes = "seconds", .excludes_too = "until_standard_error_deg", AT(revolutions), .meaning = "revolutions of the drum"},
     {SPEC_DURATION, "seconds", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 1e6), .fallback = NAN,
-     .excludes = "revolutions", AT(seconds), .meaning = "time from the start of rotation, instead of revolutions"},
+     .excludes = "revolutions", .excludes_too = "until_standard_error_deg", AT(seconds),
+     .meaning = "time from the start of rotation, instead of revolutions"},
+    {SPEC_DURATION, "until_standard_error_deg", FIELD_REAL, .unit = "degrees", RANGE(0.01, 10.0), .fallback = NAN,
+     .excludes = "revolutions", AT(until_standard_error), .meaning = "ask for the answer: until the angle is steady and "
+     "known this well, instead of revolutions"},
+    {SPEC_DURATION, "at_most_revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = NAN,
+     AT(at_most_revolutions), .meaning = "where until_standard_error_deg gives up. Default: 10"},
 
     {SPEC_INPUTS, "snapshots", FIELD_OBJECT, SPEC_SNAPSHOTS, .meaning = "files of all particles, for ParaView"},
     {SPEC_SNAPSHOTS, "interval", FIELD_REAL, .unit = "s", RANGE(0.0, 1e6), .fallback = 0.1, AT(snapshot_interval),

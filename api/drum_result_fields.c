@@ -77,6 +77,8 @@ static const result_field fields[] = {
     {"run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", "snapshot files"},
     {"run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", "threads"},
     {"run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", "of the initial positions"},
+    {"run", NULL, "ended_by", RESULT_TEXT, RUN(ended_by), "", "duration; standard-error: the angle was steady and known as "
+     "well as asked for; at-most-revolutions: it never was"},
     {"run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", "the attempt that came to the end"},
 };
 

@@ -59,6 +59,23 @@ static void share_out(drum_inputs *inputs, problem_list *problems)
     }
 }
 
+/* Asked for by revolutions, seconds, or by the error wanted. */
+static void derive_duration(drum_inputs *inputs, job_spec *spec, problem_list *problems)
+{
+    enum { USUAL_MOST_REVOLUTIONS = 10 };
+    const double revolution = 2.0 * DEM_PI / inputs->rotation_rate;
+    spec->until_standard_error = isnan(inputs->until_standard_error) ? 0.0 : inputs->until_standard_error;
+    if (spec->until_standard_error > 0.0) {
+        if (isnan(inputs->at_most_revolutions)) inputs->at_most_revolutions = USUAL_MOST_REVOLUTIONS;
+        spec->duration = inputs->at_most_revolutions * revolution;
+        return;
+    }
+    if (!isnan(inputs->at_most_revolutions))
+        problem_list_add(problems, "/inputs/duration/at_most_revolutions", "is %g revolutions, but bounds nothing without "
+                         "until_standard_error_deg; give that too, or revolutions", inputs->at_most_revolutions);
+    spec->duration = isnan(inputs->revolutions) ? inputs->seconds : inputs->revolutions * revolution;
+}
+
 static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_t seed_if_missing)
 {
     if (isnan(inputs->lining_pitch)) inputs->lining_pitch = inputs->lining_diameter;
@@ -234,7 +251,8 @@ static void check_amounts(const job_spec *spec, problem_list *problems)
 {
     const drum_inputs *inputs = &spec->inputs;
     const job_estimate estimate = drum_estimate(spec, 0.0);
-    const char *duration = isnan(inputs->revolutions) ? "/inputs/duration/seconds" : "/inputs/duration/revolutions";
+    const char *duration = spec->until_standard_error > 0.0 ? "/inputs/duration/at_most_revolutions"
+                         : isnan(inputs->revolutions) ? "/inputs/duration/seconds" : "/inputs/duration/revolutions";
     if (estimate.steps > MOST_STEPS)
         problem_list_add(problems, duration, "makes %.3g steps of %.3g s; must make at most %.3g: shorten the "
                          "duration or allow a larger overlap", estimate.steps, spec->drum.time_step, MOST_STEPS);
@@ -262,8 +280,7 @@ static void check_amounts(const job_spec *spec, problem_list *problems)
 void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
     drum_inputs *inputs = &spec->inputs;
-    spec->duration = isnan(inputs->revolutions) ? inputs->seconds
-                                                : inputs->revolutions * 2.0 * DEM_PI / inputs->rotation_rate;
+    derive_duration(inputs, spec, problems);
     share_out(inputs, problems);
     set_dependent_defaults(inputs, spec->duration, seed_if_missing);
     derive_drum(inputs, &spec->drum, problems);

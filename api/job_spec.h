@@ -32,7 +32,8 @@ typedef struct drum_inputs {
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
     double poissons_ratio;
     double wall_friction, lining_diameter, lining_pitch;
-    double revolutions, seconds;                     /* one of the two */
+    double revolutions, seconds, until_standard_error; /* one of the three */
+    double at_most_revolutions;                      /* beside the last */
     double snapshot_interval, sample_interval;
     double seed, threads, gravity;
 } drum_inputs;
@@ -54,7 +55,8 @@ typedef struct job_spec {
     drum_inputs inputs;          /* as asked for */
     dem_drum_definition drum;    /* complete: stiffness, time step and particle count derived */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
-    double duration;             /* s from the start of rotation */
+    double duration;             /* s from the start of rotation; at most, where an error is asked for: */
+    double until_standard_error; /* degrees; 0: none asked for */
     double sample_interval;      /* s between frames of measurement */
     double snapshot_interval;    /* s between snapshots; 0: only the last */
 

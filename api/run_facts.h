@@ -14,6 +14,7 @@ typedef struct run_facts {
     double fill_fraction;
     double samples, snapshots;
     double threads, seed, attempt;
+    const char *ended_by;               /* "duration", "standard-error" or "at-most-revolutions" */
 } run_facts;
 
 #endif

@@ -101,7 +101,7 @@ static inline double dem_fill_of_particles(double diameter, double length, doubl
 static inline double dem_impact_speed(double drum_diameter, double largest_diameter, double gravity, double friction,
                                       double rotation_rate)
 {
-    const double steepness = 0.55 * pow(fmin(fmax(friction, 0.02), 1.0), 0.25);
+    const double steepness = 0.59 * pow(fmin(fmax(friction, 0.02), 1.0), 0.25);
     const double falling = steepness * (1.0 + 3.0 * largest_diameter / drum_diameter) * sqrt(gravity * drum_diameter);
     const double thrown = 1.4 * fabs(rotation_rate) * 0.5 * drum_diameter;
     return sqrt(falling * falling + thrown * thrown);

@@ -34,6 +34,7 @@ typedef struct run {
     double *frames; /* (plan.samples, frame_width) */
     size_t frame_width;
     int64_t next_sample, next_snapshot;
+    bool is_known; /* the angle, as well as was asked for */
     double last_checkpoint, last_series; /* s, monotonic */
     dem_phase phase;                     /* the last one logged */
     progress progress;
@@ -114,6 +115,22 @@ static enum worker_exit take_sample(run *r)
     return add_event(r, "sample", event) ? WORKER_DONE : WORKER_DISK;
 }
 
+/* Where an error is asked for: looks now and then whether the angle is steady and known that well, and if so ends the
+ * run here. Counted in frames, so that a run which was interrupted ends at the same one. */
+static enum worker_exit end_when_known(run *r)
+{
+    enum { FRAMES_BETWEEN_LOOKS = 10, LEAST_FRAMES = 40 };
+    if (!(r->spec->until_standard_error > 0) || r->next_sample % FRAMES_BETWEEN_LOOKS) return WORKER_DONE;
+    dem_drum_results now;
+    const dem_status status = dem_drum_results_measure(r->scene, r->frames, (size_t)r->next_sample, &now);
+    if (status == DEM_TOO_FEW_FRAMES) return WORKER_DONE;
+    if (status != DEM_OK) return fail(r, status);
+    r->is_known = now.repose.steady && now.repose.frames >= LEAST_FRAMES
+               && now.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= r->spec->until_standard_error;
+    if (r->is_known) schedule_end_at(&r->plan, rotation_step(r), r->next_sample, r->next_snapshot);
+    return WORKER_DONE;
+}
+
 static bool write_series(run *r, bool now)
 {
     if (!now && r->next_snapshot >= SERIES_ALWAYS_BELOW && monotonic_seconds() - r->last_series < SERIES_SECONDS)
@@ -139,8 +156,9 @@ static enum worker_exit take_what_is_due(run *r)
     if (!is_rotating(r)) return WORKER_DONE;
     const int64_t step = rotation_step(r);
     enum worker_exit exit = WORKER_DONE;
-    if (r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) == step)
-        exit = take_sample(r);
+    const bool sampled = r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) == step;
+    if (sampled) exit = take_sample(r);
+    if (exit == WORKER_DONE && sampled) exit = end_when_known(r);
     if (exit == WORKER_DONE && r->next_snapshot < r->plan.snapshots
         && schedule_snapshot_step(&r->plan, r->next_snapshot) == step)
         exit = take_snapshot(r);
@@ -226,6 +244,7 @@ static run_facts facts_of(const run *r)
         .threads = drum->threads,
         .seed = (double)drum->seed,
         .attempt = r->options->attempt,
+        .ended_by = r->is_known ? "standard-error" : r->spec->until_standard_error > 0 ? "at-most-revolutions" : "duration",
     };
 }
 

@@ -41,3 +41,10 @@ int64_t schedule_snapshot_step(const schedule *plan, int64_t number)
     return number + 1 >= plan->snapshots ? plan->rotation_steps
                                              : step_of(plan->steps_per_snapshot, number);
 }
+
+void schedule_end_at(schedule *plan, int64_t step, int64_t samples, int64_t snapshots)
+{
+    plan->rotation_steps = step;
+    plan->samples = samples;
+    plan->snapshots = snapshots + 1;
+}

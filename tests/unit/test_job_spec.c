@@ -199,8 +199,8 @@ static void unknown_members_are_refused_with_the_nearest_name(void **state)
     expect_problem("contact/frictoin", "0.1",
                    "/inputs/contact/frictoin: is not an input; did you mean inputs/contact/friction?\n");
     expect_problem("friction", "0.1", "/inputs/friction: is not an input; did you mean inputs/contact/friction?\n");
-    expect_problem("duration/until_standard_error_deg", "0.3", "/inputs/duration/until_standard_error_deg: is not an "
-                   "input; available here: revolutions, seconds\n");
+    expect_problem("duration/until_standard_error", "0.3", "/inputs/duration/until_standard_error: is not an input; did you mean "
+                   "inputs/duration/until_standard_error_deg?\n");
     json_t *request = load(minimal);
     json_object_set_new(json_object_get(request, "inputs"), "a/b~c", json_null());
     char *problems = problems_of(request);
@@ -285,6 +285,18 @@ static void a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault(void *
     expect_problem("particles/0/shape", "\"tetrahedron\"", "/inputs/drum/diameter: is 0.05 m; must be at least 0.0889898 m, 8 of the "
                    "largest particle diameter\n/inputs/drum/length: is 0.02 m; must be at least 0.0333712 m, 3 of the largest particle "
                    "diameter\n");
+}
+
+static void a_run_may_be_asked_for_its_answer(void **state)
+{
+    (void)state;
+    job_spec spec = parse_or_fail(minimal_with("duration", "{\"until_standard_error_deg\": 0.3}"));
+    assert_true(spec.until_standard_error == 0.3 && spec.inputs.at_most_revolutions == 10);
+    job_spec_clear(&spec);
+    expect_problem("duration", "{\"until_standard_error_deg\": 0.3, \"seconds\": 2}",
+                   "/inputs/duration/seconds: is given beside until_standard_error_deg; give one of the two\n");
+    expect_problem("duration", "{\"at_most_revolutions\": 3}", "/inputs/duration/at_most_revolutions: is 3 revolutions, but bounds "
+                   "nothing without until_standard_error_deg; give that too, or revolutions\n");
 }
 
 static void each_law_takes_its_own_elasticity(void **state)
@@ -447,6 +459,7 @@ int main(void)
         cmocka_unit_test(what_is_not_available_yet_is_refused_with_what_is),
         cmocka_unit_test(a_cluster_of_named_or_given_spheres_is_one_particle),
         cmocka_unit_test(a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault),
+        cmocka_unit_test(a_run_may_be_asked_for_its_answer),
         cmocka_unit_test(each_law_takes_its_own_elasticity),
         cmocka_unit_test(one_of_two_alternatives_is_enough_and_both_are_too_much),
         cmocka_unit_test(all_problems_are_listed_at_once),
