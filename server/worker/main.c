@@ -15,6 +15,7 @@
 #include "json_text.h"
 #include "run_summary.h"
 #include "spec_file.h"
+#include "study_report.h"
 #include "version.h"
 #include "worker_log.h"
 
@@ -27,7 +28,7 @@ static const char help[] =
     "    --checkpoint-seconds S    between checkpoints (default 30)\n"
     "    --json                    print the results as JSON\n"
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"
-    "                              memory; or every problem it has\n"
+    "                              memory; or every problem it has. Of a study: its cases and what it costs\n"
     "repose --help | --version\n"
     "\n"
     "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"
@@ -121,31 +122,54 @@ static void print_json(json_t *document)
     json_decref(document);
 }
 
+static enum worker_exit refuse(problem_list *problems)
+{
+    print_json(problem_json(400, "about:blank", "Bad specification", "The specification can't be run as it is.", problems));
+    return WORKER_BAD_SPEC;
+}
+
+static const char *path_of(const char *name)
+{
+    return strcmp(name, "-") == 0 ? "/dev/stdin" : name;
+}
+
 /* The spec, or the problem document on stdout. */
 static enum worker_exit load_spec(const char *name, const char *folder, job_spec *spec)
 {
     problem_list problems;
     problem_list_init(&problems);
-    const char *path = strcmp(name, "-") == 0 ? "/dev/stdin" : name;
-    const bool loaded = spec_file_load(path, seed_if_missing(folder), spec, &problems);
-    if (!loaded)
-        print_json(problem_json(400, "about:blank", "Bad specification", "The specification can't be run as it is.",
-                                &problems));
+    const bool loaded = spec_file_load(path_of(name), seed_if_missing(folder), spec, &problems);
+    const enum worker_exit exit = loaded ? WORKER_DONE : refuse(&problems);
     problem_list_clear(&problems);
-    return loaded ? WORKER_DONE : WORKER_BAD_SPEC;
+    return exit;
+}
+
+/* What a job's or a study's document would make. New reference; NULL: problems say why. */
+static json_t *check_document(const json_t *document, problem_list *problems)
+{
+    if (study_report_is_study(document)) return study_report(document, random_seed(), problems);
+    job_spec spec;
+    if (!job_spec_parse(NULL, document, random_seed(), &spec, problems)) return NULL;
+    const job_estimate estimate = job_spec_estimate(&spec, 0.0);
+    json_t *report = json_pack("{s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate));
+    job_spec_clear(&spec);
+    return report;
 }
 
 static enum worker_exit check(int argc, char **argv)
 {
     command_line line;
-    job_spec spec;
     enum worker_exit exit = read_command_line(argc, argv, &line);
-    if (exit == WORKER_DONE) exit = load_spec(line.spec, NULL, &spec);
     if (exit != WORKER_DONE) return exit;
-    const job_estimate estimate = job_spec_estimate(&spec, 0.0);
-    print_json(json_pack("{s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate)));
-    job_spec_clear(&spec);
-    return WORKER_DONE;
+    problem_list problems;
+    problem_list_init(&problems);
+    json_t *document = spec_file_read(path_of(line.spec), &problems);
+    json_t *report = document ? check_document(document, &problems) : NULL;
+    json_decref(document);
+    if (report) print_json(report);
+    else exit = refuse(&problems);
+    problem_list_clear(&problems);
+    return exit;
 }
 
 /* The working directory is the job folder now. */

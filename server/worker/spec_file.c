@@ -9,7 +9,7 @@
 
 enum { LONGEST_SPEC = 1000000 };
 
-bool spec_file_load(const char *name, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
+json_t *spec_file_read(const char *name, problem_list *problems)
 {
     size_t length;
     errno = 0;
@@ -17,10 +17,16 @@ bool spec_file_load(const char *name, uint64_t seed_if_missing, job_spec *spec, 
     if (!text) {
         problem_list_add(problems, "", "can't read %.200s: %s", name,
                          errno ? strerror(errno) : "it is longer than 1 MB");
-        return false;
+        return NULL;
     }
-    json_t *request = json_text_load(text, length, problems);
+    json_t *document = json_text_load(text, length, problems);
     free(text);
+    return document;
+}
+
+bool spec_file_load(const char *name, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
+{
+    json_t *request = spec_file_read(name, problems);
     const bool read = request && job_spec_parse(NULL, request, seed_if_missing, spec, problems);
     json_decref(request);
     return read;

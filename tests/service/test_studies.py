@@ -4,6 +4,7 @@ import io
 import json
 import re
 import sqlite3
+import subprocess
 import threading
 import time
 from pathlib import Path
@@ -11,7 +12,7 @@ from pathlib import Path
 import numpy
 import pytest
 import requests
-from conftest import FAKE_WORKER, SPEC, run_daemon
+from conftest import BUILD, FAKE_WORKER, SPEC, run_daemon
 
 ROOT = Path(__file__).resolve().parents[2]
 FRICTION, RATE = "/inputs/contact/friction", "/inputs/drum/rotation_rate"
@@ -317,6 +318,32 @@ def test_ready_made_studies_are_taken(fake, name):
     varied = numpy.prod([len(values) for values in study["vary"].values()]) if "vary" in study else len(study["cases"])
     assert info["jobs"] == varied * info["repeats"]
     assert all(case["label"]["paper"] for case in study.get("cases", []))
+
+
+def check(folder, study):
+    """What `repose check` says of it, without a daemon."""
+    (folder / "study.json").write_text(json.dumps(study))
+    done = subprocess.run([BUILD / "repose", "check", folder / "study.json"], capture_output=True, text=True)
+    return done.returncode, json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("name", sorted(STUDIES))
+def test_a_study_is_checked_without_a_daemon(tmp_path, fake, name):
+    code, report = check(tmp_path, STUDIES[name])
+    info = post(fake, STUDIES[name]).json()
+    assert code == 0 and len(report["cases"]) == info["cases"] and report["repeats"] == info["repeats"]
+    assert {part: report["estimate"][part] for part in ("jobs", "steps")} == {part: info["estimate"][part] for part in ("jobs", "steps")}
+    rows = fake.get(f"/studies/{info['studyID']}/results").json()["cases"]
+    for case, row in zip(report["cases"], rows, strict=True):
+        assert case["case"] == row["case"] and set(case["inputs"]) == set(row["inputs"])
+        for column, value in case["inputs"].items():  # answers have 15 digits
+            assert row["inputs"][column] == (pytest.approx(value, rel=1e-14) if isinstance(value, float) else value)
+
+
+def test_a_bad_study_has_the_same_problems_without_a_daemon(tmp_path, fake):
+    study = {"base": {"inputs": SPEC | {"gravity": -2}}, "cases": [{"name": "a", "inputs": {"contact": {"friction": -1}}}], "repeats": 0}
+    code, report = check(tmp_path, study)
+    assert code == 2 and [(error["pointer"], error["detail"]) for error in report["errors"]] == errors_of(post(fake, study))
 
 
 def test_table_1_is_the_papers():

@@ -1,0 +1,14 @@
+/* `repose check` of a study: what it would make, or what is wrong with it. */
+#ifndef STUDY_REPORT_H
+#define STUDY_REPORT_H
+
+#include <jansson.h>
+#include <stdint.h>
+
+#include "problem.h"
+
+bool study_report_is_study(const json_t *document); /* it has a base, as no job has */
+/* {"name", "cases": [{"case", "inputs"}], "repeats", "estimate"}. New reference; NULL: problems say why. */
+json_t *study_report(const json_t *document, uint64_t seed_if_missing, problem_list *problems);
+
+#endif
