@@ -219,6 +219,13 @@ def test_the_list_is_newest_first_and_paged(fake):
     assert fake.get("/jobs?study=nothing").json()["jobs"] == []
 
 
+def test_other_methods_are_refused_with_those_that_are_allowed(fake):
+    for path, allowed in (("/studies", "GET, HEAD, POST"), ("/studies/20200101-000000-00000000", "GET, HEAD, DELETE"),
+                          ("/studies/20200101-000000-00000000/results.csv", "GET, HEAD")):
+        answer = requests.put(fake.url + path, json={})
+        assert answer.status_code == 405 and answer.headers["Allow"] == allowed
+
+
 @pytest.mark.parametrize("share", [0.05, 0.3, 0.6, 0.8, 0.95, 1.1])
 def test_a_daemon_killed_in_the_post_kept_all_jobs_or_none(tmp_path, share):
     """The kill comes after a share of the time that the same POST takes undisturbed."""
