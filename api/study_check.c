@@ -15,9 +15,10 @@ static bool is_listed(const problem_list *problems, const char *pointer, const c
 {
     size_t i;
     json_t *known;
-    json_array_foreach(problems->errors, i, known)
+    json_array_foreach(problems->errors, i, known) {
         if (strcmp(json_string_value(json_object_get(known, "pointer")), pointer) == 0
             && strcmp(json_string_value(json_object_get(known, "detail")), detail) == 0) return true;
+    }
     return false;
 }
 
@@ -67,9 +68,10 @@ static void tell_all(const study_spec *study, size_t index, const problem_list *
 {
     size_t i;
     json_t *problem;
-    json_array_foreach(found->errors, i, problem)
+    json_array_foreach(found->errors, i, problem) {
         tell(study, index, json_string_value(json_object_get(problem, "pointer")),
              json_string_value(json_object_get(problem, "detail")), of_base, problems);
+    }
     if (!found->errors) add_once(problems, "", "could not be checked: out of memory");
 }
 

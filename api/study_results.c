@@ -146,14 +146,19 @@ static json_t *names_of(const study_table *table, const char *member)
     size_t i;
     json_t *row, *value;
     const char *name;
-    json_array_foreach(table->cases, i, row)
-        json_object_foreach(json_object_get(row, member), name, value) json_object_set_new(names, name, json_null());
+    json_array_foreach(table->cases, i, row) {
+        json_object_foreach(json_object_get(row, member), name, value) {
+            json_object_set_new(names, name, json_null());
+        }
+    }
     return names;
 }
 
-static void add_text(text_buffer *out, const char *before, const char *text, const char *after)
+/* Another column: a comma and the name. */
+static void add_name(text_buffer *out, const char *before, const char *text, const char *after)
 {
     char whole[800];
+    text_buffer_print(out, ",");
     const int length = snprintf(whole, sizeof whole, "%s%s%s", before, text, after);
     text_buffer_add_csv_field(out, whole, length < (int)sizeof whole ? (size_t)length : sizeof whole - 1);
 }
@@ -177,12 +182,16 @@ static void write_head(const json_t *inputs, const json_t *labels, const json_t 
     const char *name;
     json_t *unused;
     text_buffer_print(out, "case");
-    json_object_foreach((json_t *)inputs, name, unused) text_buffer_print(out, ","), add_text(out, "", name, "");
-    json_object_foreach((json_t *)labels, name, unused) text_buffer_print(out, ","), add_text(out, "label/", name, "");
+    json_object_foreach((json_t *)inputs, name, unused) {
+        add_name(out, "", name, "");
+    }
+    json_object_foreach((json_t *)labels, name, unused) {
+        add_name(out, "label/", name, "");
+    }
     text_buffer_print(out, ",repeats,finished,failed,regime");
     json_object_foreach((json_t *)results, name, unused) {
-        text_buffer_print(out, ","), add_text(out, "", name, "");
-        text_buffer_print(out, ","), add_text(out, "", name, "_standard_error");
+        add_name(out, "", name, "");
+        add_name(out, "", name, "_standard_error");
     }
     if (json_object_get(results, "angle_deg")) text_buffer_print(out, ",error_from");
     text_buffer_print(out, "\r\n");
@@ -192,9 +201,14 @@ static void write_row(const json_t *row, const json_t *inputs, const json_t *lab
 {
     const char *name;
     json_t *unused;
-    add_text(out, "", json_string_value(json_object_get(row, "case")), "");
-    json_object_foreach((json_t *)inputs, name, unused) add_json(out, json_object_get(json_object_get(row, "inputs"), name));
-    json_object_foreach((json_t *)labels, name, unused) add_json(out, json_object_get(json_object_get(row, "label"), name));
+    const json_t *one = json_object_get(row, "case");
+    text_buffer_add_csv_field(out, json_string_value(one), json_string_length(one));
+    json_object_foreach((json_t *)inputs, name, unused) {
+        add_json(out, json_object_get(json_object_get(row, "inputs"), name));
+    }
+    json_object_foreach((json_t *)labels, name, unused) {
+        add_json(out, json_object_get(json_object_get(row, "label"), name));
+    }
     add_json(out, json_object_get(row, "repeats"));
     add_json(out, json_object_get(row, "finished"));
     add_json(out, json_object_get(row, "failed"));
@@ -215,7 +229,9 @@ void study_table_write_csv(const study_table *table, text_buffer *out)
     size_t i;
     json_t *row;
     write_head(inputs, labels, results, out);
-    json_array_foreach(table->cases, i, row) write_row(row, inputs, labels, results, out);
+    json_array_foreach(table->cases, i, row) {
+        write_row(row, inputs, labels, results, out);
+    }
     json_decref(inputs);
     json_decref(labels);
     json_decref(results);

@@ -86,8 +86,9 @@ static void add_column(study_spec *study, const char *column)
 {
     size_t i;
     json_t *known;
-    json_array_foreach(study->columns, i, known)
+    json_array_foreach(study->columns, i, known) {
         if (strcmp(json_string_value(known), column) == 0) return;
+    }
     if (json_array_size(study->columns) < MOST_COLUMNS) json_array_append_new(study->columns, json_string(column));
 }
 
