@@ -135,6 +135,7 @@ static void derive_species(drum_inputs *inputs, dem_drum_definition *drum, probl
         drum->species[s] = (dem_species){.diameter = species->diameter, .density = species->density, .share = species->share / sum};
         if (isnan(species->shape)) drum->species[s].diameter = NAN; /* refused */
         else if (species->shape != DEM_SPHERE) drum_cluster_derive(species, s, &drum->species[s].cluster, problems);
+        if (drum->species[s].cluster.sphere_count) drum->species[s].diameter = dem_species_largest_sphere(&drum->species[s]);
     }
     if (drum->species_count == 0) { /* a refused list: not a number, so that nothing is said of what follows from it */
         drum->species_count = 1;

@@ -42,7 +42,7 @@ typedef struct dem_cluster {
 } dem_cluster;
 
 typedef struct dem_species {
-    double diameter;     /* m; of no meaning for a cluster */
+    double diameter;     /* m; of a cluster: of its largest sphere, for whoever wants one number; the core has no use for it */
     double density;      /* kg/m3 */
     double share;        /* of the particles by number; shares of all species sum to 1 */
     dem_cluster cluster;
