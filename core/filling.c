@@ -174,11 +174,10 @@ static bool place_all(placing *p, spheres *s, const dem_drum_definition *definit
 {
     bool placed[DEM_MAXIMUM_SPECIES] = { false };
     for (size_t round = 0; round < definition->species_count; round++) {
-        size_t largest = DEM_MAXIMUM_SPECIES;
-        for (size_t k = 0; k < definition->species_count; k++)
-            if (!placed[k] && (largest == DEM_MAXIMUM_SPECIES
-                               || dem_species_reach(&definition->species[k]) > dem_species_reach(&definition->species[largest])))
-                largest = k;
+        size_t largest = 0;
+        while (placed[largest]) largest++; /* one is left in each round */
+        for (size_t k = largest + 1; k < definition->species_count; k++)
+            if (!placed[k] && dem_species_reach(&definition->species[k]) > dem_species_reach(&definition->species[largest])) largest = k;
         placed[largest] = true;
         for (size_t i = 0; i < particles_count(s); i++)
             if (particle_species(s, i) == (int32_t)largest && !place_one(p, s, i, room, level, scale, random)) return false;

@@ -248,7 +248,7 @@ WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from
 }
 WIDE_INLINE wide wide_from_doubles(const wide_double x[HALVES])
 {
-    wide y;
+    wide y = { 0 };
     for (int k = 0; k < LANES; k++) y[k] = (real)x[k / 8][k % 8];
     return y;
 }

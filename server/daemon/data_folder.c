@@ -61,7 +61,7 @@ bool data_folder_open(data_folder *data, const char *path)
         log_line("data folder %s can't be made or used: %s", path, strerror(errno));
         return false;
     }
-    strcpy(data->path, resolved);
+    memcpy(data->path, resolved, strlen(resolved) + 1);
     if (!take_lock(data, path)) return false;
     data->jobs = open(jobs, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (data->jobs < 0) {

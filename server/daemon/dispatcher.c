@@ -157,7 +157,7 @@ static store_status record_events_of(job_dispatcher *dispatcher, worker_slot *sl
 /* One transaction for what all workers wrote. If it fails nothing is forgotten: the files still have it. */
 static void record_events(job_dispatcher *dispatcher)
 {
-    int64_t before[DISPATCHER_MOST_WORKERS];
+    int64_t before[DISPATCHER_MOST_WORKERS] = {0};
     bool any = false;
     for (int i = 0; i < dispatcher->workers; i++) {
         before[i] = dispatcher->slot[i].events_at;

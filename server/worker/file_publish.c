@@ -90,7 +90,7 @@ char *file_read(const char *name, size_t most, size_t *length)
     }
     const bool whole = feof(file) && !ferror(file) && used <= most;
     fclose(file);
-    if (whole) {
+    if (whole && text) {
         text[used] = '\0';
         *length = used;
         return text;
