@@ -49,7 +49,7 @@ void drum_cluster_derive(species_inputs *inputs, size_t species, dem_cluster *cl
 {
     const bool is_named = inputs->shape < DEM_NAMED_SHAPES;
     bool known = !isnan(inputs->diameter);
-    *cluster = (dem_cluster){.sphere_count = 0};
+    *cluster = (dem_cluster){ .sphere_count = 0 };
     if (is_named) {
         dem_cluster_of_shape(cluster, (dem_shape)inputs->shape, inputs->diameter);
     } else {

@@ -41,8 +41,8 @@ job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_secon
     const dem_drum_definition *drum = &spec->drum;
     const double speed = particle_steps_per_second > 0.0 ? particle_steps_per_second : PARTICLE_STEPS_PER_SECOND;
     const double particles = (double)drum->particle_count, spheres = particles * drum_spheres_a_particle(drum);
-    const double frame_bytes = sizeof(double)
-        * (FRAME_NUMBERS + FRAME_NUMBERS_PER_DIAMETER * drum->diameter / smallest_diameter(drum));
+    const double frame_bytes =
+        sizeof(double) * (FRAME_NUMBERS + FRAME_NUMBERS_PER_DIAMETER * drum->diameter / smallest_diameter(drum));
 
     job_estimate estimate = {
         .particles = particles,
@@ -53,8 +53,8 @@ job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_secon
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
     estimate.wall_seconds = spheres * estimate.steps / (speed * (1.0 + THREAD_GAIN * (drum->threads - 1)));
-    estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum))
-                          + frame_bytes * spec->duration / spec->sample_interval;
+    estimate.memory_bytes =
+        dem_memory_estimate(spheres + lining_spheres(drum)) + frame_bytes * spec->duration / spec->sample_interval;
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;
 }

@@ -10,14 +10,10 @@
 void drum_result_init(drum_result *result)
 {
     results_init(&drum_result_fields, result, sizeof *result);
-    for (size_t m = 0; m < DEM_ANGLE_METHODS; m++)
-        result->measured.repose.angle[m] = (dem_angle){NAN, NAN, NAN, NAN};
+    for (size_t m = 0; m < DEM_ANGLE_METHODS; m++) result->measured.repose.angle[m] = (dem_angle){ NAN, NAN, NAN, NAN };
 }
 
-static json_t *real_or_null(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
+static json_t *real_or_null(double number) { return isfinite(number) ? json_real(number) : json_null(); }
 
 static bool add_words(json_t *document, const drum_result *result)
 {
@@ -32,9 +28,9 @@ static bool add_words(json_t *document, const drum_result *result)
     }
     json_t *name = result->has_regime ? json_string(dem_regime_name(result->measured.regime.regime)) : json_null();
     const int failed = json_object_set_new(repose, "method", json_string(dem_angle_method_name(DEM_SURFACE_FIT)))
-                     | json_object_set_new(repose, "other_methods", angles)
-                     | json_object_set_new(repose, "other_methods_standard_error_deg", errors)
-                     | json_object_set_new(regime, "name", name);
+                       | json_object_set_new(repose, "other_methods", angles)
+                       | json_object_set_new(repose, "other_methods_standard_error_deg", errors)
+                       | json_object_set_new(regime, "name", name);
     return failed == 0;
 }
 

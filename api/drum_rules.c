@@ -20,9 +20,9 @@
 #define MOST_SNAPSHOT_BYTES 1e12
 #define MOST_SAMPLES 2e5
 #define MOST_SIZE_RATIO 20.0
-#define LEAST_DRUM_DIAMETERS 8.0  /* a bed a few particles deep has no surface to speak of */
+#define LEAST_DRUM_DIAMETERS 8.0   /* a bed a few particles deep has no surface to speak of */
 #define LEAST_LENGTH_DIAMETERS 3.0 /* below, a particle would feel its own periodic image */
-#define MOST_OVERLAP 0.25         /* of the smallest diameter: beyond half a radius a run is stopped */
+#define MOST_OVERLAP 0.25          /* of the smallest diameter: beyond half a radius a run is stopped */
 
 static double of_species(const dem_drum_definition *drum, double (*number)(const dem_species *), bool largest)
 {
@@ -35,10 +35,7 @@ static double of_species(const dem_drum_definition *drum, double (*number)(const
 }
 
 /* Of the sphere that holds a particle. */
-static double species_width(const dem_species *species)
-{
-    return 2.0 * dem_species_reach(species);
-}
+static double species_width(const dem_species *species) { return 2.0 * dem_species_reach(species); }
 
 static void share_out(drum_inputs *inputs, problem_list *problems)
 {
@@ -49,11 +46,12 @@ static void share_out(drum_inputs *inputs, problem_list *problems)
         sum += isnan(inputs->species[s].share) ? 0.0 : inputs->species[s].share;
     }
     if (given == 0) {
-        for (size_t s = 0; s < inputs->species_count; s++)
-            inputs->species[s].share = 1.0 / (double)inputs->species_count;
+        for (size_t s = 0; s < inputs->species_count; s++) inputs->species[s].share = 1.0 / (double)inputs->species_count;
     } else if (given < inputs->species_count) {
-        problem_list_add(problems, "/inputs/particles", "have a valid share in %zu of %zu entries; give it in all or "
-                         "in none", given, inputs->species_count);
+        problem_list_add(problems, "/inputs/particles",
+                         "have a valid share in %zu of %zu entries; give it in all or "
+                         "in none",
+                         given, inputs->species_count);
     } else if (fabs(sum - 1.0) > 1e-9) {
         problem_list_add(problems, "/inputs/particles", "have shares that sum to %.12g; must sum to 1", sum);
     }
@@ -71,8 +69,10 @@ static void derive_duration(drum_inputs *inputs, job_spec *spec, problem_list *p
         return;
     }
     if (!isnan(inputs->at_most_revolutions))
-        problem_list_add(problems, "/inputs/duration/at_most_revolutions", "is %g revolutions, but bounds nothing without "
-                         "until_standard_error_deg; give that too, or revolutions", inputs->at_most_revolutions);
+        problem_list_add(problems, "/inputs/duration/at_most_revolutions",
+                         "is %g revolutions, but bounds nothing without "
+                         "until_standard_error_deg; give that too, or revolutions",
+                         inputs->at_most_revolutions);
     spec->duration = isnan(inputs->revolutions) ? inputs->seconds : inputs->revolutions * revolution;
 }
 
@@ -82,8 +82,7 @@ static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_
     if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & ((UINT64_C(1) << 53) - 1));
     if (isnan(inputs->sample_interval)) {
         const double revolution = 2.0 * DEM_PI / inputs->rotation_rate;
-        inputs->sample_interval = fmin(SAMPLE_INTERVAL_MOST,
-                                       fmin(duration / SAMPLES_PER_RUN, revolution / SAMPLES_PER_REVOLUTION));
+        inputs->sample_interval = fmin(SAMPLE_INTERVAL_MOST, fmin(duration / SAMPLES_PER_RUN, revolution / SAMPLES_PER_REVOLUTION));
     }
 }
 
@@ -93,36 +92,45 @@ static void check_sizes(const drum_inputs *inputs, const dem_drum_definition *dr
     const double largest_sphere = of_species(drum, dem_species_largest_sphere, true);
     const double smallest_sphere = of_species(drum, dem_species_smallest_sphere, false);
     if (inputs->drum_diameter < LEAST_DRUM_DIAMETERS * largest)
-        problem_list_add(problems, "/inputs/drum/diameter", "is %g m; must be at least %g m, %g of the largest "
-                         "particle diameter", inputs->drum_diameter, LEAST_DRUM_DIAMETERS * largest,
-                         LEAST_DRUM_DIAMETERS);
+        problem_list_add(problems, "/inputs/drum/diameter",
+                         "is %g m; must be at least %g m, %g of the largest "
+                         "particle diameter",
+                         inputs->drum_diameter, LEAST_DRUM_DIAMETERS * largest, LEAST_DRUM_DIAMETERS);
     /* A little less is let through: 3 * 0.0063 is not quite 0.0189 in binary. */
     if (inputs->drum_length < LEAST_LENGTH_DIAMETERS * largest * (1.0 - 1e-9))
-        problem_list_add(problems, "/inputs/drum/length", "is %g m; must be at least %g m, %g of the largest "
-                         "particle diameter", inputs->drum_length, LEAST_LENGTH_DIAMETERS * largest,
-                         LEAST_LENGTH_DIAMETERS);
+        problem_list_add(problems, "/inputs/drum/length",
+                         "is %g m; must be at least %g m, %g of the largest "
+                         "particle diameter",
+                         inputs->drum_length, LEAST_LENGTH_DIAMETERS * largest, LEAST_LENGTH_DIAMETERS);
     if (largest_sphere > MOST_SIZE_RATIO * smallest_sphere)
-        problem_list_add(problems, "/inputs/particles", "have diameters from %g m to %g m; the largest must be at "
-                         "most %g of the smallest", smallest_sphere, largest_sphere, MOST_SIZE_RATIO);
+        problem_list_add(problems, "/inputs/particles",
+                         "have diameters from %g m to %g m; the largest must be at "
+                         "most %g of the smallest",
+                         smallest_sphere, largest_sphere, MOST_SIZE_RATIO);
 }
 
 static void check_lining(const drum_inputs *inputs, problem_list *problems)
 {
     const double most = inputs->drum_diameter / LEAST_DRUM_DIAMETERS;
     if (inputs->lining_diameter > most)
-        problem_list_add(problems, "/inputs/wall/lining/diameter", "is %g m; must be at most %g m, 1/%g of the drum's "
-                         "diameter", inputs->lining_diameter, most, LEAST_DRUM_DIAMETERS);
+        problem_list_add(problems, "/inputs/wall/lining/diameter",
+                         "is %g m; must be at most %g m, 1/%g of the drum's "
+                         "diameter",
+                         inputs->lining_diameter, most, LEAST_DRUM_DIAMETERS);
     if (inputs->lining_pitch < 0.5 * inputs->lining_diameter)
-        problem_list_add(problems, "/inputs/wall/lining/pitch", "is %g m; must be at least %g m, half the diameter of "
-                         "the lining's spheres", inputs->lining_pitch, 0.5 * inputs->lining_diameter);
+        problem_list_add(problems, "/inputs/wall/lining/pitch",
+                         "is %g m; must be at least %g m, half the diameter of "
+                         "the lining's spheres",
+                         inputs->lining_pitch, 0.5 * inputs->lining_diameter);
     if (inputs->lining_pitch > inputs->drum_length)
         problem_list_add(problems, "/inputs/wall/lining/pitch", "is %g m; must be at most %g m, the drum's length",
                          inputs->lining_pitch, inputs->drum_length);
-    const double spheres = DEM_PI * inputs->drum_diameter * inputs->drum_length
-                         / (inputs->lining_pitch * inputs->lining_pitch);
+    const double spheres = DEM_PI * inputs->drum_diameter * inputs->drum_length / (inputs->lining_pitch * inputs->lining_pitch);
     if (spheres > MOST_PARTICLES)
-        problem_list_add(problems, "/inputs/wall/lining/pitch", "is %g m, which needs %.3g spheres; at most %.3g are "
-                         "allowed", inputs->lining_pitch, spheres, MOST_PARTICLES);
+        problem_list_add(problems, "/inputs/wall/lining/pitch",
+                         "is %g m, which needs %.3g spheres; at most %.3g are "
+                         "allowed",
+                         inputs->lining_pitch, spheres, MOST_PARTICLES);
 }
 
 static void derive_species(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
@@ -132,14 +140,15 @@ static void derive_species(drum_inputs *inputs, dem_drum_definition *drum, probl
     drum->species_count = inputs->species_count;
     for (size_t s = 0; s < inputs->species_count; s++) {
         species_inputs *species = &inputs->species[s];
-        drum->species[s] = (dem_species){.diameter = species->diameter, .density = species->density, .share = species->share / sum};
+        drum->species[s] =
+            (dem_species){ .diameter = species->diameter, .density = species->density, .share = species->share / sum };
         if (isnan(species->shape)) drum->species[s].diameter = NAN; /* refused */
         else if (species->shape != DEM_SPHERE) drum_cluster_derive(species, s, &drum->species[s].cluster, problems);
         if (drum->species[s].cluster.sphere_count) drum->species[s].diameter = dem_species_largest_sphere(&drum->species[s]);
     }
     if (drum->species_count == 0) { /* a refused list: not a number, so that nothing is said of what follows from it */
         drum->species_count = 1;
-        drum->species[0] = (dem_species){.diameter = NAN, .density = NAN, .share = NAN};
+        drum->species[0] = (dem_species){ .diameter = NAN, .density = NAN, .share = NAN };
     }
 }
 
@@ -148,18 +157,19 @@ static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition
     double count = inputs->particle_count;
     drum->fill_fraction = inputs->fill_fraction;
     if (!isnan(count)) {
-        drum->fill_fraction = dem_fill_of_particles(drum->diameter, drum->length, count, drum->species,
-                                                    drum->species_count);
+        drum->fill_fraction = dem_fill_of_particles(drum->diameter, drum->length, count, drum->species, drum->species_count);
         if (drum->fill_fraction > 0.95)
-            problem_list_add(problems, "/inputs/particle_count", "is %.0f, a fill fraction of %.3g; must be at most "
-                             "%.0f, a fill fraction of 0.95", count, drum->fill_fraction,
-                             floor(count * 0.95 / drum->fill_fraction));
+            problem_list_add(problems, "/inputs/particle_count",
+                             "is %.0f, a fill fraction of %.3g; must be at most "
+                             "%.0f, a fill fraction of 0.95",
+                             count, drum->fill_fraction, floor(count * 0.95 / drum->fill_fraction));
     } else {
-        count = dem_particles_of_fill(drum->diameter, drum->length, inputs->fill_fraction, drum->species,
-                                      drum->species_count);
+        count = dem_particles_of_fill(drum->diameter, drum->length, inputs->fill_fraction, drum->species, drum->species_count);
         if (count < 8.0 || count > MOST_PARTICLES)
-            problem_list_add(problems, "/inputs/fill_fraction", "is %g, which makes %.3g particles; must make 8 to "
-                             "%.0f", inputs->fill_fraction, count, MOST_PARTICLES);
+            problem_list_add(problems, "/inputs/fill_fraction",
+                             "is %g, which makes %.3g particles; must make 8 to "
+                             "%.0f",
+                             inputs->fill_fraction, count, MOST_PARTICLES);
     }
     const double spheres = count * drum_spheres_a_particle(drum);
     if (count <= MOST_PARTICLES && spheres > MOST_PARTICLES)
@@ -180,12 +190,13 @@ static void derive_linear(const drum_inputs *inputs, const collision *worst, dem
 {
     const double least = dem_stiffness_for_overlap(worst->speed, worst->heaviest, MOST_OVERLAP * worst->smallest);
     if (inputs->stiffness < least)
-        problem_list_add(problems, "/inputs/contact/stiffness", "is %g N/m, too soft: overlaps would pass %g of the "
-                         "smallest diameter; must be at least %.3g N/m here", inputs->stiffness, MOST_OVERLAP,
-                         least);
-    drum->contact.stiffness = isnan(inputs->maximum_overlap)
-                            ? inputs->stiffness
-                            : dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest);
+        problem_list_add(problems, "/inputs/contact/stiffness",
+                         "is %g N/m, too soft: overlaps would pass %g of the "
+                         "smallest diameter; must be at least %.3g N/m here",
+                         inputs->stiffness, MOST_OVERLAP, least);
+    drum->contact.stiffness = isnan(inputs->maximum_overlap) ? inputs->stiffness
+                                                             : dem_stiffness_for_overlap(worst->speed, worst->heaviest,
+                                                                                         inputs->maximum_overlap * worst->smallest);
     drum->time_step = dem_time_step(drum->contact.stiffness, worst->lightest, inputs->restitution);
 }
 
@@ -194,15 +205,19 @@ static void derive_linear(const drum_inputs *inputs, const collision *worst, dem
 static void derive_hertzian(const drum_inputs *inputs, const collision *worst, dem_drum_definition *drum, problem_list *problems)
 {
     const double radius = 0.5 * worst->largest, plane_strain = 2 * (1 - inputs->poissons_ratio * inputs->poissons_ratio);
-    const double least = plane_strain * dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, MOST_OVERLAP * worst->smallest);
+    const double least =
+        plane_strain * dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, MOST_OVERLAP * worst->smallest);
     if (inputs->youngs_modulus < least)
-        problem_list_add(problems, "/inputs/contact/youngs_modulus", "is %g Pa, too soft: overlaps would pass %g of the "
-                         "smallest diameter; must be at least %.3g Pa here", inputs->youngs_modulus, MOST_OVERLAP, least);
-    const double effective = isnan(inputs->youngs_modulus)
-        ? dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, inputs->maximum_overlap * worst->smallest)
-        : inputs->youngs_modulus / plane_strain;
+        problem_list_add(problems, "/inputs/contact/youngs_modulus",
+                         "is %g Pa, too soft: overlaps would pass %g of the "
+                         "smallest diameter; must be at least %.3g Pa here",
+                         inputs->youngs_modulus, MOST_OVERLAP, least);
+    const double effective =
+        isnan(inputs->youngs_modulus)
+            ? dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, inputs->maximum_overlap * worst->smallest)
+            : inputs->youngs_modulus / plane_strain;
     const double overlap = worst->smallest * MOST_OVERLAP * pow(least / (effective * plane_strain), 0.4);
-    drum->contact.particle = drum->contact.wall = (dem_elasticity){effective * plane_strain, inputs->poissons_ratio};
+    drum->contact.particle = drum->contact.wall = (dem_elasticity){ effective * plane_strain, inputs->poissons_ratio };
     drum->contact.stiffness = 4.0 / 3.0 * effective * sqrt(radius * overlap);
     drum->time_step = dem_hertz_time_step(effective, worst->lightest, 0.25 * worst->smallest, worst->speed);
 }
@@ -210,8 +225,9 @@ static void derive_hertzian(const drum_inputs *inputs, const collision *worst, d
 static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     const dem_contact_law law = (dem_contact_law)inputs->contact_law;
-    collision worst = {of_species(drum, dem_species_mass, true), of_species(drum, dem_species_contact_mass, false),
-                       of_species(drum, dem_species_smallest_sphere, false), of_species(drum, dem_species_largest_sphere, true), 0.0};
+    collision worst = { of_species(drum, dem_species_mass, true), of_species(drum, dem_species_contact_mass, false),
+                        of_species(drum, dem_species_smallest_sphere, false), of_species(drum, dem_species_largest_sphere, true),
+                        0.0 };
     worst.speed = dem_impact_speed(drum->diameter, of_species(drum, dem_species_diameter, true), drum->gravity,
                                    dem_bed_friction(inputs->friction, drum->species, drum->species_count), drum->rotation_rate);
     drum->contact = (dem_contact_parameters){
@@ -222,11 +238,15 @@ static void derive_contact(const drum_inputs *inputs, dem_drum_definition *drum,
         .tangential_stiffness_ratio = inputs->tangential_stiffness_ratio,
     };
     if (law == DEM_HERTZ_MINDLIN && !isnan(inputs->stiffness))
-        problem_list_add(problems, "/inputs/contact/stiffness", "is %g N/m, but hertz-mindlin takes youngs_modulus (Pa) or "
-                         "maximum_overlap", inputs->stiffness);
+        problem_list_add(problems, "/inputs/contact/stiffness",
+                         "is %g N/m, but hertz-mindlin takes youngs_modulus (Pa) or "
+                         "maximum_overlap",
+                         inputs->stiffness);
     if (law != DEM_HERTZ_MINDLIN && !isnan(inputs->youngs_modulus))
-        problem_list_add(problems, "/inputs/contact/youngs_modulus", "is %g Pa, but this law takes stiffness (N/m) or "
-                         "maximum_overlap; youngs_modulus is for hertz-mindlin", inputs->youngs_modulus);
+        problem_list_add(problems, "/inputs/contact/youngs_modulus",
+                         "is %g Pa, but this law takes stiffness (N/m) or "
+                         "maximum_overlap; youngs_modulus is for hertz-mindlin",
+                         inputs->youngs_modulus);
     (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, drum, problems);
 }
 
@@ -240,7 +260,7 @@ static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_
         .seed = isnan(inputs->seed) ? 0 : (uint64_t)inputs->seed,
         .threads = isnan(inputs->threads) ? 1 : (int)inputs->threads,
     };
-    if (!isnan(inputs->lining_diameter)) drum->lining = (dem_lining){inputs->lining_diameter, inputs->lining_pitch};
+    if (!isnan(inputs->lining_diameter)) drum->lining = (dem_lining){ inputs->lining_diameter, inputs->lining_pitch };
     derive_species(inputs, drum, problems);
     check_sizes(inputs, drum, problems);
     check_lining(inputs, problems);
@@ -253,10 +273,13 @@ static void check_amounts(const job_spec *spec, problem_list *problems)
     const drum_inputs *inputs = &spec->inputs;
     const job_estimate estimate = drum_estimate(spec, 0.0);
     const char *duration = spec->until_standard_error > 0.0 ? "/inputs/duration/at_most_revolutions"
-                         : isnan(inputs->revolutions) ? "/inputs/duration/seconds" : "/inputs/duration/revolutions";
+                           : isnan(inputs->revolutions)     ? "/inputs/duration/seconds"
+                                                            : "/inputs/duration/revolutions";
     if (estimate.steps > MOST_STEPS)
-        problem_list_add(problems, duration, "makes %.3g steps of %.3g s; must make at most %.3g: shorten the "
-                         "duration or allow a larger overlap", estimate.steps, spec->drum.time_step, MOST_STEPS);
+        problem_list_add(problems, duration,
+                         "makes %.3g steps of %.3g s; must make at most %.3g: shorten the "
+                         "duration or allow a larger overlap",
+                         estimate.steps, spec->drum.time_step, MOST_STEPS);
     if (spec->duration < SAMPLES_PER_RUN * spec->drum.time_step)
         problem_list_add(problems, duration, "is %.3g s; must be at least %.3g s, %g time steps", spec->duration,
                          SAMPLES_PER_RUN * spec->drum.time_step, SAMPLES_PER_RUN);
@@ -271,11 +294,15 @@ static void check_amounts(const job_spec *spec, problem_list *problems)
         problem_list_add(problems, "/inputs/snapshots/interval", "is %g s; must be 0 or at least the time step, %.3g s",
                          spec->snapshot_interval, spec->drum.time_step);
     if (estimate.snapshots > MOST_SNAPSHOTS)
-        problem_list_add(problems, "/inputs/snapshots/interval", "is %g s, %.3g snapshots in all; must make at most "
-                         "%.0f", spec->snapshot_interval, estimate.snapshots, MOST_SNAPSHOTS);
+        problem_list_add(problems, "/inputs/snapshots/interval",
+                         "is %g s, %.3g snapshots in all; must make at most "
+                         "%.0f",
+                         spec->snapshot_interval, estimate.snapshots, MOST_SNAPSHOTS);
     if (estimate.snapshot_bytes > MOST_SNAPSHOT_BYTES)
-        problem_list_add(problems, "/inputs/snapshots/interval", "is %g s, about %.3g bytes of snapshots; must make at "
-                         "most %.0f bytes", spec->snapshot_interval, estimate.snapshot_bytes, MOST_SNAPSHOT_BYTES);
+        problem_list_add(problems, "/inputs/snapshots/interval",
+                         "is %g s, about %.3g bytes of snapshots; must make at "
+                         "most %.0f bytes",
+                         spec->snapshot_interval, estimate.snapshot_bytes, MOST_SNAPSHOT_BYTES);
 }
 
 void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)

@@ -26,8 +26,15 @@ static job_estimate estimate(const job_spec *spec, double particle_steps_per_sec
 {
     (void)spec, (void)particle_steps_per_second;
     return (job_estimate){
-        .particles = 1, .wall_seconds = WALL_SECONDS, .memory_bytes = MEMORY_BYTES, .snapshots = 0, .snapshot_bytes = 0,
-        .steps = NAN, .simulated_seconds = NAN, .time_step = NAN, .stiffness = NAN,
+        .particles = 1,
+        .wall_seconds = WALL_SECONDS,
+        .memory_bytes = MEMORY_BYTES,
+        .snapshots = 0,
+        .snapshot_bytes = 0,
+        .steps = NAN,
+        .simulated_seconds = NAN,
+        .time_step = NAN,
+        .stiffness = NAN,
     };
 }
 

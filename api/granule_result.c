@@ -7,10 +7,7 @@
 #include "dem_rules.h"
 #include "granule_process.h"
 
-static double degrees(double radians)
-{
-    return radians * (180.0 / DEM_PI);
-}
+static double degrees(double radians) { return radians * (180.0 / DEM_PI); }
 
 void granule_result_set(granule_result *result, const dem_granule_result *solved, const run_facts *run)
 {
@@ -26,7 +23,4 @@ void granule_result_set(granule_result *result, const dem_granule_result *solved
     result->motion_slip_onset_deg = degrees(solved->motion.slip_onset);
 }
 
-json_t *granule_result_to_json(const granule_result *result)
-{
-    return results_to_json(&granule_result_fields, result);
-}
+json_t *granule_result_to_json(const granule_result *result) { return results_to_json(&granule_result_fields, result); }

@@ -15,7 +15,8 @@ void respond_store_failure(http_response *response, store_status status, const c
         return;
     }
     if (status == STORE_QUEUE_FULL) {
-        http_respond_problem(response, 503, NULL, "The queue is full", "could not %s: with it more jobs would wait than may (--queue-limit); try again later", wanted);
+        http_respond_problem(response, 503, NULL, "The queue is full",
+                             "could not %s: with it more jobs would wait than may (--queue-limit); try again later", wanted);
         response->retry_after = 60;
         return;
     }
@@ -37,10 +38,7 @@ bool find_job(api_service *service, const http_request *request, http_response *
     return status == STORE_OK;
 }
 
-static bool has_ended(const job_record *job)
-{
-    return job->status != JOB_ACCEPTED && job->status != JOB_RUNNING;
-}
+static bool has_ended(const job_record *job) { return job->status != JOB_ACCEPTED && job->status != JOB_RUNNING; }
 
 /* ?wait=SECONDS answers as soon as the job has ended, at the latest when the time is up. */
 void show_job(api_service *service, const http_request *request, http_response *response)
@@ -71,10 +69,10 @@ void dismiss_job(api_service *service, const http_request *request, http_respons
     }
     if (!find_job(service, request, response, &job)) return;
     if (status == STORE_CONFLICT && job.status != JOB_DISMISSED)
-        http_respond_problem(response, 409, NULL, "The job has ended", "job %s is %s; its results are kept and it can't be dismissed any more",
-                             job.id, job_status_name(job.status));
-    else /* dismissing twice is no mistake */
-        http_respond_json(response, 200, status_info(&job));
+        http_respond_problem(response, 409, NULL, "The job has ended",
+                             "job %s is %s; its results are kept and it can't be dismissed any more", job.id,
+                             job_status_name(job.status));
+    else /* dismissing twice is no mistake */ http_respond_json(response, 200, status_info(&job));
     job_record_clear(&job);
 }
 
@@ -85,7 +83,10 @@ static bool read_statuses(const char *text, unsigned *statuses, char *problem, s
         const size_t length = strcspn(text, ",");
         job_status status;
         if (!job_status_parse(text, length, &status)) {
-            snprintf(problem, size, "parameter status is \"%.40s\"; must be accepted, running, successful, failed, dismissed, or several with commas between", text);
+            snprintf(problem, size,
+                     "parameter status is \"%.40s\"; must be accepted, running, successful, failed, dismissed, or several with "
+                     "commas between",
+                     text);
             return false;
         }
         *statuses |= 1U << status;
@@ -105,8 +106,8 @@ static bool read_filter(const http_request *request, job_filter *filter, char *p
         return false;
     }
     return read_statuses(http_request_parameter(request, "status"), &filter->statuses, problem, size)
-        && http_request_integer(request, "limit", 1, JOBS_HIGHEST_LIMIT, JOBS_DEFAULT_LIMIT, &filter->limit, problem, size)
-        && http_request_integer(request, "cursor", 1, INT64_MAX, 0, &filter->before, problem, size);
+           && http_request_integer(request, "limit", 1, JOBS_HIGHEST_LIMIT, JOBS_DEFAULT_LIMIT, &filter->limit, problem, size)
+           && http_request_integer(request, "cursor", 1, INT64_MAX, 0, &filter->before, problem, size);
 }
 
 typedef struct job_page {
@@ -130,7 +131,8 @@ static void add_escaped(text_buffer *out, const char *text)
 {
     for (; *text; text++) {
         const unsigned char c = (unsigned char)*text;
-        if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || strchr("-_.~,", c)) text_buffer_add(out, text, 1);
+        if ((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || strchr("-_.~,", c))
+            text_buffer_add(out, text, 1);
         else text_buffer_print(out, "%%%02X", c);
     }
 }
@@ -165,12 +167,12 @@ static json_t *counts_of_jobs(api_service *service)
 void list_jobs(api_service *service, const http_request *request, http_response *response)
 {
     char problem[240];
-    job_filter filter = {0};
+    job_filter filter = { 0 };
     if (!read_filter(request, &filter, problem, sizeof problem)) {
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
         return;
     }
-    job_page page = {.jobs = json_array(), .limit = filter.limit};
+    job_page page = { .jobs = json_array(), .limit = filter.limit };
     filter.limit++; /* one more than asked for says whether there is a next page */
     const store_status status = store_list_jobs(service->store, &filter, add_job_to_page, &page);
     json_t *counts = status == STORE_OK ? counts_of_jobs(service) : NULL;

@@ -41,7 +41,8 @@ json_t *parse_body(const http_request *request, http_response *response)
         return NULL;
     }
     json_t *document = json_text_load(request->body ? request->body : "", request->body_length, &problems);
-    if (!document) http_respond_json(response, 400, problem_json(400, "about:blank", "Not JSON", "the body can't be read", &problems));
+    if (!document)
+        http_respond_json(response, 400, problem_json(400, "about:blank", "Not JSON", "the body can't be read", &problems));
     problem_list_clear(&problems);
     return document;
 }
@@ -74,8 +75,9 @@ static bool read_spec(api_service *service, const process_type *type, const http
         set_default_threads(service, type, document);
         good = job_spec_parse(type->name, document, choose_seed(), spec, &problems);
         if (!good)
-            http_respond_json(response, 400, problem_json(400, "about:blank", "The specification can't be run",
-                                                          "each entry of errors names a member, what it is and what it may be", &problems));
+            http_respond_json(response, 400,
+                              problem_json(400, "about:blank", "The specification can't be run",
+                                           "each entry of errors names a member, what it is and what it may be", &problems));
         problem_list_clear(&problems);
     }
     json_decref(document);
@@ -88,8 +90,9 @@ static void respond_created(api_service *service, const http_request *request, h
     job_record job;
     const store_status status = store_find_job(service->store, id, &job);
     if (status != STORE_OK) { /* it is safe in the queue all the same: say so */
-        http_respond_json(response, 201, json_pack("{s:s, s:s, s:s, s:s}", "jobID", id, "processID", spec->process,
-                                                   "type", "process", "status", "accepted"));
+        http_respond_json(
+            response, 201,
+            json_pack("{s:s, s:s, s:s, s:s}", "jobID", id, "processID", spec->process, "type", "process", "status", "accepted"));
     } else {
         json_t *info = status_info(&job);
         const job_estimate estimate = job_spec_estimate(spec, store_measured_speed(service->store));

@@ -61,7 +61,8 @@ static void respond_query_failure(http_response *response, query_status status, 
     if (status == QUERY_REFUSED) {
         http_respond_problem(response, 400, NULL, "The query can't be run", "%s", problem);
     } else {
-        http_respond_problem(response, 503, NULL, status == QUERY_TOO_SLOW ? "The query takes too long" : "Store not available", "%s", problem);
+        http_respond_problem(response, 503, NULL, status == QUERY_TOO_SLOW ? "The query takes too long" : "Store not available",
+                             "%s", problem);
         response->retry_after = 5;
     }
 }
@@ -70,10 +71,11 @@ void run_query(api_service *service, const http_request *request, http_response 
 {
     const char *sql = http_request_parameter(request, "sql");
     const char *format = http_request_parameter(request, "format");
-    query_table table = {.csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv")};
+    query_table table = { .csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv") };
     if (!sql || (format && !table.csv && strcmp(format, "json") != 0)) {
-        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", sql ? "parameter format must be json or csv"
-                             : "parameter sql is missing; for example /query?sql=select+friction,angle_deg+from+run_summary");
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s",
+                             sql ? "parameter format must be json or csv"
+                                 : "parameter sql is missing; for example /query?sql=select+friction,angle_deg+from+run_summary");
         return;
     }
     text_buffer_init(&table.out, QUERY_BYTES);

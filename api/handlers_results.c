@@ -35,7 +35,8 @@ void show_results(api_service *service, const http_request *request, http_respon
         http_respond_problem(response, 404, NULL, "The job was dismissed", "job %s was dismissed before it had results", job.id);
     } else {
         http_respond_problem(response, 404, OGC_EXCEPTION "result-not-ready", "Result not ready",
-                             "job %s is %s; /jobs/%s?wait=60 answers when it has ended", job.id, job_status_name(job.status), job.id);
+                             "job %s is %s; /jobs/%s?wait=60 answers when it has ended", job.id, job_status_name(job.status),
+                             job.id);
     }
     job_record_clear(&job);
 }
@@ -57,7 +58,6 @@ void show_log(api_service *service, const http_request *request, http_response *
     int file;
     if (store_open_log(service->store, job.id, &file) == STORE_OK)
         http_respond_file(request, response, file, "text/plain; charset=utf-8", HTTP_FILE_GROWING);
-    else /* no worker has said anything yet */
-        http_respond_text(response, 200, "text/plain; charset=utf-8", strdup(""), 0);
+    else /* no worker has said anything yet */ http_respond_text(response, 200, "text/plain; charset=utf-8", strdup(""), 0);
     job_record_clear(&job);
 }

@@ -54,9 +54,11 @@ static void close_series(series_page *series, http_response *response, store_sta
 
 static void add_links(series_page *series, const char *name)
 {
-    text_buffer_print(&series->out, "],\"links\":[{\"rel\":\"self\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s\"}", series->id, name);
+    text_buffer_print(&series->out, "],\"links\":[{\"rel\":\"self\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s\"}",
+                      series->id, name);
     if (series->more)
-        text_buffer_print(&series->out, ",{\"rel\":\"next\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s?after=%lld&limit=%lld\"}",
+        text_buffer_print(&series->out,
+                          ",{\"rel\":\"next\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s?after=%lld&limit=%lld\"}",
                           series->id, name, (long long)series->last, (long long)series->limit);
     text_buffer_print(&series->out, "]}");
 }
@@ -78,7 +80,8 @@ static void add_csv_header(series_page *series, json_t *values)
     text_buffer_print(&series->out, "number,step,time");
     const char *name;
     json_t *value;
-    json_object_foreach(values, name, value) {
+    json_object_foreach(values, name, value)
+    {
         if (strcmp(name, "time") == 0) continue; /* the same as the row's */
         json_array_append_new(series->columns, json_string(name));
         text_buffer_print(&series->out, ",");
@@ -97,7 +100,8 @@ static bool add_sample_csv(void *context, const sample_row *row)
     text_buffer_add_number(&series->out, row->time);
     size_t i;
     json_t *name;
-    json_array_foreach(series->columns, i, name) {
+    json_array_foreach(series->columns, i, name)
+    {
         const json_t *value = json_object_get(values, json_string_value(name));
         text_buffer_print(&series->out, ",");
         if (json_is_number(value)) text_buffer_add_number(&series->out, json_number_value(value));
@@ -118,14 +122,14 @@ bool read_format(const http_request *request, http_response *response, bool *csv
 
 void list_samples(api_service *service, const http_request *request, http_response *response)
 {
-    series_page series = {0};
+    series_page series = { 0 };
     int64_t after;
     bool csv;
     if (!read_format(request, response, &csv) || !open_series(service, request, response, &series, &after)) return;
     if (!csv) text_buffer_print(&series.out, "{\"samples\":[");
     else text_buffer_add(&series.out, "", 0);
-    const store_status status = store_list_samples(service->store, series.id, after, series.limit + 1,
-                                                   csv ? add_sample_csv : add_sample_json, &series);
+    const store_status status =
+        store_list_samples(service->store, series.id, after, series.limit + 1, csv ? add_sample_csv : add_sample_json, &series);
     if (!csv) add_links(&series, "samples");
     close_series(&series, response, status, csv ? "text/csv; charset=utf-8" : "application/json", "read the samples");
 }
@@ -144,7 +148,7 @@ static bool add_snapshot(void *context, const snapshot_row *row)
 
 void list_snapshots(api_service *service, const http_request *request, http_response *response)
 {
-    series_page series = {0};
+    series_page series = { 0 };
     int64_t after;
     if (!open_series(service, request, response, &series, &after)) return;
     text_buffer_print(&series.out, "{\"snapshots\":[");
@@ -168,12 +172,10 @@ void send_snapshot(api_service *service, const http_request *request, http_respo
     const int64_t number = snapshot_number(request->segment[1]);
     int file;
     const store_status status = number < 0 ? STORE_NOT_FOUND : store_open_snapshot(service->store, job.id, number, &file);
-    if (status == STORE_OK)
-        http_respond_file(request, response, file, "application/x-hdf5", HTTP_FILE_IMMUTABLE);
+    if (status == STORE_OK) http_respond_file(request, response, file, "application/x-hdf5", HTTP_FILE_IMMUTABLE);
     else if (status == STORE_NOT_FOUND)
-        http_respond_problem(response, 404, NULL, "No such snapshot", "job %s has no snapshot \"%s\"; /jobs/%s/snapshots lists them",
-                             job.id, request->segment[1], job.id);
-    else
-        respond_store_failure(response, status, "open the snapshot");
+        http_respond_problem(response, 404, NULL, "No such snapshot",
+                             "job %s has no snapshot \"%s\"; /jobs/%s/snapshots lists them", job.id, request->segment[1], job.id);
+    else respond_store_failure(response, status, "open the snapshot");
     job_record_clear(&job);
 }

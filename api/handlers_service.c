@@ -9,9 +9,11 @@
 #include "handlers.h"
 #include "status_info.h"
 
-static bool send_page_file(api_service *service, const http_request *request, http_response *response, const char *name, const char *type)
+static bool send_page_file(api_service *service, const http_request *request, http_response *response, const char *name,
+                           const char *type)
 {
-    const int file = service->web_folder < 0 ? -1 : openat(service->web_folder, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    const int file =
+        service->web_folder < 0 ? -1 : openat(service->web_folder, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
     if (file < 0) return false;
     http_respond_file(request, response, file, type, HTTP_FILE_CHANGING);
     return true;
@@ -20,17 +22,17 @@ static bool send_page_file(api_service *service, const http_request *request, ht
 static json_t *landing_links(void)
 {
     static const char *const links[][3] = {
-        {"self", "application/json", "/"},
-        {"alternate", "text/html", "/"},
-        {"service-desc", "application/vnd.oai.openapi;version=3.1", "/api"},
-        {"http://www.opengis.net/def/rel/ogc/1.0/conformance", "application/json", "/conformance"},
-        {"http://www.opengis.net/def/rel/ogc/1.0/processes", "application/json", "/processes"},
-        {"http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json", "/jobs"},
-        {"studies", "application/json", "/studies"},
-        {"query", "application/json", "/query"},
-        {"health", "application/json", "/healthz"},
-        {"ready", "application/json", "/readyz"},
-        {"metrics", "text/plain", "/metrics"},
+        { "self", "application/json", "/" },
+        { "alternate", "text/html", "/" },
+        { "service-desc", "application/vnd.oai.openapi;version=3.1", "/api" },
+        { "http://www.opengis.net/def/rel/ogc/1.0/conformance", "application/json", "/conformance" },
+        { "http://www.opengis.net/def/rel/ogc/1.0/processes", "application/json", "/processes" },
+        { "http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json", "/jobs" },
+        { "studies", "application/json", "/studies" },
+        { "query", "application/json", "/query" },
+        { "health", "application/json", "/healthz" },
+        { "ready", "application/json", "/readyz" },
+        { "metrics", "text/plain", "/metrics" },
     };
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof links / sizeof links[0]; i++)
@@ -41,17 +43,19 @@ static json_t *landing_links(void)
 /* A browser names text/html; curl's wildcard gets what a program can read. */
 void show_landing(api_service *service, const http_request *request, http_response *response)
 {
-    if (http_request_accepts(request, "text/html") && send_page_file(service, request, response, "index.html", "text/html; charset=utf-8"))
+    if (http_request_accepts(request, "text/html")
+        && send_page_file(service, request, response, "index.html", "text/html; charset=utf-8"))
         return;
-    http_respond_json(response, 200, json_pack("{s:s, s:s, s:s, s:o}", "title", "reposed", "description",
-                                               "Virtual rotary-drum tests: the angle of repose of granular materials",
-                                               "version", REPOSED_VERSION, "links", landing_links()));
+    http_respond_json(response, 200,
+                      json_pack("{s:s, s:s, s:s, s:o}", "title", "reposed", "description",
+                                "Virtual rotary-drum tests: the angle of repose of granular materials", "version", REPOSED_VERSION,
+                                "links", landing_links()));
 }
 
 void show_conformance(api_service *service, const http_request *request, http_response *response)
 {
     (void)service, (void)request;
-    static const char *const classes[] = {"core", "json", "job-list", "dismiss"};
+    static const char *const classes[] = { "core", "json", "job-list", "dismiss" };
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
         json_array_append_new(list, json_sprintf("http://www.opengis.net/spec/ogcapi-processes-1/1.0/conf/%s", classes[i]));
@@ -62,18 +66,21 @@ void show_api(api_service *service, const http_request *request, http_response *
 {
     const int file = open(service->api_file, O_RDONLY | O_CLOEXEC);
     if (file < 0)
-        http_respond_problem(response, 404, NULL, "No OpenAPI document", "the file of --api-file can't be read: %s", strerror(errno));
-    else
-        http_respond_file(request, response, file, "application/vnd.oai.openapi;version=3.1", HTTP_FILE_CHANGING);
+        http_respond_problem(response, 404, NULL, "No OpenAPI document", "the file of --api-file can't be read: %s",
+                             strerror(errno));
+    else http_respond_file(request, response, file, "application/vnd.oai.openapi;version=3.1", HTTP_FILE_CHANGING);
 }
 
 /* The kinds of file a page is made of; anything else in the folder stays inside. NULL: not one of them. */
 static const char *asset_type(const char *name)
 {
     static const char *const types[][2] = {
-        {".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"},
-        {".css", "text/css; charset=utf-8"},   {".svg", "image/svg+xml"},
-        {".png", "image/png"},                 {".ico", "image/x-icon"},
+        { ".html", "text/html; charset=utf-8" },
+        { ".js", "text/javascript; charset=utf-8" },
+        { ".css", "text/css; charset=utf-8" },
+        { ".svg", "image/svg+xml" },
+        { ".png", "image/png" },
+        { ".ico", "image/x-icon" },
     };
     if (!isalnum((unsigned char)name[0])) return NULL;
     for (const char *c = name; *c; c++)
@@ -104,8 +111,7 @@ void show_readiness(api_service *service, const http_request *request, http_resp
     char why_not[200];
     if (service->is_ready(service->daemon, why_not, sizeof why_not))
         http_respond_json(response, 200, json_pack("{s:s}", "status", "ready"));
-    else
-        http_respond_problem(response, 503, NULL, "Not ready", "%s", why_not);
+    else http_respond_problem(response, 503, NULL, "Not ready", "%s", why_not);
 }
 
 void show_metrics(api_service *service, const http_request *request, http_response *response)

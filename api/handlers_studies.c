@@ -28,8 +28,9 @@ static bool find_study(api_service *service, const http_request *request, http_r
 static void respond_created(api_service *service, http_response *response, const study_estimate *estimate, const char *id)
 {
     study_record study;
-    json_t *info = store_find_study(service->store, id, &study) == STORE_OK ? study_info(&study)
-                                                                             : json_pack("{s:s, s:s}", "studyID", id, "status", "accepted");
+    json_t *info = store_find_study(service->store, id, &study) == STORE_OK
+                       ? study_info(&study)
+                       : json_pack("{s:s, s:s}", "studyID", id, "status", "accepted");
     json_object_set_new(info, "estimate", study_estimate_to_json(estimate));
     http_respond_json(response, 201, info);
     snprintf(response->location, sizeof response->location, "/studies/%s", id);
@@ -52,8 +53,9 @@ void create_study(api_service *service, const http_request *request, http_respon
 {
     json_t *document = parse_body(request, response);
     if (!document) return;
-    const study_options options = {.seed_if_missing = choose_seed(), .default_threads = service->default_threads,
-                                   .most_jobs = store_queue_limit(service->store)};
+    const study_options options = { .seed_if_missing = choose_seed(),
+                                    .default_threads = service->default_threads,
+                                    .most_jobs = store_queue_limit(service->store) };
     problem_list problems;
     study_spec study;
     study_estimate estimate;
@@ -67,8 +69,10 @@ void create_study(api_service *service, const http_request *request, http_respon
     if (study_check(&study, store_measured_speed(service->store), &estimate, &problems))
         add_study(service, response, &study, &estimate);
     else
-        http_respond_json(response, 400, problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",
-                                                      "each entry of errors names a place in the study, what is there and what may be", &problems));
+        http_respond_json(response, 400,
+                          problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",
+                                       "each entry of errors names a place in the study, what is there and what may be",
+                                       &problems));
     study_spec_clear(&study);
     problem_list_clear(&problems);
 }
@@ -111,8 +115,9 @@ void list_studies(api_service *service, const http_request *request, http_respon
 {
     char problem[160];
     int64_t before;
-    study_page page = {.studies = NULL};
-    if (!http_request_integer(request, "limit", 1, STUDIES_HIGHEST_LIMIT, STUDIES_DEFAULT_LIMIT, &page.limit, problem, sizeof problem)
+    study_page page = { .studies = NULL };
+    if (!http_request_integer(request, "limit", 1, STUDIES_HIGHEST_LIMIT, STUDIES_DEFAULT_LIMIT, &page.limit, problem,
+                              sizeof problem)
         || !http_request_integer(request, "cursor", 1, INT64_MAX, 0, &before, problem, sizeof problem)) {
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
         return;
@@ -152,10 +157,9 @@ void dismiss_study(api_service *service, const http_request *request, http_respo
     }
     if (!find_study(service, request, response, &study)) return;
     if (status == STORE_CONFLICT && study.counts[JOB_DISMISSED] == 0)
-        http_respond_problem(response, 409, NULL, "The study has ended", "all %lld jobs of study %s have ended; their results are kept",
-                             (long long)study.jobs, study.id);
-    else /* dismissing twice is no mistake */
-        http_respond_json(response, 200, study_info(&study));
+        http_respond_problem(response, 409, NULL, "The study has ended",
+                             "all %lld jobs of study %s have ended; their results are kept", (long long)study.jobs, study.id);
+    else /* dismissing twice is no mistake */ http_respond_json(response, 200, study_info(&study));
 }
 
 /* --- results --- */
@@ -199,9 +203,10 @@ static void show_table(api_service *service, const http_request *request, http_r
     } else {
         char href[80];
         snprintf(href, sizeof href, "/studies/%s/results", study.id);
-        http_respond_json(response, 200, json_pack("{s:s, s:s, s:s, s:O, s:[o]}", "studyID", study.id, "name", study.name, "status",
-                                                   job_status_name(study_status(&study)), "cases", table.cases,
-                                                   "links", link_to("self", "application/json", href)));
+        http_respond_json(response, 200,
+                          json_pack("{s:s, s:s, s:s, s:O, s:[o]}", "studyID", study.id, "name", study.name, "status",
+                                    job_status_name(study_status(&study)), "cases", table.cases, "links",
+                                    link_to("self", "application/json", href)));
     }
     study_table_clear(&table);
 }

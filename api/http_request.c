@@ -61,9 +61,10 @@ static const char *split_parameters(http_request *request, char *query)
         char *value = strchr(pair, '=');
         if (value) *value++ = '\0';
         else value = pair + strlen(pair);
-        if (!decode(pair) || !decode(value)) return "the query holds a broken percent code, a zero byte or bytes that are not UTF-8";
+        if (!decode(pair) || !decode(value))
+            return "the query holds a broken percent code, a zero byte or bytes that are not UTF-8";
         if (http_request_parameter(request, pair)) return "a query parameter is given twice";
-        request->parameter[request->parameter_count++] = (http_parameter){pair, value};
+        request->parameter[request->parameter_count++] = (http_parameter){ pair, value };
     }
     return NULL;
 }
@@ -74,7 +75,8 @@ const char *http_request_split_target(http_request *request, char *target)
     request->path = "/";
     char *query = strchr(target, '?');
     if (query) *query++ = '\0';
-    if (!path_is_plain(target)) return "the path may hold only letters, digits and / _ . ~ -, without empty, \".\" or \"..\" segments";
+    if (!path_is_plain(target))
+        return "the path may hold only letters, digits and / _ . ~ -, without empty, \".\" or \"..\" segments";
     request->path = target;
     return query ? split_parameters(request, query) : NULL;
 }
@@ -86,8 +88,8 @@ const char *http_request_parameter(const http_request *request, const char *name
     return NULL;
 }
 
-bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing,
-                          int64_t *value, char *problem, size_t problem_size)
+bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing, int64_t *value,
+                          char *problem, size_t problem_size)
 {
     *value = missing;
     const char *text = http_request_parameter(request, name);
@@ -99,8 +101,8 @@ bool http_request_integer(const http_request *request, const char *name, int64_t
         *value = number;
         return true;
     }
-    snprintf(problem, problem_size, "parameter %s is \"%.40s\"; must be a whole number in [%lld, %lld]", name, text,
-             (long long)low, (long long)high);
+    snprintf(problem, problem_size, "parameter %s is \"%.40s\"; must be a whole number in [%lld, %lld]", name, text, (long long)low,
+             (long long)high);
     return false;
 }
 

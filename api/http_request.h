@@ -47,8 +47,8 @@ typedef struct http_response {
 const char *http_request_split_target(http_request *request, char *target);
 const char *http_request_parameter(const http_request *request, const char *name); /* NULL: not given */
 /* Whole number in [low, high]; `missing` where the parameter is not given. False: *problem says what is wrong. */
-bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing,
-                          int64_t *value, char *problem, size_t problem_size);
+bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing, int64_t *value,
+                          char *problem, size_t problem_size);
 /* Does the Accept header name this media type (exactly, not by a wildcard)? */
 bool http_request_accepts(const http_request *request, const char *media_type);
 
@@ -57,8 +57,8 @@ void http_response_clear(http_response *response);
 void http_respond_json(http_response *response, int status, json_t *document); /* takes the reference; NULL: no memory */
 void http_respond_text(http_response *response, int status, const char *content_type, char *text, size_t length); /* takes text */
 /* type NULL: about:blank. */
-void http_respond_problem(http_response *response, int status, const char *type, const char *title,
-                          const char *format, ...) __attribute__((format(printf, 5, 6)));
+void http_respond_problem(http_response *response, int status, const char *type, const char *title, const char *format, ...)
+    __attribute__((format(printf, 5, 6)));
 /* Sends a file that was opened, whole or the part asked for; takes the descriptor. immutable: it never changes
  * under this address. growing: no ETag, because the next read may give more. */
 enum http_file_kind { HTTP_FILE_IMMUTABLE, HTTP_FILE_CHANGING, HTTP_FILE_GROWING };

@@ -8,10 +8,7 @@
 #include "http_range.h"
 #include "http_request.h"
 
-void http_response_init(http_response *response)
-{
-    *response = (http_response){.status = 500, .file = -1};
-}
+void http_response_init(http_response *response) { *response = (http_response){ .status = 500, .file = -1 }; }
 
 void http_response_clear(http_response *response)
 {
@@ -36,8 +33,7 @@ void http_respond_json(http_response *response, int status, json_t *document)
                       text ? strlen(text) : 0);
 }
 
-void http_respond_problem(http_response *response, int status, const char *type, const char *title,
-                          const char *format, ...)
+void http_respond_problem(http_response *response, int status, const char *type, const char *title, const char *format, ...)
 {
     char *detail = NULL;
     va_list arguments;
@@ -66,8 +62,8 @@ static void send_part(const http_request *request, http_response *response, uint
 {
     /* If-Range asks for the part only while the whole is still the one the client knows. */
     const bool part_is_wanted = !request->if_range || (response->etag[0] && strcmp(request->if_range, response->etag) == 0);
-    const http_range_kind kind = part_is_wanted ? http_range_parse(request->range, size, &response->offset, &response->length)
-                                                : HTTP_RANGE_WHOLE;
+    const http_range_kind kind =
+        part_is_wanted ? http_range_parse(request->range, size, &response->offset, &response->length) : HTTP_RANGE_WHOLE;
     if (kind == HTTP_RANGE_PART) {
         response->status = 206;
         snprintf(response->content_range, sizeof response->content_range, "bytes %llu-%llu/%llu",

@@ -40,7 +40,7 @@
 /* How `repose run` ends. */
 enum worker_exit {
     WORKER_DONE = 0,
-    WORKER_FAULT = 1,     /* our own bug or a missing file */
+    WORKER_FAULT = 1, /* our own bug or a missing file */
     WORKER_BAD_SPEC = 2,
     WORKER_STOPPED = 3,   /* SIGTERM: checkpoint written, to be continued (or dismissed: the daemon knows which) */
     WORKER_NUMERICAL = 4, /* the failure event says what, where, when */

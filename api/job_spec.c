@@ -41,7 +41,8 @@ static void check_label(const char *name, const json_t *value, problem_list *pro
     pointer_to_member(pointer, "/label", name);
     json_value_text(value, seen, sizeof seen);
     if (json_is_string(value) && json_string_length(value) > LONGEST_LABEL)
-        problem_list_add(problems, pointer, "is a text of %zu bytes; must have at most %d", json_string_length(value), LONGEST_LABEL);
+        problem_list_add(problems, pointer, "is a text of %zu bytes; must have at most %d", json_string_length(value),
+                         LONGEST_LABEL);
     else if (!json_is_string(value) && !json_is_number(value))
         problem_list_add(problems, pointer, "is %s; must be a number or a text of at most %d bytes", seen, LONGEST_LABEL);
 }
@@ -56,18 +57,16 @@ static json_t *read_label(const json_t *label, problem_list *problems)
         return NULL;
     }
     if (json_object_size(label) > MOST_LABELS)
-        problem_list_add(problems, "/label", "has %zu members; must have at most %d", json_object_size(label),
-                         MOST_LABELS);
+        problem_list_add(problems, "/label", "has %zu members; must have at most %d", json_object_size(label), MOST_LABELS);
     const char *name;
     json_t *value;
     json_object_foreach((json_t *)label, name, value) check_label(name, value, problems);
     return json_deep_copy(label);
 }
 
-bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing,
-                    job_spec *spec, problem_list *problems)
+bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
 {
-    static const char *const known[] = {"process", "inputs", "label", NULL};
+    static const char *const known[] = { "process", "inputs", "label", NULL };
     memset(spec, 0, sizeof *spec);
     if (!json_is_object(request)) {
         problem_list_add(problems, "", "must be an object with \"inputs\" and, if wanted, \"label\"");
@@ -88,8 +87,7 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
     }
 
     spec->label = read_label(json_object_get(request, "label"), problems);
-    if (problem_list_is_empty(problems) && !spec->label)
-        problem_list_add(problems, "/label", "could not be kept: out of memory");
+    if (problem_list_is_empty(problems) && !spec->label) problem_list_add(problems, "/label", "could not be kept: out of memory");
     if (problem_list_is_empty(problems)) return true;
     job_spec_clear(spec);
     return false;

@@ -27,13 +27,13 @@ typedef struct drum_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
     size_t species_count;
     species_inputs species[DEM_MAXIMUM_SPECIES];
-    double fill_fraction, particle_count;            /* one of the two */
+    double fill_fraction, particle_count; /* one of the two */
     double contact_law, friction, restitution, tangential_stiffness_ratio;
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
     double poissons_ratio;
     double wall_friction, lining_diameter, lining_pitch;
     double revolutions, seconds, until_standard_error; /* one of the three */
-    double at_most_revolutions;                      /* beside the last */
+    double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
     double seed, threads, gravity;
 } drum_inputs;
@@ -47,9 +47,9 @@ typedef struct process_type process_type; /* process_type.h */
 
 typedef struct job_spec {
     const process_type *type;
-    const char *process;         /* its name, "drum" */
-    int threads;                 /* of the worker */
-    json_t *label;               /* object of strings and numbers, owned; never NULL */
+    const char *process; /* its name, "drum" */
+    int threads;         /* of the worker */
+    json_t *label;       /* object of strings and numbers, owned; never NULL */
 
     /* Of a drum alone: */
     drum_inputs inputs;          /* as asked for */
@@ -74,8 +74,7 @@ typedef struct job_estimate {
 /* Reads {"process"?, "inputs", "label"?}. process: NULL takes the document's own "process" (default "drum").
  * False when there are problems, all of them listed; the spec is then cleared.
  * seed_if_missing: what to use where the request gives no seed (its low 53 bits). */
-bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing,
-                    job_spec *spec, problem_list *problems);
+bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);
 void job_spec_clear(job_spec *spec);
 
 /* {"process", "inputs", "label"}: canonical. New reference; NULL: no memory. */

@@ -53,15 +53,13 @@ static void write_real(FILE *stream, double number)
 {
     char text[40];
     int digits = 15;
-    do snprintf(text, sizeof text, "%.*g", digits, number); while (strtod(text, NULL) != number && ++digits <= 17);
+    do snprintf(text, sizeof text, "%.*g", digits, number);
+    while (strtod(text, NULL) != number && ++digits <= 17);
     /* Without a point or an exponent it would be read back as an integer. */
     fprintf(stream, strpbrk(text, ".e") ? "%s" : "%s.0", text);
 }
 
-static void write_indent(FILE *stream, int depth)
-{
-    fprintf(stream, "\n%*s", 2 * depth, "");
-}
+static void write_indent(FILE *stream, int depth) { fprintf(stream, "\n%*s", 2 * depth, ""); }
 
 static void write_object(FILE *stream, const json_t *object, int depth)
 {
@@ -69,7 +67,8 @@ static void write_object(FILE *stream, const json_t *object, int depth)
     json_t *value;
     bool first = true;
     fputc('{', stream);
-    json_object_foreach((json_t *)object, name, value) {
+    json_object_foreach((json_t *)object, name, value)
+    {
         if (!first) fputc(',', stream);
         first = false;
         write_indent(stream, depth + 1);
@@ -88,7 +87,8 @@ static void write_array(FILE *stream, const json_t *array, int depth)
     size_t index;
     json_t *value;
     fputc('[', stream);
-    json_array_foreach(array, index, value) {
+    json_array_foreach(array, index, value)
+    {
         if (index) fputc(',', stream);
         write_indent(stream, depth + 1);
         write_value(stream, value, depth + 1);

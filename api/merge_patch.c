@@ -14,7 +14,8 @@ json_t *json_merge_patch(const json_t *target, const json_t *patch)
     json_t *result = json_is_object(target) ? json_deep_copy(target) : json_object();
     const char *name;
     json_t *value;
-    json_object_foreach((json_t *)patch, name, value) {
+    json_object_foreach((json_t *)patch, name, value)
+    {
         if (result && patch_member(result, name, value) != 0) {
             json_decref(result);
             return NULL;

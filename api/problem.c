@@ -21,10 +21,7 @@ void problem_list_clear(problem_list *problems)
     problems->errors = NULL;
 }
 
-bool problem_list_is_empty(const problem_list *problems)
-{
-    return problems->errors && json_array_size(problems->errors) == 0;
-}
+bool problem_list_is_empty(const problem_list *problems) { return problems->errors && json_array_size(problems->errors) == 0; }
 
 /* Cut back to whole UTF-8 characters: a text cut at the buffer's end is otherwise no JSON string. */
 static void trim_cut_character(char *text, size_t length)
@@ -51,11 +48,9 @@ void problem_list_add(problem_list *problems, const char *pointer, const char *f
     if (!problem || json_array_append_new(problems->errors, problem) != 0) problem_list_clear(problems);
 }
 
-json_t *problem_json(int http_status, const char *type, const char *title, const char *detail,
-                     const problem_list *errors)
+json_t *problem_json(int http_status, const char *type, const char *title, const char *detail, const problem_list *errors)
 {
-    json_t *document = json_pack("{s:s, s:s, s:i, s:s}", "type", type, "title", title, "status", http_status,
-                                 "detail", detail);
+    json_t *document = json_pack("{s:s, s:s, s:i, s:s}", "type", type, "title", title, "status", http_status, "detail", detail);
     if (!document || !errors || !errors->errors) return document;
     if (json_object_set(document, "errors", errors->errors) != 0) {
         json_decref(document);

@@ -14,8 +14,7 @@ bool problem_list_init(problem_list *problems);
 void problem_list_clear(problem_list *problems);
 bool problem_list_is_empty(const problem_list *problems);
 /* printf-like; pointer as in "/inputs/drum/diameter". A list that is full (100) drops the rest. */
-void problem_list_add(problem_list *problems, const char *pointer, const char *format, ...)
-    __attribute__((format(printf, 3, 4)));
+void problem_list_add(problem_list *problems, const char *pointer, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 /* {"type", "title", "status", "detail", "errors"}; errors may be NULL. New reference. */
 json_t *problem_json(int http_status, const char *type, const char *title, const char *detail, const problem_list *errors);

@@ -7,8 +7,7 @@ static json_t *group_schema(const spec_table *table, spec_group group);
 
 static json_t *whole_or_real(double number)
 {
-    return number == floor(number) && fabs(number) < 9007199254740992.0 ? json_integer((json_int_t)number)
-                                                                        : json_real(number);
+    return number == floor(number) && fabs(number) < 9007199254740992.0 ? json_integer((json_int_t)number) : json_real(number);
 }
 
 static json_t *number_schema(const spec_field *field)
@@ -33,12 +32,8 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
     json_t *schema;
     switch (field->kind) {
     case FIELD_REAL:
-    case FIELD_INTEGER:
-        schema = number_schema(field);
-        break;
-    case FIELD_CHOICE:
-        schema = choice_schema(field);
-        break;
+    case FIELD_INTEGER: schema = number_schema(field); break;
+    case FIELD_CHOICE: schema = choice_schema(field); break;
     case FIELD_PLACE:
         schema = json_pack("{s:s, s:i, s:i, s:o}", "type", "array", "minItems", 3, "maxItems", 3, "items", number_schema(field));
         break;
@@ -54,8 +49,7 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
         json_object_set_new(schema, "type", json_pack("[s, s]", "object", "null"));
         json_object_set_new(schema, "default", json_null());
         break;
-    default:
-        schema = group_schema(table, field->child);
+    default: schema = group_schema(table, field->child);
     }
     json_object_set_new(schema, "description", json_string(field->meaning));
     return schema;
@@ -93,8 +87,8 @@ static json_t *inputs_description(const spec_table *table)
         const spec_field *field = &table->field[f];
         if (field->group != SPEC_INPUTS) continue;
         json_object_set_new(inputs, field->name,
-                            json_pack("{s:s, s:s, s:i, s:i, s:o}", "title", field->name, "description", field->meaning,
-                                      "minOccurs", field->required, "maxOccurs", 1, "schema", field_schema(table, field)));
+                            json_pack("{s:s, s:s, s:i, s:i, s:o}", "title", field->name, "description", field->meaning, "minOccurs",
+                                      field->required, "maxOccurs", 1, "schema", field_schema(table, field)));
     }
     return inputs;
 }
@@ -102,8 +96,8 @@ static json_t *inputs_description(const spec_table *table)
 static json_t *summary_of(const process_type *type)
 {
     return json_pack("{s:s, s:s, s:s, s:s, s:[s, s], s:[s]}", "id", type->name, "title", type->title, "description",
-                     type->description, "version", "1.0.0", "jobControlOptions", "async-execute", "dismiss",
-                     "outputTransmission", "value");
+                     type->description, "version", "1.0.0", "jobControlOptions", "async-execute", "dismiss", "outputTransmission",
+                     "value");
 }
 
 json_t *process_description(const char *process)

@@ -5,7 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
-const process_type *const process_types[] = {&drum_process, &granule_process, NULL};
+const process_type *const process_types[] = { &drum_process, &granule_process, NULL };
 
 const process_type *process_type_find(const char *name)
 {

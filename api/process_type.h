@@ -25,7 +25,7 @@ struct process_type {
     const result_table *results;
 };
 
-extern const process_type *const process_types[]; /* ends with NULL */
+extern const process_type *const process_types[];        /* ends with NULL */
 const process_type *process_type_find(const char *name); /* NULL: unknown */
 
 /* The names of all, for messages: "drum", "granule". */

@@ -4,7 +4,10 @@
 #include <string.h>
 
 static const char *const nullable_types[] = {
-    [RESULT_REAL] = "number", [RESULT_WHOLE] = "integer", [RESULT_MAYBE] = "boolean", [RESULT_TEXT] = "string",
+    [RESULT_REAL] = "number",
+    [RESULT_WHOLE] = "integer",
+    [RESULT_MAYBE] = "boolean",
+    [RESULT_TEXT] = "string",
 };
 
 static json_t *field_schema(const result_field *field)
@@ -40,8 +43,8 @@ json_t *result_outputs_description(const result_table *table)
             json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field));
         }
         json_object_set_new(description, table->output[o].name,
-                            json_pack("{s:s, s:s, s:{s:s, s:o}}", "title", table->output[o].name, "description", table->output[o].meaning,
-                                      "schema", "type", "object", "properties", properties));
+                            json_pack("{s:s, s:s, s:{s:s, s:o}}", "title", table->output[o].name, "description",
+                                      table->output[o].meaning, "schema", "type", "object", "properties", properties));
     }
     return description;
 }

@@ -18,7 +18,7 @@ typedef enum result_kind {
 typedef struct result_field {
     const char *output, *group, *name; /* group: object inside the output, NULL: none */
     result_kind kind;
-    size_t offset;                     /* in the process's struct of results */
+    size_t offset; /* in the process's struct of results */
     const char *unit, *meaning;
 } result_field;
 

@@ -15,28 +15,20 @@ void results_init(const result_table *table, void *results, size_t size)
     }
 }
 
-static json_t *real_or_null(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
+static json_t *real_or_null(double number) { return isfinite(number) ? json_real(number) : json_null(); }
 
 static json_t *field_value(const result_field *field, const void *results)
 {
     const char *place = (const char *)results + field->offset;
     switch (field->kind) {
-    case RESULT_SIZE:
-        return json_integer((json_int_t) * (const size_t *)place);
-    case RESULT_TRUTH:
-        return json_boolean(*(const bool *)place);
+    case RESULT_SIZE: return json_integer((json_int_t) * (const size_t *)place);
+    case RESULT_TRUTH: return json_boolean(*(const bool *)place);
     case RESULT_WHOLE:
         if (isfinite(*(const double *)place)) return json_integer((json_int_t) * (const double *)place);
         return json_null();
-    case RESULT_MAYBE:
-        return isnan(*(const double *)place) ? json_null() : json_boolean(*(const double *)place != 0.0);
-    case RESULT_TEXT:
-        return *(const char *const *)place ? json_string(*(const char *const *)place) : json_null();
-    default:
-        return real_or_null(*(const double *)place);
+    case RESULT_MAYBE: return isnan(*(const double *)place) ? json_null() : json_boolean(*(const double *)place != 0.0);
+    case RESULT_TEXT: return *(const char *const *)place ? json_string(*(const char *const *)place) : json_null();
+    default: return real_or_null(*(const double *)place);
     }
 }
 

@@ -40,7 +40,7 @@ const http_route *routes_match(const http_route *table, size_t count, http_reque
     if (allowed[0]) {
         http_respond_problem(response, 405, NULL, "Method not allowed", "%s allows %s", request->path, allowed);
         /* GET comes before the other in the table; then the list is one of these constants. */
-        static const char *const lists[] = {"GET, HEAD", "POST", "GET, HEAD, POST", "GET, HEAD, DELETE"};
+        static const char *const lists[] = { "GET, HEAD", "POST", "GET, HEAD, POST", "GET, HEAD, DELETE" };
         for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
             if (strcmp(allowed, lists[i]) == 0) response->allow = lists[i];
     } else {
@@ -65,6 +65,5 @@ void route_respond(const http_route *route, api_service *service, const http_req
     if (unknown) /* a misspelt filter would silently list everything */
         http_respond_problem(response, 400, NULL, "Unknown parameter", "query parameter \"%.40s\" is unknown here; known:%s",
                              unknown, route->parameters[0] ? route->parameters : " none");
-    else
-        route->handler(service, request, response);
+    else route->handler(service, request, response);
 }

@@ -12,8 +12,8 @@ typedef struct http_route {
     const char *pattern;    /* "/jobs/{}/log": {} stands for one segment of at most 64 characters */
     const char *parameters; /* " names " of the query parameters, each between spaces; others are refused */
     route_handler *handler;
-    bool slow;              /* may take seconds: answered apart, so that nothing else waits for it */
-    bool open;              /* needs no token */
+    bool slow; /* may take seconds: answered apart, so that nothing else waits for it */
+    bool open; /* needs no token */
 } http_route;
 
 extern const http_route route_table[];

@@ -5,16 +5,16 @@
 /* How the run went; NaN where unknown. Counts are doubles, as in the inputs: all fit exactly. */
 typedef struct run_facts {
     double particles, spheres, steps, time_step; /* steps: since creation, settling included; s */
-    double simulated_seconds;           /* s of rotation */
-    double settling_seconds;            /* s simulated before rotation began */
-    double wall_seconds;                /* s, of all attempts */
+    double simulated_seconds;                    /* s of rotation */
+    double settling_seconds;                     /* s simulated before rotation began */
+    double wall_seconds;                         /* s, of all attempts */
     double particle_steps_per_second;
-    double maximum_overlap;             /* while rotating, share of the smallest diameter */
-    double stiffness;                   /* N/m */
+    double maximum_overlap; /* while rotating, share of the smallest diameter */
+    double stiffness;       /* N/m */
     double fill_fraction;
     double samples, snapshots;
     double threads, seed, attempt;
-    const char *ended_by;               /* "duration", "standard-error" or "at-most-revolutions" */
+    const char *ended_by; /* "duration", "standard-error" or "at-most-revolutions" */
 } run_facts;
 
 #endif

@@ -12,10 +12,10 @@
 
 typedef struct api_service {
     job_store *store;
-    int web_folder;       /* descriptor of the page's folder; -1: none */
-    const char *api_file; /* the OpenAPI document, YAML */
-    int default_threads;  /* of a job that does not ask */
-    void *daemon;         /* first argument of the functions below */
+    int web_folder;                     /* descriptor of the page's folder; -1: none */
+    const char *api_file;               /* the OpenAPI document, YAML */
+    int default_threads;                /* of a job that does not ask */
+    void *daemon;                       /* first argument of the functions below */
     void (*jobs_changed)(void *daemon); /* a job was added or dismissed */
     bool (*is_ready)(void *daemon, char *why_not, size_t size);
     void (*write_metrics)(void *daemon, text_buffer *out);

@@ -49,8 +49,7 @@ const spec_field *spec_field_nearest(const spec_table *table, spec_group group, 
     }
     /* Only the beginning of a name: "fill". */
     for (size_t f = 0; f < table->count && !nearest && strlen(name) >= 3; f++)
-        if (table->field[f].group == group && strncmp(table->field[f].name, name, strlen(name)) == 0)
-            nearest = &table->field[f];
+        if (table->field[f].group == group && strncmp(table->field[f].name, name, strlen(name)) == 0) nearest = &table->field[f];
     /* The right name in the wrong object. */
     for (size_t f = 0; f < table->count && !nearest; f++)
         if (strcmp(table->field[f].name, name) == 0) nearest = &table->field[f];

@@ -8,15 +8,24 @@
 
 /* The JSON object that a field is a member of; SPEC_INPUTS is "inputs" itself. The groups of all processes. */
 typedef enum spec_group {
-    SPEC_INPUTS, SPEC_DRUM, SPEC_PARTICLES, SPEC_CONTACT, SPEC_WALL, SPEC_LINING, SPEC_DURATION, SPEC_SNAPSHOTS,
-    SPEC_SAMPLES, SPEC_SHAPE, SPEC_SPHERES
+    SPEC_INPUTS,
+    SPEC_DRUM,
+    SPEC_PARTICLES,
+    SPEC_CONTACT,
+    SPEC_WALL,
+    SPEC_LINING,
+    SPEC_DURATION,
+    SPEC_SNAPSHOTS,
+    SPEC_SAMPLES,
+    SPEC_SHAPE,
+    SPEC_SPHERES
 } spec_group;
 
 typedef enum field_kind {
     FIELD_REAL,
     FIELD_INTEGER,
-    FIELD_CHOICE,         /* one of a few words; kept as its index */
-    FIELD_PLACE,          /* a list of three numbers, kept as three doubles */
+    FIELD_CHOICE,           /* one of a few words; kept as its index */
+    FIELD_PLACE,            /* a list of three numbers, kept as three doubles */
     FIELD_CHOICE_OR_OBJECT, /* a word, or an object whose members are kept beside it; the object's index follows the words' */
     FIELD_OBJECT,
     FIELD_OBJECT_OR_NULL, /* null, the default: none */
@@ -27,7 +36,7 @@ typedef struct spec_field {
     spec_group group;
     const char *name;
     field_kind kind;
-    spec_group child;           /* objects and lists: whose members they hold */
+    spec_group child; /* objects and lists: whose members they hold */
     bool required;
     const char *spared_by;      /* the member that, where it is an object, makes this one no longer required */
     const char *unit;           /* "" for a pure number */

@@ -54,15 +54,13 @@ static double read_number(const spec_field *field, const json_t *value, const ch
     json_value_text(value, seen, sizeof seen);
     range_text(field, range, sizeof range);
     if (!json_is_number(value)) {
-        problem_list_add(problems, pointer, "is %s; must be %s in %s", seen,
-                         integer ? "a whole number" : "a number", range);
+        problem_list_add(problems, pointer, "is %s; must be %s in %s", seen, integer ? "a whole number" : "a number", range);
         return NAN;
     }
     const double number = json_number_value(value);
     const bool low = field->minimum_open ? number <= field->minimum : number < field->minimum;
     if (low || !(number <= field->maximum)) {
-        problem_list_add(problems, pointer, "is %s%s%s; must be in %s", seen, *field->unit ? " " : "", field->unit,
-                         range);
+        problem_list_add(problems, pointer, "is %s%s%s; must be in %s", seen, *field->unit ? " " : "", field->unit, range);
         return NAN;
     }
     if (integer && number != floor(number)) {
@@ -71,8 +69,8 @@ static double read_number(const spec_field *field, const json_t *value, const ch
     }
     /* Below the smallest normal double digits are already lost: such a number is a slip, not a wish. */
     if (number != 0.0 && fabs(number) < 2.2250738585072014e-308) {
-        problem_list_add(problems, pointer, "is %s%s%s; too close to 0 to be kept, must be in %s", seen,
-                         *field->unit ? " " : "", field->unit, range);
+        problem_list_add(problems, pointer, "is %s%s%s; too close to 0 to be kept, must be in %s", seen, *field->unit ? " " : "",
+                         field->unit, range);
         return NAN;
     }
     return number == 0.0 ? 0.0 : number; /* -0 would be another text for the same input */
@@ -100,7 +98,8 @@ static void refuse_unknown_inputs(const spec_table *table, spec_group group, con
 {
     const char *name;
     json_t *value;
-    json_object_foreach((json_t *)object, name, value) {
+    json_object_foreach((json_t *)object, name, value)
+    {
         if (spec_field_find(table, group, name)) continue;
         if (strlen(name) > LONGEST_MEMBER_NAME) {
             problem_list_add(problems, pointer, "has an unknown member with a name of %zu bytes", strlen(name));
@@ -124,12 +123,12 @@ static void refuse_unknown_inputs(const spec_table *table, spec_group group, con
     }
 }
 
-void refuse_unknown_members(const json_t *object, const char *pointer, const char *const *known,
-                            problem_list *problems)
+void refuse_unknown_members(const json_t *object, const char *pointer, const char *const *known, problem_list *problems)
 {
     const char *name;
     json_t *value;
-    json_object_foreach((json_t *)object, name, value) {
+    json_object_foreach((json_t *)object, name, value)
+    {
         size_t k = 0;
         while (known[k] && strcmp(known[k], name) != 0) k++;
         if (known[k]) continue;
@@ -143,8 +142,8 @@ void refuse_unknown_members(const json_t *object, const char *pointer, const cha
 static void read_group(const spec_table *table, spec_group group, const json_t *object, const char *pointer, char *place,
                        problem_list *problems);
 
-static void read_list(const spec_table *table, const spec_field *field, const json_t *list, const char *pointer,
-                      char *place, problem_list *problems)
+static void read_list(const spec_table *table, const spec_field *field, const json_t *list, const char *pointer, char *place,
+                      problem_list *problems)
 {
     const size_t count = json_array_size(list);
     char seen[LONGEST_VALUE];
@@ -154,8 +153,7 @@ static void read_list(const spec_table *table, const spec_field *field, const js
         return;
     }
     if (count < (size_t)field->minimum || count > (size_t)field->maximum) {
-        problem_list_add(problems, pointer, "has %zu entries; must have %.0f to %.0f", count, field->minimum,
-                         field->maximum);
+        problem_list_add(problems, pointer, "has %zu entries; must have %.0f to %.0f", count, field->minimum, field->maximum);
         return;
     }
     for (size_t s = 0; s < count; s++) {
@@ -172,8 +170,8 @@ static void read_list(const spec_table *table, const spec_field *field, const js
     *(size_t *)(place + field->count_offset) = count;
 }
 
-static void read_object(const spec_table *table, const spec_field *field, const json_t *value, const char *pointer,
-                        char *place, problem_list *problems)
+static void read_object(const spec_table *table, const spec_field *field, const json_t *value, const char *pointer, char *place,
+                        problem_list *problems)
 {
     if (field->kind == FIELD_OBJECT_OR_NULL && (!value || json_is_null(value))) return;
     if (value && !json_is_object(value)) {
@@ -190,8 +188,9 @@ static void read_object(const spec_table *table, const spec_field *field, const 
 static double read_scalar(const spec_field *field, const json_t *object, const char *pointer, problem_list *problems)
 {
     const json_t *value = json_object_get(object, field->name);
-    const char *other = field->excludes && json_object_get(object, field->excludes) ? field->excludes
-                      : field->excludes_too && json_object_get(object, field->excludes_too) ? field->excludes_too : NULL;
+    const char *other = field->excludes && json_object_get(object, field->excludes)           ? field->excludes
+                        : field->excludes_too && json_object_get(object, field->excludes_too) ? field->excludes_too
+                                                                                              : NULL;
     const bool excluded = other != NULL;
     if (value && excluded && isnan(field->fallback)) {
         problem_list_add(problems, pointer, "is given beside %s; give one of the two", other);

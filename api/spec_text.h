@@ -23,7 +23,6 @@ void pointer_to_member(char pointer[LONGEST_POINTER], const char *parent, const 
 void json_value_text(const json_t *value, char *text, size_t size);
 
 /* One problem for each member of `object` that is not in `known`, a list that ends with NULL. */
-void refuse_unknown_members(const json_t *object, const char *pointer, const char *const *known,
-                            problem_list *problems);
+void refuse_unknown_members(const json_t *object, const char *pointer, const char *const *known, problem_list *problems);
 
 #endif

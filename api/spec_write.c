@@ -63,7 +63,4 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
     return object;
 }
 
-json_t *spec_inputs_write(const spec_table *table, const void *inputs)
-{
-    return write_group(table, SPEC_INPUTS, inputs);
-}
+json_t *spec_inputs_write(const spec_table *table, const void *inputs) { return write_group(table, SPEC_INPUTS, inputs); }

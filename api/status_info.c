@@ -4,12 +4,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const status_names[JOB_STATUSES] = {"accepted", "running", "successful", "failed", "dismissed"};
+static const char *const status_names[JOB_STATUSES] = { "accepted", "running", "successful", "failed", "dismissed" };
 
-const char *job_status_name(job_status status)
-{
-    return status_names[status];
-}
+const char *job_status_name(job_status status) { return status_names[status]; }
 
 bool job_status_parse(const char *name, size_t length, job_status *status)
 {
@@ -37,7 +34,7 @@ void job_record_clear(job_record *job)
 {
     json_decref(job->label);
     json_decref(job->summary);
-    *job = (job_record){.number = 0};
+    *job = (job_record){ .number = 0 };
 }
 
 json_t *link_to(const char *rel, const char *type, const char *href)
@@ -47,13 +44,15 @@ json_t *link_to(const char *rel, const char *type, const char *href)
 
 static json_t *links_of(const job_record *job)
 {
-    static const struct { const char *rel, *type, *end; } links[] = {
-        {"self", "application/json", ""},
-        {"http://www.opengis.net/def/rel/ogc/1.0/results", "application/json", "/results"}, /* once there are results */
-        {"spec", "application/json", "/spec"},
-        {"log", "text/plain", "/log"},
-        {"samples", "application/json", "/samples"},
-        {"snapshots", "application/json", "/snapshots"},
+    static const struct {
+        const char *rel, *type, *end;
+    } links[] = {
+        { "self", "application/json", "" },
+        { "http://www.opengis.net/def/rel/ogc/1.0/results", "application/json", "/results" }, /* once there are results */
+        { "spec", "application/json", "/spec" },
+        { "log", "text/plain", "/log" },
+        { "samples", "application/json", "/samples" },
+        { "snapshots", "application/json", "/snapshots" },
     };
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
@@ -72,9 +71,9 @@ static void set_time(json_t *info, const char *name, const char *time)
 
 json_t *status_info(const job_record *job)
 {
-    json_t *info = json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:i}", "jobID", job->id, "processID", job->process,
-                             "type", "process", "status", job_status_name(job->status), "message", job->message,
-                             "progress", (int)job->progress, "attempt", job->attempt);
+    json_t *info =
+        json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:i}", "jobID", job->id, "processID", job->process, "type", "process", "status",
+                  job_status_name(job->status), "message", job->message, "progress", (int)job->progress, "attempt", job->attempt);
     if (!info) return NULL;
     set_time(info, "created", job->created);
     set_time(info, "started", job->started);

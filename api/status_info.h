@@ -4,7 +4,7 @@
 
 #include "store.h"
 
-json_t *status_info(const job_record *job); /* new reference; NULL: no memory */
+json_t *status_info(const job_record *job);                           /* new reference; NULL: no memory */
 json_t *link_to(const char *rel, const char *type, const char *href); /* new reference */
 
 #endif

@@ -15,15 +15,13 @@ typedef struct job_store job_store;
 typedef enum store_status {
     STORE_OK = 0,
     STORE_NOT_FOUND,
-    STORE_CONFLICT, /* the job is not in a state that allows this */
-    STORE_FULL,     /* no room on the disk */
+    STORE_CONFLICT,   /* the job is not in a state that allows this */
+    STORE_FULL,       /* no room on the disk */
     STORE_QUEUE_FULL, /* as many jobs wait as may */
-    STORE_FAILED    /* anything else the database or the file system refused; the log has the reason */
+    STORE_FAILED      /* anything else the database or the file system refused; the log has the reason */
 } store_status;
 
-typedef enum job_status {
-    JOB_ACCEPTED, JOB_RUNNING, JOB_SUCCESSFUL, JOB_FAILED, JOB_DISMISSED, JOB_STATUSES
-} job_status;
+typedef enum job_status { JOB_ACCEPTED, JOB_RUNNING, JOB_SUCCESSFUL, JOB_FAILED, JOB_DISMISSED, JOB_STATUSES } job_status;
 
 enum { JOB_ID_SIZE = 25, JOB_TIME_SIZE = 28 };
 
@@ -82,7 +80,8 @@ store_status store_add_study(job_store *store, const study_spec *study, const st
 /* Dismisses its jobs that have not ended. STORE_CONFLICT: all have. */
 store_status store_dismiss_study(job_store *store, const char *id);
 store_status store_find_study(job_store *store, const char *id, study_record *study);
-store_status store_list_studies(job_store *store, int64_t before, int64_t limit, study_visitor *visit, void *context); /* newest first */
+store_status store_list_studies(job_store *store, int64_t before, int64_t limit, study_visitor *visit,
+                                void *context);                               /* newest first */
 store_status store_read_study(job_store *store, const char *id, char **text); /* its document, for free() */
 
 typedef struct study_case_row {
@@ -98,7 +97,8 @@ typedef struct study_run_row {
     const json_t *measures; /* {"angle_deg": 23.1, ...}: numbers and texts; what is not known is not in it */
 } study_run_row;
 typedef bool study_run_visitor(void *context, const study_run_row *row);
-store_status store_list_study_runs(job_store *store, const char *id, study_run_visitor *visit, void *context); /* in order of cases */
+store_status store_list_study_runs(job_store *store, const char *id, study_run_visitor *visit,
+                                   void *context); /* in order of cases */
 
 /* How many jobs may wait. */
 int64_t store_queue_limit(const job_store *store);
@@ -110,18 +110,20 @@ store_status store_read_failure(job_store *store, const char *id, char **text); 
 
 typedef struct sample_row {
     int64_t number, step;
-    double time; /* s since rotation began */
+    double time;          /* s since rotation began */
     const char *measures; /* JSON object of numbers and nulls */
 } sample_row;
 typedef bool sample_visitor(void *context, const sample_row *row);
-store_status store_list_samples(job_store *store, const char *id, int64_t after, int64_t limit, sample_visitor *visit, void *context);
+store_status store_list_samples(job_store *store, const char *id, int64_t after, int64_t limit, sample_visitor *visit,
+                                void *context);
 
 typedef struct snapshot_row {
     int64_t number, step, bytes, particles;
     double time;
 } snapshot_row;
 typedef bool snapshot_visitor(void *context, const snapshot_row *row);
-store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit, void *context);
+store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit,
+                                  void *context);
 
 /* Descriptors for reading, the caller closes. */
 store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file);
@@ -142,6 +144,7 @@ typedef struct query_value {
 } query_value;
 /* row 0 holds the column names as texts, the rows follow. False stops, which is no error. */
 typedef bool query_visitor(void *context, int64_t row, const query_value *values, int count);
-query_status store_query(job_store *store, const char *sql, query_visitor *visit, void *context, char *problem, size_t problem_size);
+query_status store_query(job_store *store, const char *sql, query_visitor *visit, void *context, char *problem,
+                         size_t problem_size);
 
 #endif

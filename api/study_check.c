@@ -15,9 +15,11 @@ static bool is_listed(const problem_list *problems, const char *pointer, const c
 {
     size_t i;
     json_t *known;
-    json_array_foreach(problems->errors, i, known) {
+    json_array_foreach(problems->errors, i, known)
+    {
         if (strcmp(json_string_value(json_object_get(known, "pointer")), pointer) == 0
-            && strcmp(json_string_value(json_object_get(known, "detail")), detail) == 0) return true;
+            && strcmp(json_string_value(json_object_get(known, "detail")), detail) == 0)
+            return true;
     }
     return false;
 }
@@ -43,7 +45,8 @@ static bool find_varied(const study_spec *study, size_t index, const char *place
     return false;
 }
 
-static void tell(const study_spec *study, size_t index, const char *place, const char *detail, const problem_list *of_base, problem_list *problems)
+static void tell(const study_spec *study, size_t index, const char *place, const char *detail, const problem_list *of_base,
+                 problem_list *problems)
 {
     char pointer[LONG_POINTER], name[STUDY_NAME_SIZE], combined[700];
     const json_t *cases = json_object_get(study->document, "cases");
@@ -64,11 +67,13 @@ static void tell(const study_spec *study, size_t index, const char *place, const
     }
 }
 
-static void tell_all(const study_spec *study, size_t index, const problem_list *found, const problem_list *of_base, problem_list *problems)
+static void tell_all(const study_spec *study, size_t index, const problem_list *found, const problem_list *of_base,
+                     problem_list *problems)
 {
     size_t i;
     json_t *problem;
-    json_array_foreach(found->errors, i, problem) {
+    json_array_foreach(found->errors, i, problem)
+    {
         tell(study, index, json_string_value(json_object_get(problem, "pointer")),
              json_string_value(json_object_get(problem, "detail")), of_base, problems);
     }
@@ -87,7 +92,8 @@ static void add_estimate(const study_spec *study, const job_spec *spec, double s
 }
 
 /* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
-static void check_case(const study_spec *study, size_t index, double speed, const problem_list *of_base, study_estimate *estimate, problem_list *problems)
+static void check_case(const study_spec *study, size_t index, double speed, const problem_list *of_base, study_estimate *estimate,
+                       problem_list *problems)
 {
     job_spec spec;
     problem_list found;
@@ -111,7 +117,7 @@ static void check_case(const study_spec *study, size_t index, double speed, cons
 
 bool study_check(const study_spec *study, double particle_steps_per_second, study_estimate *estimate, problem_list *problems)
 {
-    *estimate = (study_estimate){.jobs = 0.0};
+    *estimate = (study_estimate){ .jobs = 0.0 };
     problem_list of_base;
     job_spec spec;
     if (!problem_list_init(&of_base)) {
@@ -128,6 +134,6 @@ bool study_check(const study_spec *study, double particle_steps_per_second, stud
 json_t *study_estimate_to_json(const study_estimate *estimate)
 {
     return json_pack("{s:I, s:I, s:f, s:I, s:I}", "jobs", (json_int_t)estimate->jobs, "steps", (json_int_t)estimate->steps,
-                     "wall_seconds", estimate->wall_seconds, "memory_bytes", (json_int_t)estimate->memory_bytes,
-                     "snapshot_bytes", (json_int_t)estimate->snapshot_bytes);
+                     "wall_seconds", estimate->wall_seconds, "memory_bytes", (json_int_t)estimate->memory_bytes, "snapshot_bytes",
+                     (json_int_t)estimate->snapshot_bytes);
 }

@@ -6,15 +6,25 @@
 #include <string.h>
 
 const study_measure study_measures[STUDY_MEASURES] = {
-    {"angle_deg", "standard_error_deg"}, {"minimum_deg", NULL}, {"maximum_deg", NULL}, {"drift_deg_per_revolution", NULL},
-    {"interface_fluctuation", NULL}, {"radial_index", NULL}, {"axial_index", NULL}, {"lacey_index", NULL},
-    {"solid_fraction", NULL}, {"coordination_number", NULL}, {"maximum_overlap", NULL},
-    {"minimum_omega2", "error"}, {"minimum_rotation_rate", NULL}, {"slip_per_revolution", NULL},
+    { "angle_deg", "standard_error_deg" },
+    { "minimum_deg", NULL },
+    { "maximum_deg", NULL },
+    { "drift_deg_per_revolution", NULL },
+    { "interface_fluctuation", NULL },
+    { "radial_index", NULL },
+    { "axial_index", NULL },
+    { "lacey_index", NULL },
+    { "solid_fraction", NULL },
+    { "coordination_number", NULL },
+    { "maximum_overlap", NULL },
+    { "minimum_omega2", "error" },
+    { "minimum_rotation_rate", NULL },
+    { "slip_per_revolution", NULL },
 };
 
 bool study_table_init(study_table *table)
 {
-    *table = (study_table){.cases = json_array()};
+    *table = (study_table){ .cases = json_array() };
     return table->cases != NULL;
 }
 
@@ -36,8 +46,9 @@ static json_t *label_of(const char *text)
 bool study_table_add_case(void *context, const study_case_row *row)
 {
     study_table *table = context;
-    json_t *one = json_pack("{s:s, s:o, s:o, s:i, s:i, s:i, s:n, s:{}}", "case", row->name, "inputs", json_loads(row->inputs, 0, NULL),
-                            "label", label_of(row->label), "repeats", 0, "finished", 0, "failed", 0, "regime", "results");
+    json_t *one =
+        json_pack("{s:s, s:o, s:o, s:i, s:i, s:i, s:n, s:{}}", "case", row->name, "inputs", json_loads(row->inputs, 0, NULL),
+                  "label", label_of(row->label), "repeats", 0, "finished", 0, "failed", 0, "regime", "results");
     if (!one || json_array_append_new(table->cases, one) != 0) table->failed = true;
     return !table->failed;
 }
@@ -48,7 +59,7 @@ static void begin_case(study_summing *summing, int64_t index)
 {
     summing->index = index;
     memset(summing->counts, 0, sizeof summing->counts);
-    for (int m = 0; m < STUDY_MEASURES; m++) summing->sums[m] = (study_sums){.run_error = NAN};
+    for (int m = 0; m < STUDY_MEASURES; m++) summing->sums[m] = (study_sums){ .run_error = NAN };
     json_object_clear(summing->regimes);
 }
 
@@ -75,8 +86,8 @@ static json_t *sums_to_json(const study_sums *sums)
     const double n = (double)sums->count;
     const double error = several ? sqrt(sums->squares / (n - 1.0) / n) : sums->run_error;
     const char *from = several ? "repeats" : isfinite(error) ? "run" : NULL;
-    return json_pack("{s:f, s:o, s:s?, s:I}", "mean", sums->mean, "standard_error", isfinite(error) ? json_real(error) : json_null(),
-                     "error_from", from, "count", (json_int_t)sums->count);
+    return json_pack("{s:f, s:o, s:s?, s:I}", "mean", sums->mean, "standard_error",
+                     isfinite(error) ? json_real(error) : json_null(), "error_from", from, "count", (json_int_t)sums->count);
 }
 
 /* "rolling"; "rolling 2, slumping 1". */
@@ -85,10 +96,13 @@ static json_t *regimes_to_json(const json_t *regimes)
     char text[300] = "";
     const char *name;
     json_t *runs;
-    json_object_foreach((json_t *)regimes, name, runs) {
+    json_object_foreach((json_t *)regimes, name, runs)
+    {
         const size_t length = strlen(text);
         if (json_object_size(regimes) == 1) snprintf(text, sizeof text, "%s", name);
-        else snprintf(text + length, sizeof text - length, "%s%s %lld", length ? ", " : "", name, (long long)json_integer_value(runs));
+        else
+            snprintf(text + length, sizeof text - length, "%s%s %lld", length ? ", " : "", name,
+                     (long long)json_integer_value(runs));
     }
     return text[0] ? json_string(text) : json_null();
 }
@@ -106,7 +120,8 @@ static void end_case(study_summing *summing)
         || json_object_set_new(one, "finished", json_integer(summing->counts[JOB_SUCCESSFUL])) != 0
         || json_object_set_new(one, "failed", json_integer(summing->counts[JOB_FAILED])) != 0
         || json_object_set_new(one, "regime", regimes_to_json(summing->regimes)) != 0
-        || json_object_set_new(one, "results", results) != 0) summing->table->failed = true;
+        || json_object_set_new(one, "results", results) != 0)
+        summing->table->failed = true;
 }
 
 bool study_summing_add_run(void *context, const study_run_row *row)
@@ -126,7 +141,9 @@ bool study_summing_add_run(void *context, const study_run_row *row)
         summing->sums[m].run_error = json_is_number(error) ? json_number_value(error) : NAN;
     }
     const char *regime = json_string_value(json_object_get(row->measures, "regime"));
-    if (regime) json_object_set_new(summing->regimes, regime, json_integer(json_integer_value(json_object_get(summing->regimes, regime)) + 1));
+    if (regime)
+        json_object_set_new(summing->regimes, regime,
+                            json_integer(json_integer_value(json_object_get(summing->regimes, regime)) + 1));
     return true;
 }
 
@@ -146,10 +163,9 @@ static json_t *names_of(const study_table *table, const char *member)
     size_t i;
     json_t *row, *value;
     const char *name;
-    json_array_foreach(table->cases, i, row) {
-        json_object_foreach(json_object_get(row, member), name, value) {
-            json_object_set_new(names, name, json_null());
-        }
+    json_array_foreach(table->cases, i, row)
+    {
+        json_object_foreach(json_object_get(row, member), name, value) { json_object_set_new(names, name, json_null()); }
     }
     return names;
 }
@@ -182,14 +198,11 @@ static void write_head(const json_t *inputs, const json_t *labels, const json_t 
     const char *name;
     json_t *unused;
     text_buffer_print(out, "case");
-    json_object_foreach((json_t *)inputs, name, unused) {
-        add_name(out, "", name, "");
-    }
-    json_object_foreach((json_t *)labels, name, unused) {
-        add_name(out, "label/", name, "");
-    }
+    json_object_foreach((json_t *)inputs, name, unused) { add_name(out, "", name, ""); }
+    json_object_foreach((json_t *)labels, name, unused) { add_name(out, "label/", name, ""); }
     text_buffer_print(out, ",repeats,finished,failed,regime");
-    json_object_foreach((json_t *)results, name, unused) {
+    json_object_foreach((json_t *)results, name, unused)
+    {
         add_name(out, "", name, "");
         add_name(out, "", name, "_standard_error");
     }
@@ -203,17 +216,14 @@ static void write_row(const json_t *row, const json_t *inputs, const json_t *lab
     json_t *unused;
     const json_t *one = json_object_get(row, "case");
     text_buffer_add_csv_field(out, json_string_value(one), json_string_length(one));
-    json_object_foreach((json_t *)inputs, name, unused) {
-        add_json(out, json_object_get(json_object_get(row, "inputs"), name));
-    }
-    json_object_foreach((json_t *)labels, name, unused) {
-        add_json(out, json_object_get(json_object_get(row, "label"), name));
-    }
+    json_object_foreach((json_t *)inputs, name, unused) { add_json(out, json_object_get(json_object_get(row, "inputs"), name)); }
+    json_object_foreach((json_t *)labels, name, unused) { add_json(out, json_object_get(json_object_get(row, "label"), name)); }
     add_json(out, json_object_get(row, "repeats"));
     add_json(out, json_object_get(row, "finished"));
     add_json(out, json_object_get(row, "failed"));
     add_json(out, json_object_get(row, "regime"));
-    json_object_foreach((json_t *)results, name, unused) {
+    json_object_foreach((json_t *)results, name, unused)
+    {
         const json_t *measure = json_object_get(json_object_get(row, "results"), name);
         add_json(out, json_object_get(measure, "mean"));
         add_json(out, json_object_get(measure, "standard_error"));
@@ -229,9 +239,7 @@ void study_table_write_csv(const study_table *table, text_buffer *out)
     size_t i;
     json_t *row;
     write_head(inputs, labels, results, out);
-    json_array_foreach(table->cases, i, row) {
-        write_row(row, inputs, labels, results, out);
-    }
+    json_array_foreach(table->cases, i, row) { write_row(row, inputs, labels, results, out); }
     json_decref(inputs);
     json_decref(labels);
     json_decref(results);

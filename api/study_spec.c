@@ -36,13 +36,14 @@ static bool read_text(const json_t *value, const char *pointer, size_t size, pro
 
 static void read_head(study_spec *study, problem_list *problems)
 {
-    static const char *const known[] = {"name", "description", "base", "cases", "vary", "repeats", NULL};
+    static const char *const known[] = { "name", "description", "base", "cases", "vary", "repeats", NULL };
     refuse_unknown_members(study->document, "", known, problems);
     const json_t *process = json_object_get(json_object_get(study->document, "base"), "process");
     snprintf(study->process, sizeof study->process, "%s", json_is_string(process) ? json_string_value(process) : "drum");
     snprintf(study->name, sizeof study->name, "%s study", study->process);
     const json_t *name = json_object_get(study->document, "name");
-    if (name && read_text(name, "/name", STUDY_NAME_SIZE, problems)) snprintf(study->name, sizeof study->name, "%s", json_string_value(name));
+    if (name && read_text(name, "/name", STUDY_NAME_SIZE, problems))
+        snprintf(study->name, sizeof study->name, "%s", json_string_value(name));
     const json_t *description = json_object_get(study->document, "description");
     if (description) read_text(description, "/description", LONGEST_DESCRIPTION + 1, problems);
 }
@@ -57,10 +58,10 @@ static void read_repeats(study_spec *study, problem_list *problems)
     if (!json_is_integer(repeats) || json_integer_value(repeats) < 1 || json_integer_value(repeats) > STUDY_MOST_REPEATS)
         refuse_value(problems, "/repeats", repeats, must);
     else if (json_integer_value(repeats) > 1 && process_type_find(study->process) && !study->has_seed)
-        problem_list_add(problems, "/repeats", "is %lld; must be 1, because the process \"%s\" has no seed and gives the same each time",
+        problem_list_add(problems, "/repeats",
+                         "is %lld; must be 1, because the process \"%s\" has no seed and gives the same each time",
                          (long long)json_integer_value(repeats), study->process);
-    else
-        study->repeats = (int)json_integer_value(repeats);
+    else study->repeats = (int)json_integer_value(repeats);
 }
 
 /* The process and what it takes; then what the daemon adds to the base: a seed and the number of threads. */
@@ -76,7 +77,8 @@ static void read_base(study_spec *study, const study_options *options, problem_l
     else if (!json_is_object(inputs)) refuse_value(problems, "/base/inputs", inputs, "an object");
     if (json_is_object(inputs) && study->has_seed && !json_object_get(inputs, "seed"))
         json_object_set_new(inputs, "seed", json_integer((json_int_t)(options->seed_if_missing & SEED_MASK)));
-    if (json_is_object(inputs) && type && spec_field_find(type->inputs, SPEC_INPUTS, "threads") && !json_object_get(inputs, "threads"))
+    if (json_is_object(inputs) && type && spec_field_find(type->inputs, SPEC_INPUTS, "threads")
+        && !json_object_get(inputs, "threads"))
         json_object_set_new(inputs, "threads", json_integer(options->default_threads));
 }
 
@@ -86,7 +88,8 @@ static void add_column(study_spec *study, const char *column)
 {
     size_t i;
     json_t *known;
-    json_array_foreach(study->columns, i, known) {
+    json_array_foreach(study->columns, i, known)
+    {
         if (strcmp(json_string_value(known), column) == 0) return;
     }
     if (json_array_size(study->columns) < MOST_COLUMNS) json_array_append_new(study->columns, json_string(column));
@@ -101,12 +104,14 @@ static void add_leaves(study_spec *study, const json_t *value, char pointer[JSON
     json_t *member;
     size_t i;
     if (json_is_object(value)) {
-        json_object_foreach((json_t *)value, name, member) {
+        json_object_foreach((json_t *)value, name, member)
+        {
             if (json_pointer_append(pointer, name)) add_leaves(study, member, pointer);
             pointer[length] = '\0';
         }
     } else if (json_is_array(value)) {
-        json_array_foreach(value, i, member) {
+        json_array_foreach(value, i, member)
+        {
             snprintf(number, sizeof number, "%zu", i);
             if (json_pointer_append(pointer, number)) add_leaves(study, member, pointer);
             pointer[length] = '\0';
@@ -130,7 +135,7 @@ static void read_case_name(const json_t *name, const char *pointer, json_t *name
 
 static void read_case(study_spec *study, const json_t *cases, size_t index, json_t *names, problem_list *problems)
 {
-    static const char *const known[] = {"name", "inputs", "label", NULL};
+    static const char *const known[] = { "name", "inputs", "label", NULL };
     const json_t *one = json_array_get(cases, index);
     char pointer[64], name_pointer[80], leaf[JSON_POINTER_SIZE] = "";
     snprintf(pointer, sizeof pointer, "/cases/%zu", index);
@@ -182,10 +187,12 @@ static double read_vary(study_spec *study, const json_t *vary, problem_list *pro
     const char *pointer;
     json_t *values;
     if (!json_is_object(vary) || json_object_size(vary) == 0 || json_object_size(vary) > STUDY_MOST_VARIED) {
-        problem_list_add(problems, "/vary", "must be an object of 1 to %d lists of values, each named by a JSON Pointer", STUDY_MOST_VARIED);
+        problem_list_add(problems, "/vary", "must be an object of 1 to %d lists of values, each named by a JSON Pointer",
+                         STUDY_MOST_VARIED);
         return 0.0;
     }
-    json_object_foreach((json_t *)vary, pointer, values) {
+    json_object_foreach((json_t *)vary, pointer, values)
+    {
         read_varied(study, pointer, values, problems);
         combinations *= (double)json_array_size(values);
     }
@@ -210,17 +217,17 @@ static void read_all(study_spec *study, const study_options *options, problem_li
         count = read_vary(study, vary, problems);
     }
     if (count * study->repeats > (double)options->most_jobs)
-        problem_list_add(problems, "", "makes %.0f jobs, %.0f cases of %d; at most %lld may wait", count * study->repeats, count, study->repeats,
-                         (long long)options->most_jobs);
-    else if (has_inputs)
-        study->cases = (size_t)count;
+        problem_list_add(problems, "", "makes %.0f jobs, %.0f cases of %d; at most %lld may wait", count * study->repeats, count,
+                         study->repeats, (long long)options->most_jobs);
+    else if (has_inputs) study->cases = (size_t)count;
 }
 
 bool study_spec_parse(const json_t *document, const study_options *options, study_spec *study, problem_list *problems)
 {
-    *study = (study_spec){.repeats = 1};
+    *study = (study_spec){ .repeats = 1 };
     if (!json_is_object(document)) {
-        problem_list_add(problems, "", "must be an object with \"base\" and, if wanted, \"name\", \"cases\" or \"vary\", and \"repeats\"");
+        problem_list_add(problems, "",
+                         "must be an object with \"base\" and, if wanted, \"name\", \"cases\" or \"vary\", and \"repeats\"");
         return false;
     }
     study->document = json_deep_copy(document);
@@ -234,7 +241,7 @@ void study_spec_clear(study_spec *study)
 {
     json_decref(study->document);
     json_decref(study->columns);
-    *study = (study_spec){.repeats = 0};
+    *study = (study_spec){ .repeats = 0 };
 }
 
 /* --- one case, one job --- */
@@ -248,7 +255,8 @@ static const json_t *values_of(const study_spec *study, size_t column)
 
 size_t study_value_index(const study_spec *study, size_t index, size_t column)
 {
-    for (size_t later = json_array_size(study->columns) - 1; later > column; later--) index /= json_array_size(values_of(study, later));
+    for (size_t later = json_array_size(study->columns) - 1; later > column; later--)
+        index /= json_array_size(values_of(study, later));
     return index % json_array_size(values_of(study, column));
 }
 
@@ -257,7 +265,8 @@ static bool set_varied(const study_spec *study, size_t index, json_t *request)
     for (size_t c = 0; c < json_array_size(study->columns); c++) {
         char pointer[JSON_POINTER_SIZE + 8];
         snprintf(pointer, sizeof pointer, INPUTS "/%s", json_string_value(json_array_get(study->columns, c)));
-        if (!json_pointer_set(request, pointer, json_array_get(values_of(study, c), study_value_index(study, index, c)))) return false;
+        if (!json_pointer_set(request, pointer, json_array_get(values_of(study, c), study_value_index(study, index, c))))
+            return false;
     }
     return true;
 }

@@ -6,15 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-void text_buffer_init(text_buffer *buffer, size_t limit)
-{
-    *buffer = (text_buffer){.limit = limit};
-}
+void text_buffer_init(text_buffer *buffer, size_t limit) { *buffer = (text_buffer){ .limit = limit }; }
 
 void text_buffer_clear(text_buffer *buffer)
 {
     free(buffer->text);
-    *buffer = (text_buffer){.limit = buffer->limit};
+    *buffer = (text_buffer){ .limit = buffer->limit };
 }
 
 static bool make_room(text_buffer *buffer, size_t extra)

@@ -98,8 +98,8 @@ dem_status cell_grid_fill(cell_grid *grid, const spheres *s, double radius, doub
 }
 
 /* Those within reach among the spheres at [from, to), which are a run of neighboring cells. */
-static size_t find_in_run(const cell_grid *grid, int32_t from, int32_t to, int32_t i, const real x[3], real reach,
-                          int32_t *found, size_t count, size_t room)
+static size_t find_in_run(const cell_grid *grid, int32_t from, int32_t to, int32_t i, const real x[3], real reach, int32_t *found,
+                          size_t count, size_t room)
 {
     const wide period = wide_all(grid->period), inverse_period = wide_all(grid->inverse_period), own = wide_all(reach);
     for (int32_t at = from; at < to; at += LANES) {

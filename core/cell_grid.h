@@ -13,8 +13,8 @@ typedef struct cell_grid {
     int32_t *cell_of; /* (spheres) */
     /* cell after cell, ascending in id within each; LANES more behind the last, so that whole vectors may be read */
     int32_t *sphere;
-    real *x[3];       /* m, rounded */
-    real *radius;     /* m */
+    real *x[3];   /* m, rounded */
+    real *radius; /* m */
 } cell_grid;
 
 void cell_grid_init(cell_grid *grid);

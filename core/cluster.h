@@ -18,10 +18,10 @@ typedef struct cluster_shape {
 } cluster_shape;
 
 typedef struct cluster_body {
-    double x[3];             /* m, centre of mass, z within one period */
-    double spin[3];          /* rad/s at the half step; along the principal axes, isotropic: along those of space */
-    double spin_change[3];   /* rad/s, of the last step: Eq 6 extrapolates with it */
-    vector4 velocity;        /* m/s at the half step */
+    double x[3];           /* m, centre of mass, z within one period */
+    double spin[3];        /* rad/s at the half step; along the principal axes, isotropic: along those of space */
+    double spin_change[3]; /* rad/s, of the last step: Eq 6 extrapolates with it */
+    vector4 velocity;      /* m/s at the half step */
     quaternion orientation;
     int32_t species;
     int32_t first_sphere;
@@ -29,9 +29,9 @@ typedef struct cluster_body {
 
 typedef struct clusters {
     size_t count, sphere_count;
-    cluster_body *body;              /* (count) */
-    int32_t *of_sphere;              /* (sphere_count) the body of each sphere, counted from the clusters' first */
-    cluster_shape *shape;            /* (species) */
+    cluster_body *body;   /* (count) */
+    int32_t *of_sphere;   /* (sphere_count) the body of each sphere, counted from the clusters' first */
+    cluster_shape *shape; /* (species) */
 } clusters;
 
 dem_status clusters_init(clusters *clusters, const dem_drum_definition *definition, size_t count, size_t sphere_count);
@@ -50,7 +50,8 @@ static inline void cluster_spin(const cluster_shape *shape, const cluster_body *
 {
     double a[3][3];
     quaternion_matrix(body->orientation, a);
-    if (shape->is_isotropic) for (int c = 0; c < 3; c++) omega[c] = body->spin[c];
+    if (shape->is_isotropic)
+        for (int c = 0; c < 3; c++) omega[c] = body->spin[c];
     else to_space(a, body->spin, omega);
 }
 

@@ -55,7 +55,8 @@ static void gather_sphere_and_cylinder(contact_block *restrict block, const sphe
         const wide rate = wide_all(rotation_rate);
         /* the wall's velocity at the place of the contact: omega x r, at the wall rather than at the centre */
         const wide widen = wide_all((real)radius) * wide_inverse_root(wide_from_doubles(rho2));
-        const wide v[3] = { -rate * widen * outward[1] - own[VELOCITY], rate * widen * outward[0] - own[VELOCITY + 1], -own[VELOCITY + 2] };
+        const wide v[3] = { -rate * widen * outward[1] - own[VELOCITY], rate * widen * outward[0] - own[VELOCITY + 1],
+                            -own[VELOCITY + 2] };
         store_vector(block->n, k, outward);
         wide_store(block->distance2 + k, wide_from_doubles(rho2));
         wide_store(block->gap2 + k, wide_from_doubles(beyond2));
@@ -167,15 +168,16 @@ double contact_forces_between_spheres(contact_list *pairs, const spheres *s, con
     return largest;
 }
 
-double contact_forces_with_wall(contact_list *walls, const spheres *s, const container *drum,
-                                const dem_contact_parameters *contact, double dt, int threads)
+double contact_forces_with_wall(contact_list *walls, const spheres *s, const container *drum, const dem_contact_parameters *contact,
+                                double dt, int threads)
 {
     double largest = 0.0;
     const size_t count = round_up_to_block(walls->count);
 #pragma omp parallel for schedule(static) reduction(max : largest) num_threads(threads) if (threads > 1)
     for (size_t start = 0; start < count; start += BLOCK) {
         contact_block block;
-        gather_sphere_and_cylinder(&block, s->row, walls->first + start, sphere_of_zeros(s), drum->radius, (real)drum->rotation_rate);
+        gather_sphere_and_cylinder(&block, s->row, walls->first + start, sphere_of_zeros(s), drum->radius,
+                                   (real)drum->rotation_rate);
         largest = fmax(largest, block_forces(walls, start, &block, contact, true, dt));
     }
     return largest;

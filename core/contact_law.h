@@ -35,8 +35,7 @@ static inline real normal_force(real alpha, real k_1, real k_2, real *alpha_0)
 
 /* One increment of friction. n: unit normal, first to second; ds: tangential displacement in this step, m;
  * mu_n: mu N; k_t0: tangential stiffness at the start of a loading, N/m. Updates t and t_star. */
-static inline void friction_increment(const real n[3], const real ds[3], real mu_n, real k_t0,
-                                      real t[3], real *t_star)
+static inline void friction_increment(const real n[3], const real ds[3], real mu_n, real k_t0, real t[3], real *t_star)
 {
     /* Turn the friction force with the contact before adding to it: a rolling pair would otherwise store force
      * along its normal. */
@@ -77,8 +76,8 @@ typedef struct damped_springs {
 
 /* What they are made of, for one pair of materials. */
 typedef struct damped_law {
-    real k_n; /* N/m; Hertz-Mindlin: Pa, E* */
-    real k_t; /* N/m; Hertz-Mindlin: Pa, G* */
+    real k_n;     /* N/m; Hertz-Mindlin: Pa, E* */
+    real k_t;     /* N/m; Hertz-Mindlin: Pa, G* */
     real damping; /* zeta; Hertz-Mindlin: sqrt(5/6) zeta */
 } damped_law;
 
@@ -109,8 +108,8 @@ static inline real damped_normal_force(damped_springs springs, real alpha, real 
 /* One increment of the spring's stretch (turned with the contact, as above) by ds in dt; force: with the dashpot, cut
  * at mu |N|. Where it is cut, the spring is pulled back to what the cut leaves. Keeping the stretch rather than the force
  * is Mindlin's solution without slip as the published benchmarks have it: the stiffness of now acts on all of it. */
-static inline void damped_friction_increment(const real n[3], const real ds[3], real inverse_dt, real mu_n,
-                                             damped_springs springs, real stretch[3], real force[3])
+static inline void damped_friction_increment(const real n[3], const real ds[3], real inverse_dt, real mu_n, damped_springs springs,
+                                             real stretch[3], real force[3])
 {
     const real sn = dot(stretch, n);
     const real u[3] = { fused(-sn, n[0], stretch[0]), fused(-sn, n[1], stretch[1]), fused(-sn, n[2], stretch[2]) };

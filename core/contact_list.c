@@ -42,8 +42,8 @@ dem_status contact_list_reserve(contact_list *list, size_t count)
     grown.t_star = array_create(n, sizeof *grown.t_star);
     grown.alpha_0 = array_create(n, sizeof *grown.alpha_0);
     grown.overlap = array_create(n, sizeof *grown.overlap);
-    if (!grown.first || !grown.second || !grown.friction || !grown.first_radius || !grown.mass || !grown.t[0] || !grown.t[1] || !grown.t[2]
-        || !grown.t_star || !grown.alpha_0 || !grown.overlap) {
+    if (!grown.first || !grown.second || !grown.friction || !grown.first_radius || !grown.mass || !grown.t[0] || !grown.t[1]
+        || !grown.t[2] || !grown.t_star || !grown.alpha_0 || !grown.overlap) {
         slots_free(&grown);
         return DEM_NO_MEMORY;
     }
@@ -71,7 +71,8 @@ void contact_list_pad(contact_list *list, int32_t first, int32_t second)
 contact_history contact_list_history(const contact_list *list, size_t k)
 {
     return (contact_history){ .t = { list->t[0][k], list->t[1][k], list->t[2][k] },
-                              .t_star = list->t_star[k], .alpha_0 = list->alpha_0[k] };
+                              .t_star = list->t_star[k],
+                              .alpha_0 = list->alpha_0[k] };
 }
 
 void contact_list_set_history(contact_list *list, size_t k, const contact_history *history)

@@ -5,10 +5,10 @@
 #include "spheres.h"
 
 typedef struct container {
-    double radius, length;  /* m */
-    double rotation_rate;   /* rad/s now: zero until rotation begins */
-    double angle;           /* rad turned since rotation began */
-    double inner_radius;    /* m, of the free room: radius less the lining's diameter */
+    double radius, length; /* m */
+    double rotation_rate;  /* rad/s now: zero until rotation begins */
+    double angle;          /* rad turned since rotation began */
+    double inner_radius;   /* m, of the free room: radius less the lining's diameter */
 } container;
 
 void container_init(container *drum, const dem_drum_definition *definition);
@@ -22,9 +22,6 @@ void container_turn_lining(const container *drum, spheres *spheres);
 double circle_level(double share);
 
 /* z brought into [-length/2, length/2): a function of z alone, so that wrapping gives the same bits whenever done. */
-static inline double wrap_axial(double z, double length, double inverse_length)
-{
-    return z - length * rint(z * inverse_length);
-}
+static inline double wrap_axial(double z, double length, double inverse_length) { return z - length * rint(z * inverse_length); }
 
 #endif

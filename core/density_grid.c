@@ -37,8 +37,8 @@ static double kernel_value(double r, double radius, double spread)
 static void kernel_fill(density_grid *grid, size_t kernel, double diameter, double over, double spread)
 {
     for (int p = 0; p < KERNEL_POINTS; p++)
-        grid->kernel[kernel * KERNEL_POINTS + (size_t)p]
-            = kernel_value(grid->reach * p / (KERNEL_POINTS - 1), 0.5 * diameter, spread) / over;
+        grid->kernel[kernel * KERNEL_POINTS + (size_t)p] =
+            kernel_value(grid->reach * p / (KERNEL_POINTS - 1), 0.5 * diameter, spread) / over;
 }
 
 /* One kernel for each diameter that a species' spheres have. Spheres that overlap in a cluster count for less, so that
@@ -59,7 +59,8 @@ static size_t species_kernels(density_grid *grid, const dem_drum_definition *def
         size_t like = 0;
         while (cluster->sphere[like].diameter != cluster->sphere[m].diameter) like++;
         of[m] = like < m ? of[like] : (int32_t)used;
-        if (like == m) kernel_fill(grid, used++, cluster->sphere[m].diameter, definition->length * volume / cluster->volume, spread);
+        if (like == m)
+            kernel_fill(grid, used++, cluster->sphere[m].diameter, definition->length * volume / cluster->volume, spread);
     }
     return used;
 }
@@ -141,7 +142,8 @@ void density_grid_deposit(density_grid *grid, const dem_scene *scene, double tur
     memset(grid->value, 0, (size_t)grid->cells * (size_t)grid->cells * sizeof *grid->value);
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = s->row[i].x;
-        const size_t of_body = i < s->single_count ? 0 : i - (size_t)s->clusters.body[particle_of_sphere(s, i) - s->single_count].first_sphere;
+        const size_t of_body =
+            i < s->single_count ? 0 : i - (size_t)s->clusters.body[particle_of_sphere(s, i) - s->single_count].first_sphere;
         const int32_t kernel = grid->kernel_of[(size_t)s->species[i] * DEM_MAXIMUM_CLUSTER + of_body];
         deposit_one(grid, c * x[0] + sine * x[1], c * x[1] - sine * x[0], grid->kernel + kernel * KERNEL_POINTS);
     }

@@ -5,14 +5,14 @@
 #include "scene.h"
 
 typedef struct density_grid {
-    int cells;         /* a side */
-    double size;       /* m a cell */
-    double turned;     /* rad: column axis s = x cos + y sin, height axis h = -x sin + y cos */
-    double core;       /* solid fraction of the bed's core: median over cells above half of the densest */
-    float *value;      /* (cells, cells): columns in s, then h upwards */
-    double *kernel;    /* (kernels, KERNEL_POINTS) */
+    int cells;          /* a side */
+    double size;        /* m a cell */
+    double turned;      /* rad: column axis s = x cos + y sin, height axis h = -x sin + y cos */
+    double core;        /* solid fraction of the bed's core: median over cells above half of the densest */
+    float *value;       /* (cells, cells): columns in s, then h upwards */
+    double *kernel;     /* (kernels, KERNEL_POINTS) */
     int32_t *kernel_of; /* (species, DEM_MAXIMUM_CLUSTER) of each sphere of a cluster; of a sphere, the first */
-    double reach;      /* m, of the widest kernel */
+    double reach;       /* m, of the widest kernel */
 } density_grid;
 
 /* Cells of a quarter of the mean diameter. Errors: DEM_NO_MEMORY. */

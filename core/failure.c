@@ -25,8 +25,13 @@ dem_status failure_check_places(dem_scene *scene)
         if (rho < scene->drum.radius && fabs(x[2]) <= scene->drum.length && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
         const bool escaped = isfinite(rho) && isfinite(x[2]);
         const dem_failure what = {
-            .status = escaped ? DEM_PARTICLE_ESCAPED : DEM_NOT_A_NUMBER, .particle = (int64_t)i, .other = -1,
-            .value = rho, .limit = scene->drum.radius, .quantity = "distance from the axis", .unit = "m",
+            .status = escaped ? DEM_PARTICLE_ESCAPED : DEM_NOT_A_NUMBER,
+            .particle = (int64_t)i,
+            .other = -1,
+            .value = rho,
+            .limit = scene->drum.radius,
+            .quantity = "distance from the axis",
+            .unit = "m",
             .likely_cause = "the contacts are too soft for the speeds in this drum: a larger stiffness (or a smaller "
                             "maximum_overlap) keeps particles inside the wall",
         };
@@ -38,8 +43,13 @@ dem_status failure_check_places(dem_scene *scene)
 static dem_status overlap_failure(dem_scene *scene, int32_t i, int32_t j, double overlap, double limit)
 {
     const dem_failure what = {
-        .status = DEM_OVERLAP_TOO_LARGE, .particle = i, .other = j, .value = overlap, .limit = limit,
-        .quantity = "overlap", .unit = "m",
+        .status = DEM_OVERLAP_TOO_LARGE,
+        .particle = i,
+        .other = j,
+        .value = overlap,
+        .limit = limit,
+        .quantity = "overlap",
+        .unit = "m",
         .likely_cause = "the stiffness is too small for the loads and speeds in this drum: give a larger stiffness, or "
                         "a smaller maximum_overlap and let it be chosen",
     };
@@ -67,8 +77,13 @@ dem_status failure_check_overlaps(dem_scene *scene)
 dem_status failure_of_settling(dem_scene *scene, double energy)
 {
     const dem_failure what = {
-        .status = DEM_NEVER_SETTLED, .particle = -1, .other = -1, .value = energy, .limit = scene->filling.rest_energy,
-        .quantity = "kinetic energy of the bed", .unit = "J",
+        .status = DEM_NEVER_SETTLED,
+        .particle = -1,
+        .other = -1,
+        .value = energy,
+        .limit = scene->filling.rest_energy,
+        .quantity = "kinetic energy of the bed",
+        .unit = "J",
         .likely_cause = "a restitution near 1 or a very low friction keeps the bed moving",
     };
     return fail(scene, &what);
@@ -77,7 +92,11 @@ dem_status failure_of_settling(dem_scene *scene, double energy)
 dem_status failure_of_memory(dem_scene *scene)
 {
     const dem_failure what = {
-        .status = DEM_NO_MEMORY, .particle = -1, .other = -1, .quantity = "memory", .unit = "",
+        .status = DEM_NO_MEMORY,
+        .particle = -1,
+        .other = -1,
+        .quantity = "memory",
+        .unit = "",
         .likely_cause = "the neighbor lists could not grow: fewer particles, or more memory",
     };
     return fail(scene, &what);

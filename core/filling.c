@@ -169,15 +169,16 @@ static dem_status placing_init(placing *p, const spheres *s, const container *dr
 }
 
 /* The large first, since they find room the hardest. */
-static bool place_all(placing *p, spheres *s, const dem_drum_definition *definition, double room, double level,
-                      double scale, random_streams *random)
+static bool place_all(placing *p, spheres *s, const dem_drum_definition *definition, double room, double level, double scale,
+                      random_streams *random)
 {
     bool placed[DEM_MAXIMUM_SPECIES] = { false };
     for (size_t round = 0; round < definition->species_count; round++) {
         size_t largest = 0;
         while (placed[largest]) largest++; /* one is left in each round */
         for (size_t k = largest + 1; k < definition->species_count; k++)
-            if (!placed[k] && dem_species_reach(&definition->species[k]) > dem_species_reach(&definition->species[largest])) largest = k;
+            if (!placed[k] && dem_species_reach(&definition->species[k]) > dem_species_reach(&definition->species[largest]))
+                largest = k;
         placed[largest] = true;
         for (size_t i = 0; i < particles_count(s); i++)
             if (particle_species(s, i) == (int32_t)largest && !place_one(p, s, i, room, level, scale, random)) return false;

@@ -7,12 +7,12 @@
 #include "spheres.h"
 
 typedef struct filling {
-    double start_scale;    /* share of full size at which particles are placed */
+    double start_scale; /* share of full size at which particles are placed */
     int64_t growing_steps;
-    double growing_drag;   /* 1/s */
-    double settling_drag;  /* 1/s */
+    double growing_drag;  /* 1/s */
+    double settling_drag; /* 1/s */
     int64_t settling_steps_least, settling_steps_most;
-    double rest_energy;    /* J: the bed is at rest when its kinetic energy is below */
+    double rest_energy; /* J: the bed is at rest when its kinetic energy is below */
 } filling;
 
 /* Mass, inertia and species of every particle, its place and orientation at start_scale.

@@ -33,7 +33,7 @@ typedef struct slip {
 static slip slip_from(double theta, double w, double s)
 {
     const double q = 1 + 4 * s * s;
-    slip p = {.s = s, .a = (4 * s * s - 2) / q, .b = 6 * s / q, .start = theta};
+    slip p = { .s = s, .a = (4 * s * s - 2) / q, .b = 6 * s / q, .start = theta };
     p.c = w - p.a * sin(theta) - p.b * cos(theta);
     return p;
 }
@@ -82,7 +82,7 @@ typedef struct granule {
     double mu, omega2;
     double theta, w;
     bool sticks;
-    double time;      /* of the revolution */
+    double time; /* of the revolution */
     double onset, least_normal_force;
 } granule;
 
@@ -101,10 +101,7 @@ static double stick_end(const granule *g, double end)
     return end;
 }
 
-static void note_normal_force(granule *g)
-{
-    g->least_normal_force = fmin(g->least_normal_force, g->w - sin(g->theta));
-}
+static void note_normal_force(granule *g) { g->least_normal_force = fmin(g->least_normal_force, g->w - sin(g->theta)); }
 
 static void stick_on(granule *g, double end)
 {
@@ -119,10 +116,7 @@ static void stick_on(granule *g, double end)
 }
 
 /* Friction is enough to carry it along. */
-static bool can_stick(const granule *g)
-{
-    return fabs(cos(g->theta)) <= g->mu * (g->omega2 - sin(g->theta));
-}
+static bool can_stick(const granule *g) { return fabs(cos(g->theta)) <= g->mu * (g->omega2 - sin(g->theta)); }
 
 /* The first event on the way from theta to next, and its angle; SLIP_EVENTS: none. */
 static slip_event first_event(const granule *g, const slip *p, double next, double *at)
@@ -216,9 +210,9 @@ static dem_regime regime_of(const granule *g, turn_end end)
 
 static void follow(double mu, double omega2, int revolutions, dem_granule_motion *motion)
 {
-    granule g = {.mu = mu, .omega2 = omega2, .w = omega2, .sticks = true, .onset = NAN, .least_normal_force = INFINITY};
+    granule g = { .mu = mu, .omega2 = omega2, .w = omega2, .sticks = true, .onset = NAN, .least_normal_force = INFINITY };
     turn_end end = WENT_ROUND;
-    *motion = (dem_granule_motion){.omega2 = omega2, .slip_per_revolution = NAN};
+    *motion = (dem_granule_motion){ .omega2 = omega2, .slip_per_revolution = NAN };
     bool repeats = false;
     while (motion->revolutions < revolutions && !repeats && (end = turn(&g)) == WENT_ROUND) {
         motion->revolutions++;
@@ -262,8 +256,8 @@ static void find_threshold(const dem_granule_definition *d, dem_granule_result *
 static bool is_good(const dem_granule_definition *d)
 {
     return isfinite(d->friction) && d->friction > 0 && isfinite(d->radius) && d->radius > 0 && isfinite(d->gravity)
-        && d->gravity > 0 && !isinf(d->rotation_rate) && !(d->rotation_rate <= 0) && d->revolutions >= 1
-        && d->tolerance >= ROUNDING && d->tolerance < 1;
+           && d->gravity > 0 && !isinf(d->rotation_rate) && !(d->rotation_rate <= 0) && d->revolutions >= 1
+           && d->tolerance >= ROUNDING && d->tolerance < 1;
 }
 
 dem_status dem_granule_solve(const dem_granule_definition *d, dem_granule_result *result)
@@ -279,7 +273,8 @@ dem_status dem_granule_solve(const dem_granule_definition *d, dem_granule_result
     result->sliding_deviation_eq34 = result->sliding_eq34 / result->minimum_omega2 - 1;
     result->sliding_deviation_eq36 = result->sliding_eq36 / result->minimum_omega2 - 1;
     result->has_motion = !isnan(d->rotation_rate);
-    result->motion = (dem_granule_motion){ .omega2 = NAN, .slip_per_revolution = NAN, .slip_onset = NAN, .least_normal_force = NAN };
+    result->motion =
+        (dem_granule_motion){ .omega2 = NAN, .slip_per_revolution = NAN, .slip_onset = NAN, .least_normal_force = NAN };
     if (result->has_motion)
         follow(d->friction, d->rotation_rate * d->rotation_rate * d->radius / d->gravity, d->revolutions, &result->motion);
     return DEM_OK;

@@ -41,12 +41,13 @@ static void cluster_load(const cluster_shape *shape, const row8 *load, const vec
 }
 
 /* The cluster's spin at the next half step, along the axes of space and of the body. */
-static void cluster_turn(const leap_frog *leap, const cluster_shape *shape, cluster_body *body, double a[3][3],
-                         vector4 torque, double in_space[3], double in_body[3])
+static void cluster_turn(const leap_frog *leap, const cluster_shape *shape, cluster_body *body, double a[3][3], vector4 torque,
+                         double in_space[3], double in_body[3])
 {
     const double n[3] = { torque[0], torque[1], torque[2] };
     if (shape->is_isotropic) { /* Euler's products vanish; no need to turn back and forth */
-        for (int c = 0; c < 3; c++) in_space[c] = body->spin[c] = leap->keep * body->spin[c] + (leap->dt * (1.0 / shape->inertia[0])) * n[c];
+        for (int c = 0; c < 3; c++)
+            in_space[c] = body->spin[c] = leap->keep * body->spin[c] + (leap->dt * (1.0 / shape->inertia[0])) * n[c];
         to_body(a, in_space, in_body);
         return;
     }
@@ -111,11 +112,14 @@ static double clusters_advance(spheres *s, const leap_frog *leap, double scale_n
     return sqrt(largest_x + largest_y + largest_z);
 }
 
-double integrator_advance(spheres *s, const container *drum, const body_forces *body,
-                          const vector4 *picked_velocity, double dt, int threads)
+double integrator_advance(spheres *s, const container *drum, const body_forces *body, const vector4 *picked_velocity, double dt,
+                          int threads)
 {
-    const leap_frog leap = { .gravity_dt = { 0.0, body->gravity * dt }, .period = { 0.0, 0.0, drum->length },
-                        .inverse_period = { 0.0, 0.0, 1.0 / drum->length }, .dt = dt, .keep = 1.0 - body->drag * dt };
+    const leap_frog leap = { .gravity_dt = { 0.0, body->gravity * dt },
+                             .period = { 0.0, 0.0, drum->length },
+                             .inverse_period = { 0.0, 0.0, 1.0 / drum->length },
+                             .dt = dt,
+                             .keep = 1.0 - body->drag * dt };
     const row8 *restrict load = s->load;
     const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
     vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity;

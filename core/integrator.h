@@ -14,7 +14,7 @@ typedef struct body_forces {
 
 /* One step for all particles. picked_velocity: (mobile) m/s. Returns a bound on |v - picked_velocity| of every
  * sphere, m/s: from the largest of each component. */
-double integrator_advance(spheres *spheres, const container *drum, const body_forces *body,
-                          const vector4 *picked_velocity, double dt, int threads);
+double integrator_advance(spheres *spheres, const container *drum, const body_forces *body, const vector4 *picked_velocity,
+                          double dt, int threads);
 
 #endif

@@ -12,10 +12,10 @@ static double damping_ratio(double restitution)
 /* 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)). */
 static damped_law law_of_materials(dem_elasticity a, dem_elasticity b, double restitution)
 {
-    const double compliance = (1 - a.poissons_ratio * a.poissons_ratio) / a.youngs_modulus
-                            + (1 - b.poissons_ratio * b.poissons_ratio) / b.youngs_modulus;
+    const double compliance =
+        (1 - a.poissons_ratio * a.poissons_ratio) / a.youngs_modulus + (1 - b.poissons_ratio * b.poissons_ratio) / b.youngs_modulus;
     const double shear = 2 * (2 - a.poissons_ratio) * (1 + a.poissons_ratio) / a.youngs_modulus
-                       + 2 * (2 - b.poissons_ratio) * (1 + b.poissons_ratio) / b.youngs_modulus;
+                         + 2 * (2 - b.poissons_ratio) * (1 + b.poissons_ratio) / b.youngs_modulus;
     return (damped_law){ (real)(1 / compliance), (real)(1 / shear), (real)(sqrt(5.0 / 6.0) * damping_ratio(restitution)) };
 }
 
@@ -104,7 +104,8 @@ void contact_block_damped_springs(contact_block *block, contact_list *list, size
                                  (real)damping_ratio(contact->restitution) };
         linear_block(block, list->mass + start, law);
     } else {
-        const damped_law law = law_of_materials(contact->particle, is_wall ? contact->wall : contact->particle, contact->restitution);
+        const damped_law law =
+            law_of_materials(contact->particle, is_wall ? contact->wall : contact->particle, contact->restitution);
         hertz_mindlin_block(block, list->mass + start, list->first_radius + start, law, is_wall);
     }
     normal_forces(block);

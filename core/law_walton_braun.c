@@ -56,7 +56,8 @@ static void friction_stiffness(contact_block *restrict block, real *restrict t_s
     }
 }
 
-static void friction_forces(contact_block *restrict block, real *restrict t_x, real *restrict t_y, real *restrict t_z, real stiffness)
+static void friction_forces(contact_block *restrict block, real *restrict t_x, real *restrict t_y, real *restrict t_z,
+                            real stiffness)
 {
     const wide one = wide_all(1), k_t0 = wide_all(stiffness);
     for (int k = 0; k < BLOCK; k += LANES) {

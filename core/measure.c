@@ -8,9 +8,9 @@ size_t dem_frame_width(const dem_scene *scene) { return DEM_FRAME_SCALARS + (siz
 const char *dem_frame_scalar_name(size_t index)
 {
     static const char *const name[DEM_FRAME_SCALARS] = {
-        "time", "angle_deg", "center_of_mass_deg", "theil_sen_deg", "upper_chord_deg", "lower_chord_deg", "chord_deg",
-        "solid_fraction", "coordination_number", "airborne_fraction", "wall_slip", "wall_coverage", "flow_speed",
-        "surface_lag", "kinetic_energy", "radial_index",
+        "time",       "angle_deg",      "center_of_mass_deg",  "theil_sen_deg",     "upper_chord_deg", "lower_chord_deg",
+        "chord_deg",  "solid_fraction", "coordination_number", "airborne_fraction", "wall_slip",       "wall_coverage",
+        "flow_speed", "surface_lag",    "kinetic_energy",      "radial_index",
     };
     return index < DEM_FRAME_SCALARS ? name[index] : NULL;
 }

@@ -124,7 +124,8 @@ static bool is_ring(const dem_scene *scene)
     return count > 0.95 * SECTORS;
 }
 
-static void measure_angles(const dem_scene *scene, const int32_t *contacts, density_grid *grid, surface_heights *surface, double *frame)
+static void measure_angles(const dem_scene *scene, const int32_t *contacts, density_grid *grid, surface_heights *surface,
+                           double *frame)
 {
     const double center = center_of_mass_angle(&scene->spheres);
     const bool ring = is_ring(scene);
@@ -242,10 +243,12 @@ static void measure_drift(const dem_scene *scene, const frame_window *window, de
 dem_status measure_repose_results(const dem_scene *scene, const double *frames, size_t count, size_t width,
                                   dem_repose_result *result, frame_window *window)
 {
-    static const struct { dem_angle_method method; frame_column column; } columns[] = {
-        { DEM_SURFACE_FIT, FRAME_SURFACE_FIT }, { DEM_CENTER_OF_MASS, FRAME_CENTER_OF_MASS },
-        { DEM_THEIL_SEN, FRAME_THEIL_SEN },     { DEM_UPPER_CHORD, FRAME_UPPER_CHORD },
-        { DEM_LOWER_CHORD, FRAME_LOWER_CHORD },
+    static const struct {
+        dem_angle_method method;
+        frame_column column;
+    } columns[] = {
+        { DEM_SURFACE_FIT, FRAME_SURFACE_FIT }, { DEM_CENTER_OF_MASS, FRAME_CENTER_OF_MASS }, { DEM_THEIL_SEN, FRAME_THEIL_SEN },
+        { DEM_UPPER_CHORD, FRAME_UPPER_CHORD }, { DEM_LOWER_CHORD, FRAME_LOWER_CHORD },
     };
     const size_t start = window_start(scene, frames, count, width);
     *window = (frame_window){ frames + start * width, count - start, width };

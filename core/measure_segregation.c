@@ -38,7 +38,8 @@ typedef struct mixing {
     double variance, random_variance, share;
 } mixing;
 
-static mixing mixing_over_cells(const int32_t *cell_of, const spheres *s, int32_t species, double *count, double *of_species, size_t cells)
+static mixing mixing_over_cells(const int32_t *cell_of, const spheres *s, int32_t species, double *count, double *of_species,
+                                size_t cells)
 {
     memset(count, 0, cells * sizeof *count);
     memset(of_species, 0, cells * sizeof *of_species);

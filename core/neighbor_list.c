@@ -89,7 +89,9 @@ static size_t drop_own_particle(int32_t *found, size_t count, const spheres *s, 
 {
     if (i < s->single_count) return count;
     size_t own = 0;
-    while (own < count && (size_t)found[own] < s->mobile_count && particle_of_sphere(s, (size_t)found[own]) == particle_of_sphere(s, i)) own++;
+    while (own < count && (size_t)found[own] < s->mobile_count
+           && particle_of_sphere(s, (size_t)found[own]) == particle_of_sphere(s, i))
+        own++;
     memmove(found, found + own, (count - own) * sizeof *found);
     return count - own;
 }
@@ -164,7 +166,8 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
     if (status != DEM_OK) return status;
     list->start[0] = list->pair_count = 0;
     for (int p = 0; p < parts; p++) {
-        if (list->part[p].count) memcpy(list->second + list->pair_count, list->part[p].second, list->part[p].count * sizeof *list->second);
+        if (list->part[p].count)
+            memcpy(list->second + list->pair_count, list->part[p].second, list->part[p].count * sizeof *list->second);
         list->pair_count += list->part[p].count;
     }
     for (size_t i = 0; i < n; i++) {
@@ -374,8 +377,8 @@ static void fill_slots_of(neighbor_list *list, const spheres *s, const dem_conta
     contact_list_carry(walls, &list->walls_before, i);
 }
 
-static dem_status inner_pick(neighbor_list *list, const spheres *s, const container *drum,
-                             const dem_contact_parameters *contact, double duration, int threads)
+static dem_status inner_pick(neighbor_list *list, const spheres *s, const container *drum, const dem_contact_parameters *contact,
+                             double duration, int threads)
 {
     const size_t n = s->mobile_count;
     swap_lists(&list->pairs, &list->pairs_before);
@@ -397,8 +400,8 @@ static dem_status inner_pick(neighbor_list *list, const spheres *s, const contai
     return status == DEM_OK ? ends_build(list, n) : status;
 }
 
-dem_status neighbor_list_update(neighbor_list *list, const spheres *s, const container *drum,
-                                const dem_contact_parameters *contact, double time_step, int threads, bool *made_new)
+dem_status neighbor_list_update(neighbor_list *list, const spheres *s, const container *drum, const dem_contact_parameters *contact,
+                                double time_step, int threads, bool *made_new)
 {
     const bool safe = list->inner_valid && list->steps_since_pick < list->safe_steps && list->strayed <= list->margin;
     if (made_new) *made_new = !safe;

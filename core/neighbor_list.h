@@ -22,30 +22,30 @@ typedef struct pair_part {
 
 typedef struct neighbor_list {
     /* outer */
-    double skin;              /* m: pairs with a smaller gap are listed */
+    double skin; /* m: pairs with a smaller gap are listed */
     size_t pair_count, pair_capacity;
-    size_t *start;            /* (mobile + 1) */
-    int32_t *first, *second;  /* (pair_capacity) by first, then by second; padded with a pair far apart */
-    uint16_t *in_reach;       /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
+    size_t *start;           /* (mobile + 1) */
+    int32_t *first, *second; /* (pair_capacity) by first, then by second; padded with a pair far apart */
+    uint16_t *in_reach;      /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
     pair_part part[MOST_PARTS];
-    vector4 *built_at;        /* (mobile) m: places when the outer list was made */
+    vector4 *built_at; /* (mobile) m: places when the outer list was made */
     cell_grid grid;
     bool outer_valid;
     /* inner */
-    double margin;            /* m: how far a sphere may stray from its straight path before the next pick */
-    double strayed;           /* m: bound on how far any sphere has, since the pick */
+    double margin;  /* m: how far a sphere may stray from its straight path before the next pick */
+    double strayed; /* m: bound on how far any sphere has, since the pick */
     int steps_since_pick, safe_steps;
-    double turned_at_build;   /* rad: the drum's angle when the outer list was made */
+    double turned_at_build; /* rad: the drum's angle when the outer list was made */
     bool inner_valid;
     vector4 *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against the cylinder */
-    contact_row *rows;        /* of pairs, then of walls, then one of zeros */
+    contact_row *rows;                /* of pairs, then of walls, then one of zeros */
     size_t row_capacity;
     /* the ends of contacts at each sphere, for its sum: indices into the rows' ends, by id of the other sphere, the
      * wall last, filled up to whole groups with the row of zeros */
-    size_t *ends_start;       /* (mobile + 1) */
-    size_t *ends_filled;      /* (mobile) */
+    size_t *ends_start;  /* (mobile + 1) */
+    size_t *ends_filled; /* (mobile) */
     int32_t *ends;
     size_t ends_capacity;
     int64_t outer_builds, inner_picks;
@@ -66,7 +66,6 @@ static inline void neighbor_list_step_done(neighbor_list *list, double largest_d
 }
 
 /* Contacts (overlap > 0) of each mobile sphere at the places of now; the list must be up to date. */
-void neighbor_list_count_contacts(const neighbor_list *list, const spheres *spheres, const container *drum,
-                                  int32_t *contacts);
+void neighbor_list_count_contacts(const neighbor_list *list, const spheres *spheres, const container *drum, int32_t *contacts);
 
 #endif

@@ -36,21 +36,22 @@ static dem_status parameters_check(const dem_drum_definition *d)
 {
     const dem_contact_parameters *c = &d->contact;
     bool good = is_positive(d->diameter) && is_positive(d->length) && isfinite(d->rotation_rate) && is_positive(d->gravity)
-             && is_positive(d->time_step) && d->particle_count > 0 && d->particle_count < INT32_MAX / 2 && d->threads >= 1
-             && d->species_count >= 1 && d->species_count <= DEM_MAXIMUM_SPECIES;
-    good = good && is_law(c) && c->restitution > 0 && c->restitution <= 1 && c->friction >= 0
-        && isfinite(c->friction) && c->wall_friction >= 0 && isfinite(c->wall_friction);
+                && is_positive(d->time_step) && d->particle_count > 0 && d->particle_count < INT32_MAX / 2 && d->threads >= 1
+                && d->species_count >= 1 && d->species_count <= DEM_MAXIMUM_SPECIES;
+    good = good && is_law(c) && c->restitution > 0 && c->restitution <= 1 && c->friction >= 0 && isfinite(c->friction)
+           && c->wall_friction >= 0 && isfinite(c->wall_friction);
     double shares = 0.0, largest = 0.0;
     for (size_t k = 0; good && k < d->species_count; k++) {
         const dem_species *s = &d->species[k];
-        good = (s->cluster.sphere_count ? is_positive(s->cluster.volume) : is_positive(s->diameter)) && is_positive(s->density) && s->share >= 0;
+        good = (s->cluster.sphere_count ? is_positive(s->cluster.volume) : is_positive(s->diameter)) && is_positive(s->density)
+               && s->share >= 0;
         shares += s->share;
         largest = fmax(largest, 2 * dem_species_reach(s));
     }
     good = good && fabs(shares - 1) < 1e-6 && largest < 0.5 * d->diameter && d->length > 2 * largest;
     if (good && d->lining.diameter != 0)
-        good = is_positive(d->lining.diameter) && is_positive(d->lining.pitch)
-            && d->lining.diameter < 0.25 * d->diameter && d->lining.pitch <= d->length;
+        good = is_positive(d->lining.diameter) && is_positive(d->lining.pitch) && d->lining.diameter < 0.25 * d->diameter
+               && d->lining.pitch <= d->length;
     return good ? DEM_OK : DEM_BAD_PARAMETER;
 }
 

@@ -4,7 +4,9 @@
 
 #include <stdint.h>
 
-typedef struct random_stream { uint64_t s[4]; } random_stream;
+typedef struct random_stream {
+    uint64_t s[4];
+} random_stream;
 
 void random_seed(random_stream *stream, uint64_t seed);
 double random_uniform(random_stream *stream); /* [0, 1), 53 bits */

@@ -52,7 +52,10 @@ enum {
 #define INVERSE_ROOT_FACTOR ((real)0.703952253)
 #define INVERSE_ROOT_OFFSET ((real)2.38924456)
 
-typedef union float_bits { float f; int32_t i; } float_bits;
+typedef union float_bits {
+    float f;
+    int32_t i;
+} float_bits;
 
 static inline real inverse_root_guess(real x)
 {

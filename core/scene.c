@@ -61,14 +61,10 @@ double dem_scene_kinetic_energy(const dem_scene *scene) { return spheres_kinetic
 double dem_scene_time(const dem_scene *scene)
 {
     const double dt = scene->definition.time_step;
-    return scene->rotation_start >= 0 ? (double)(scene->step_count - scene->rotation_start) * dt
-                                      : -(double)scene->step_count * dt;
+    return scene->rotation_start >= 0 ? (double)(scene->step_count - scene->rotation_start) * dt : -(double)scene->step_count * dt;
 }
 
-double dem_scene_maximum_overlap(const dem_scene *scene)
-{
-    return scene->maximum_overlap / scene->spheres.smallest_diameter;
-}
+double dem_scene_maximum_overlap(const dem_scene *scene) { return scene->maximum_overlap / scene->spheres.smallest_diameter; }
 
 static void sphere_orientation(const spheres *s, size_t i, double wxyz[4])
 {

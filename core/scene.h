@@ -18,7 +18,7 @@ struct dem_scene {
     filling filling;
     dem_phase phase;
     int64_t step_count, phase_start, rotation_start; /* rotation_start: -1 before */
-    double maximum_overlap; /* m since rotation began */
+    double maximum_overlap;                          /* m since rotation began */
     dem_failure failure;
 };
 

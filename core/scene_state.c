@@ -5,7 +5,14 @@
 
 enum { STATE_INTEGERS = 4, STATE_NUMBERS = 1, HISTORY_NUMBERS = 5 };
 /* What a cluster's spheres don't tell of it. */
-enum { CLUSTER_PLACE = 0, CLUSTER_VELOCITY = 3, CLUSTER_SPIN = 6, CLUSTER_SPIN_CHANGE = 9, CLUSTER_ORIENTATION = 12, CLUSTER_NUMBERS = 16 };
+enum {
+    CLUSTER_PLACE = 0,
+    CLUSTER_VELOCITY = 3,
+    CLUSTER_SPIN = 6,
+    CLUSTER_SPIN_CHANGE = 9,
+    CLUSTER_ORIENTATION = 12,
+    CLUSTER_NUMBERS = 16
+};
 
 static void *state_add(dem_state *state, const char *name, dem_element element, size_t rows, size_t columns)
 {
@@ -83,10 +90,10 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     memset(state, 0, sizeof *state);
     int64_t *integers = state_add(state, "counters", DEM_INT64, 1, STATE_INTEGERS);
     double *numbers = state_add(state, "numbers", DEM_FLOAT64, 1, STATE_NUMBERS);
-    double *position = state_add(state, "position", DEM_FLOAT64, n, 3), *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
+    double *position = state_add(state, "position", DEM_FLOAT64, n, 3),
+           *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
     if (!integers || !numbers || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
-        || !save_vectors(state, "angular_velocity", s->angular_velocity, n)
-        || !save_clusters(state, &s->clusters)
+        || !save_vectors(state, "angular_velocity", s->angular_velocity, n) || !save_clusters(state, &s->clusters)
         || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
         || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
         dem_state_clear(state);
@@ -133,14 +140,16 @@ static void restore_contacts(const dem_state *state, contact_list *list, size_t 
     for (size_t k = 0; k < id->rows; k++, pair += 2, h += HISTORY_NUMBERS) {
         list->first[k] = pair[0];
         list->second[k] = pair[1];
-        contact_list_set_history(list, k, &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] },
-                                                              .t_star = (real)h[3], .alpha_0 = (real)h[4] });
+        contact_list_set_history(
+            list, k,
+            &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] }, .t_star = (real)h[3], .alpha_0 = (real)h[4] });
         list->start[pair[0] + 1]++;
     }
     for (size_t i = 0; i < n; i++) list->start[i + 1] += list->start[i];
 }
 
-static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin, const double *fallen)
+static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin,
+                            const double *fallen)
 {
     spheres *s = &scene->spheres;
     const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
@@ -185,7 +194,8 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     }
     const size_t bodies = scene->spheres.clusters.count;
     const dem_state_array *of_clusters = state_find(state, "cluster", DEM_FLOAT64, CLUSTER_NUMBERS);
-    if (!integers || !numbers || (bodies > 0 && !of_clusters) || (of_clusters && of_clusters->rows != bodies)) return DEM_STATE_MISMATCH;
+    if (!integers || !numbers || (bodies > 0 && !of_clusters) || (of_clusters && of_clusters->rows != bodies))
+        return DEM_STATE_MISMATCH;
     const int64_t *counter = integers->data;
     if (counter[0] < DEM_PHASE_GROWING || counter[0] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
 

@@ -83,7 +83,7 @@ double spheres_kinetic_energy(const spheres *s)
     for (size_t i = 0; i < s->single_count; i++) {
         const vector4 v = s->velocity[i], w = s->angular_velocity[i];
         energy += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / s->inverse_mass[i]
-                + 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) / s->inverse_inertia[i];
+                  + 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) / s->inverse_inertia[i];
     }
     return energy;
 }

@@ -8,11 +8,11 @@
 
 /* What a contact reads of a sphere: one cache line in single precision. wide.h reads rows by this order. */
 typedef struct sphere_row {
-    double x[3];      /* m */
-    real radius;      /* m, now (smaller while growing) */
-    real v[3];        /* m/s, half a step behind x */
-    real r_omega[3];  /* m/s: radius times spin */
-    real omega[3];    /* rad/s, half a step behind x */
+    double x[3];     /* m */
+    real radius;     /* m, now (smaller while growing) */
+    real v[3];       /* m/s, half a step behind x */
+    real r_omega[3]; /* m/s: radius times spin */
+    real omega[3];   /* rad/s, half a step behind x */
 } __attribute__((aligned(64))) sphere_row;
 
 /* Place, velocity and spin of a step, in four stores; the radius stays. */
@@ -21,30 +21,30 @@ static inline void sphere_row_store(sphere_row *row, vector4 x, vector4 v, vecto
     const half_row w = half_row_of(omega);
     half_row front, middle;
     half_row_weave(row->radius, half_row_of(v), row->radius * w, w, &front, &middle);
-    memcpy(row->x, &x, sizeof x);                       /* runs over the radius, which the next store mends */
-    memcpy(&row->radius, &front, sizeof front);         /* radius, v */
-    memcpy(&row->r_omega, &middle, sizeof middle);      /* R omega, first of omega */
+    memcpy(row->x, &x, sizeof x);                  /* runs over the radius, which the next store mends */
+    memcpy(&row->radius, &front, sizeof front);    /* radius, v */
+    memcpy(&row->r_omega, &middle, sizeof middle); /* R omega, first of omega */
     row->omega[1] = w[1];
     row->omega[2] = w[2];
 }
 
 typedef struct spheres {
     size_t mobile_count, lining_count;
-    size_t single_count;       /* of the mobile: particles by themselves */
-    clusters clusters;         /* the bodies that the other mobile spheres make up */
-    sphere_row *row;           /* (mobile + lining + 2) */
-    int32_t *species;          /* (mobile) */
-    double *full_radius;       /* (mobile + lining) m, rounded to real */
-    vector4 *velocity;         /* (mobile) m/s at the half step */
-    vector4 *angular_velocity; /* (mobile) rad/s at the half step */
-    row8 *load;                /* (mobile) force N, 0, torque N m about the centre, 0: contacts only */
-    double *inverse_mass;      /* (mobile) 1/kg, of the particle that the sphere is or is a part of */
-    double *inverse_inertia;   /* (single) 1/(kg m2) */
-    double *fallen_time;       /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
-    vector4 *lining_place;     /* (lining) m, when the drum has not turned */
+    size_t single_count;                        /* of the mobile: particles by themselves */
+    clusters clusters;                          /* the bodies that the other mobile spheres make up */
+    sphere_row *row;                            /* (mobile + lining + 2) */
+    int32_t *species;                           /* (mobile) */
+    double *full_radius;                        /* (mobile + lining) m, rounded to real */
+    vector4 *velocity;                          /* (mobile) m/s at the half step */
+    vector4 *angular_velocity;                  /* (mobile) rad/s at the half step */
+    row8 *load;                                 /* (mobile) force N, 0, torque N m about the centre, 0: contacts only */
+    double *inverse_mass;                       /* (mobile) 1/kg, of the particle that the sphere is or is a part of */
+    double *inverse_inertia;                    /* (single) 1/(kg m2) */
+    double *fallen_time;                        /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
+    vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */
-    double largest_reach;      /* m: radius of the smallest sphere that can hold any of the particles */
-    double scale;              /* share of full size that the mobile spheres have now */
+    double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */
+    double scale;                               /* share of full size that the mobile spheres have now */
 } spheres;
 
 dem_status spheres_init(spheres *spheres, const dem_drum_definition *definition, size_t lining_count);

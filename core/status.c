@@ -25,7 +25,7 @@ const char *dem_phase_name(dem_phase phase)
 
 const char *dem_regime_name(dem_regime regime)
 {
-    static const char *const name[] = { "slipping",    "slumping", "avalanching", "rolling", "cascading",
+    static const char *const name[] = { "slipping",    "slumping", "avalanching", "rolling",     "cascading",
                                         "cataracting", "raining",  "sliding",     "centrifuging" };
     return name[regime];
 }

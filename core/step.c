@@ -100,8 +100,8 @@ dem_status scene_step(dem_scene *scene)
     status = step_contacts(scene);
     if (status != DEM_OK) return status;
     const body_forces body = forces_of_phase(scene);
-    const double deviation = integrator_advance(&scene->spheres, &scene->drum, &body, scene->neighbors.picked_velocity,
-                                                dt, scene->definition.threads);
+    const double deviation =
+        integrator_advance(&scene->spheres, &scene->drum, &body, scene->neighbors.picked_velocity, dt, scene->definition.threads);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);
     scene->step_count++;
     turn_container(scene);

@@ -20,7 +20,7 @@
 enum { LANES = 64 / sizeof(real), HALVES = LANES / 8 };
 
 typedef real wide __attribute__((vector_size(64)));
-typedef double wide_double __attribute__((vector_size(64))); /* 8 lanes; HALVES of them beside one wide */
+typedef double wide_double __attribute__((vector_size(64)));      /* 8 lanes; HALVES of them beside one wide */
 typedef real row8 __attribute__((vector_size(8 * sizeof(real)))); /* force, 0, torque, 0 of one body */
 
 typedef real half_row __attribute__((vector_size(4 * sizeof(real))));
@@ -96,8 +96,8 @@ WIDE_INLINE __m512d two_places(const char *rows, size_t row_size, int32_t low, i
     return _mm512_insertf64x4(x, _mm256_loadu_pd((const double *)(rows + row_size * (size_t)high)), 1);
 }
 
-WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const int32_t *a, const int32_t *b,
-                                        wide_double *x, wide_double *y, wide_double *z)
+WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, wide_double *x,
+                                        wide_double *y, wide_double *z)
 {
     const __m512i lower = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), upper = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
     __m512d d[4];
@@ -113,16 +113,18 @@ WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const
 /* 4 x 4 numbers within each quarter of a vector: to[c] has in quarter L what from[0..3] have at 4 L + c. */
 WIDE_INLINE void transpose_quarters(const __m512 from[4], __m512 to[4])
 {
-    const __m512d low_01 = _mm512_castps_pd(_mm512_unpacklo_ps(from[0], from[1])), high_01 = _mm512_castps_pd(_mm512_unpackhi_ps(from[0], from[1]));
-    const __m512d low_23 = _mm512_castps_pd(_mm512_unpacklo_ps(from[2], from[3])), high_23 = _mm512_castps_pd(_mm512_unpackhi_ps(from[2], from[3]));
+    const __m512d low_01 = _mm512_castps_pd(_mm512_unpacklo_ps(from[0], from[1])),
+                  high_01 = _mm512_castps_pd(_mm512_unpackhi_ps(from[0], from[1]));
+    const __m512d low_23 = _mm512_castps_pd(_mm512_unpacklo_ps(from[2], from[3])),
+                  high_23 = _mm512_castps_pd(_mm512_unpackhi_ps(from[2], from[3]));
     to[0] = _mm512_castpd_ps(_mm512_unpacklo_pd(low_01, low_23));
     to[1] = _mm512_castpd_ps(_mm512_unpackhi_pd(low_01, low_23));
     to[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(high_01, high_23));
     to[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high_01, high_23));
 }
 
-WIDE_INLINE void wide_row_sums(const void *rows, size_t row_size, const int32_t *a, const int32_t *b,
-                               const float sign[16], wide sum[ROW_NUMBERS])
+WIDE_INLINE void wide_row_sums(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, const float sign[16],
+                               wide sum[ROW_NUMBERS])
 {
     enum { PLACE = 6 }; /* numbers that the place takes in front */
     const __mmask16 behind_place = (__mmask16)(0xffff & (0xffff << PLACE));
@@ -187,7 +189,9 @@ WIDE_INLINE void wide_store_ends(real *rows, const wide f[3], const wide torque_
 
 #else
 
-typedef struct { uint8_t lane[LANES]; } wide_mask;
+typedef struct {
+    uint8_t lane[LANES];
+} wide_mask;
 
 WIDE_INLINE wide wide_fused(wide a, wide b, wide c)
 {
@@ -278,8 +282,8 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
 }
 
 /* b less a of 8 pairs of rows that begin with three doubles. */
-WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const int32_t *a, const int32_t *b,
-                                        wide_double *x, wide_double *y, wide_double *z)
+WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, wide_double *x,
+                                        wide_double *y, wide_double *z)
 {
     for (int k = 0; k < 8; k++) {
         const double *place_a = (const double *)((const char *)rows + row_size * (size_t)a[k]);
@@ -291,8 +295,8 @@ WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const
 }
 
 /* sum[c] = b's number c plus a's, or less a's where sign[...] is negative, for LANES pairs of rows. */
-WIDE_INLINE void wide_row_sums(const void *rows, size_t row_size, const int32_t *a, const int32_t *b,
-                               const float sign[16], wide sum[ROW_NUMBERS])
+WIDE_INLINE void wide_row_sums(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, const float sign[16],
+                               wide sum[ROW_NUMBERS])
 {
     for (int k = 0; k < LANES; k++) {
         const real *row_a = (const real *)((const char *)rows + row_size * (size_t)a[k] + 3 * sizeof(double));
@@ -322,7 +326,10 @@ WIDE_INLINE void wide_store_ends(real *rows, const wide f[3], const wide torque_
 WIDE_INLINE vector4 vector4_low(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row)); }
 WIDE_INLINE vector4 vector4_high(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row + 4)); }
 WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row)_mm256_cvtpd_ps((__m256d)x); }
-WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4)_mm256_round_pd((__m256d)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
+WIDE_INLINE vector4 vector4_rint(vector4 x)
+{
+    return (vector4)_mm256_round_pd((__m256d)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
+}
 /* What follows a place in a row is no double: read as one it may be denormal, and slow. */
 WIDE_INLINE vector4 vector4_place(const double *x) { return (vector4)_mm256_blend_pd(_mm256_loadu_pd(x), _mm256_setzero_pd(), 8); }
 /* radius, v0, v1, v2 and a0, a1, a2, b0. */

@@ -22,14 +22,14 @@ dem_status dem_scene_advance(dem_scene *scene, int64_t steps);
 const dem_failure *dem_scene_failure(const dem_scene *scene);
 
 dem_phase dem_scene_phase(const dem_scene *scene);
-int64_t dem_scene_step_count(const dem_scene *scene);      /* since creation */
-int64_t dem_scene_rotation_start(const dem_scene *scene);  /* step at which rotation began; -1 before */
-double dem_scene_time(const dem_scene *scene);             /* s since rotation began; negative before: less the time since creation */
-size_t dem_scene_particle_count(const dem_scene *scene);   /* mobile particles, each sphere or cluster one; without the lining */
-size_t dem_scene_sphere_count(const dem_scene *scene);     /* spheres that these are made of */
+int64_t dem_scene_step_count(const dem_scene *scene);     /* since creation */
+int64_t dem_scene_rotation_start(const dem_scene *scene); /* step at which rotation began; -1 before */
+double dem_scene_time(const dem_scene *scene);           /* s since rotation began; negative before: less the time since creation */
+size_t dem_scene_particle_count(const dem_scene *scene); /* mobile particles, each sphere or cluster one; without the lining */
+size_t dem_scene_sphere_count(const dem_scene *scene);   /* spheres that these are made of */
 bool dem_scene_has_clusters(const dem_scene *scene);
-double dem_scene_maximum_overlap(const dem_scene *scene);  /* since rotation began, as a share of the smallest diameter */
-double dem_scene_kinetic_energy(const dem_scene *scene);   /* J, translation and rotation */
+double dem_scene_maximum_overlap(const dem_scene *scene); /* since rotation began, as a share of the smallest diameter */
+double dem_scene_kinetic_energy(const dem_scene *scene);  /* J, translation and rotation */
 
 /* Fill the arrays that are not NULL; each has dem_scene_sphere_count rows. */
 void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arrays);
@@ -51,12 +51,11 @@ dem_status dem_frame_measure(dem_scene *scene, double *frame);
 
 /* frames: (count, dem_frame_width) in order of time. NaN where something could not be measured.
  * Errors: DEM_TOO_FEW_FRAMES (fewer than 8), DEM_NO_MEMORY. */
-dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count,
-                                    dem_drum_results *results);
+dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results);
 
 const char *dem_status_text(dem_status status);
-const char *dem_phase_name(dem_phase phase);         /* "growing", "settling", "rotating" */
-const char *dem_regime_name(dem_regime regime);      /* "slipping", ... */
+const char *dem_phase_name(dem_phase phase);                /* "growing", "settling", "rotating" */
+const char *dem_regime_name(dem_regime regime);             /* "slipping", ... */
 const char *dem_angle_method_name(dem_angle_method method); /* "surface-fit", "center-of-mass", ... */
 
 #endif

@@ -14,8 +14,8 @@ typedef enum dem_shape { DEM_SPHERE, DEM_DUMBBELL, DEM_TETRAHEDRON, DEM_CUBE, DE
 static inline void dem_cluster_of_shape(dem_cluster *cluster, dem_shape shape, double diameter)
 {
     static const int sphere_count[DEM_NAMED_SHAPES] = { 0, 2, 4, 8 };
-    static const double corner[8][3] = { { 1, 1, 1 }, { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 },
-                                         { -1, -1, -1 }, { -1, 1, 1 }, { 1, -1, 1 }, { 1, 1, -1 } };
+    static const double corner[8][3] = { { 1, 1, 1 },    { 1, -1, -1 }, { -1, 1, -1 }, { -1, -1, 1 },
+                                         { -1, -1, -1 }, { -1, 1, 1 },  { 1, -1, 1 },  { 1, 1, -1 } };
     /* Every second corner of a cube makes a tetrahedron, whose edges are the diagonals of the cube's faces. */
     const double a = shape == DEM_TETRAHEDRON ? 0.5 * diameter / sqrt(2.0) : 0.5 * diameter;
     *cluster = (dem_cluster){ .sphere_count = (size_t)sphere_count[shape] };
@@ -134,7 +134,9 @@ static inline dem_moments dem_cluster_excess(const dem_cluster *cluster)
             high[c] = fmax(high[c], s->position[c] + 0.5 * s->diameter);
         }
         for (size_t j = 0; j < i; j++)
-            overlap = overlap || dem_cluster_distance(s, &cluster->sphere[j]) < 0.5 * (1 - 1e-9) * (s->diameter + cluster->sphere[j].diameter);
+            overlap =
+                overlap
+                || dem_cluster_distance(s, &cluster->sphere[j]) < 0.5 * (1 - 1e-9) * (s->diameter + cluster->sphere[j].diameter);
     }
     dem_moments excess = { 0 };
     const double step = fmax(high[0] - low[0], high[1] - low[1]) / DEM_CLUSTER_COLUMNS;
@@ -188,8 +190,8 @@ static inline void dem_principal_axes(double m[3][3], double axes[3][3])
 static inline void dem_cluster_turn(dem_cluster *cluster, const double centre[3], double axes[3][3])
 {
     const double handed = axes[0][0] * (axes[1][1] * axes[2][2] - axes[2][1] * axes[1][2])
-                        - axes[0][1] * (axes[1][0] * axes[2][2] - axes[2][0] * axes[1][2])
-                        + axes[0][2] * (axes[1][0] * axes[2][1] - axes[2][0] * axes[1][1]);
+                          - axes[0][1] * (axes[1][0] * axes[2][2] - axes[2][0] * axes[1][2])
+                          + axes[0][2] * (axes[1][0] * axes[2][1] - axes[2][0] * axes[1][1]);
     for (int k = 0; k < 3 && handed < 0; k++) axes[k][2] = -axes[k][2];
     cluster->reach = 0.0;
     for (size_t i = 0; i < cluster->sphere_count; i++) {

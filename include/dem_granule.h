@@ -20,9 +20,9 @@ typedef struct dem_granule_definition {
 /* What becomes of a particle that starts at the bottom, turning with the wall. */
 typedef struct dem_granule_motion {
     double omega2;
-    dem_regime regime;          /* DEM_CENTRIFUGING (never slips), DEM_SLIDING (slips, goes round), DEM_RAINING (falls
+    dem_regime regime;  /* DEM_CENTRIFUGING (never slips), DEM_SLIDING (slips, goes round), DEM_RAINING (falls
                                  * off the wall), DEM_SLIPPING (slides back before the horizontal, never goes round) */
-    bool keeps_contact;         /* N >= 0 at all times */
+    bool keeps_contact; /* N >= 0 at all times */
     bool goes_round;
     int revolutions;            /* completed; fewer than asked for where the motion repeats itself or ends */
     double slip_per_revolution; /* rad by which the drum gets ahead, in the last one completed; NaN: none was */
@@ -40,7 +40,7 @@ typedef struct dem_granule_result {
      * fit/minimum_omega2 - 1. */
     double stationary_eq33, sliding_eq34, sliding_eq36;
     double stationary_deviation_eq33, sliding_deviation_eq34, sliding_deviation_eq36;
-    bool has_motion; /* a rotation rate was given */
+    bool has_motion;           /* a rotation rate was given */
     dem_granule_motion motion; /* at that rate; else its numbers are NaN */
 } dem_granule_result;
 

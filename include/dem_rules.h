@@ -81,18 +81,17 @@ static inline double dem_mean_volume(const dem_species *species, size_t count)
 }
 
 /* How many particles fill `fill_fraction` of a drum's cross-section. */
-static inline double dem_particles_of_fill(double diameter, double length, double fill_fraction,
-                                           const dem_species *species, size_t count)
+static inline double dem_particles_of_fill(double diameter, double length, double fill_fraction, const dem_species *species,
+                                           size_t count)
 {
     const double bed = DEM_PI / 4.0 * diameter * diameter * length * fill_fraction;
     return floor(bed * DEM_BED_SOLID_FRACTION / dem_mean_volume(species, count) + 0.5);
 }
 
-static inline double dem_fill_of_particles(double diameter, double length, double particles,
-                                           const dem_species *species, size_t count)
+static inline double dem_fill_of_particles(double diameter, double length, double particles, const dem_species *species,
+                                           size_t count)
 {
-    return particles * dem_mean_volume(species, count)
-         / (DEM_BED_SOLID_FRACTION * DEM_PI / 4.0 * diameter * diameter * length);
+    return particles * dem_mean_volume(species, count) / (DEM_BED_SOLID_FRACTION * DEM_PI / 4.0 * diameter * diameter * length);
 }
 
 /* Largest speed, m/s, at which one of many particles meets the wall or a bed that backs another in a drum: falling
@@ -149,9 +148,6 @@ static inline double dem_settling_time_estimate(double drum_diameter, double gra
 }
 
 /* Resident memory of a run, bytes. */
-static inline double dem_memory_estimate(double particles)
-{
-    return 20e6 + 1500.0 * particles;
-}
+static inline double dem_memory_estimate(double particles) { return 20e6 + 1500.0 * particles; }
 
 #endif

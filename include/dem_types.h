@@ -15,14 +15,14 @@ enum { DEM_MAXIMUM_SPECIES = 16, DEM_MAXIMUM_CLUSTER = 64 };
 typedef enum dem_status {
     DEM_OK = 0,
     DEM_NO_MEMORY,
-    DEM_BAD_PARAMETER,       /* a definition breaks a rule that include/dem_rules.h states */
-    DEM_DOES_NOT_FIT,        /* the particles asked for can't be placed in the container */
-    DEM_NOT_A_NUMBER,        /* a position or velocity is no longer finite */
-    DEM_OVERLAP_TOO_LARGE,   /* an overlap beyond half of the smaller radius */
-    DEM_PARTICLE_ESCAPED,    /* a particle's centre is outside the container */
-    DEM_NEVER_SETTLED,       /* the bed did not come to rest before rotation */
-    DEM_TOO_FEW_FRAMES,      /* not enough frames for the measure asked for */
-    DEM_STATE_MISMATCH       /* a saved state does not belong to this definition */
+    DEM_BAD_PARAMETER,     /* a definition breaks a rule that include/dem_rules.h states */
+    DEM_DOES_NOT_FIT,      /* the particles asked for can't be placed in the container */
+    DEM_NOT_A_NUMBER,      /* a position or velocity is no longer finite */
+    DEM_OVERLAP_TOO_LARGE, /* an overlap beyond half of the smaller radius */
+    DEM_PARTICLE_ESCAPED,  /* a particle's centre is outside the container */
+    DEM_NEVER_SETTLED,     /* the bed did not come to rest before rotation */
+    DEM_TOO_FEW_FRAMES,    /* not enough frames for the measure asked for */
+    DEM_STATE_MISMATCH     /* a saved state does not belong to this definition */
 } dem_status;
 
 typedef struct dem_cluster_sphere {
@@ -42,9 +42,9 @@ typedef struct dem_cluster {
 } dem_cluster;
 
 typedef struct dem_species {
-    double diameter;     /* m; of a cluster: of its largest sphere, for whoever wants one number; the core has no use for it */
-    double density;      /* kg/m3 */
-    double share;        /* of the particles by number; shares of all species sum to 1 */
+    double diameter; /* m; of a cluster: of its largest sphere, for whoever wants one number; the core has no use for it */
+    double density;  /* kg/m3 */
+    double share;    /* of the particles by number; shares of all species sum to 1 */
     dem_cluster cluster;
 } dem_species;
 
@@ -102,12 +102,12 @@ typedef enum dem_phase {
 typedef struct dem_failure {
     dem_status status;
     int64_t step;
-    double time;           /* s since rotation began; negative before */
-    int64_t particle;      /* id, -1: none in particular */
-    int64_t other;         /* id of the other particle, -1: the wall or none */
-    double position[3];    /* m, of the sphere in question */
-    double value, limit;   /* what was seen and what is allowed, in the unit below */
-    const char *quantity;  /* "overlap", "distance from the axis", "velocity", ... */
+    double time;          /* s since rotation began; negative before */
+    int64_t particle;     /* id, -1: none in particular */
+    int64_t other;        /* id of the other particle, -1: the wall or none */
+    double position[3];   /* m, of the sphere in question */
+    double value, limit;  /* what was seen and what is allowed, in the unit below */
+    const char *quantity; /* "overlap", "distance from the axis", "velocity", ... */
     const char *unit;
     const char *likely_cause;
 } dem_failure;
@@ -145,8 +145,15 @@ typedef struct dem_state {
 } dem_state;
 
 typedef enum dem_regime {
-    DEM_SLIPPING, DEM_SLUMPING, DEM_AVALANCHING, DEM_ROLLING, DEM_CASCADING, DEM_CATARACTING,
-    DEM_RAINING, DEM_SLIDING, DEM_CENTRIFUGING
+    DEM_SLIPPING,
+    DEM_SLUMPING,
+    DEM_AVALANCHING,
+    DEM_ROLLING,
+    DEM_CASCADING,
+    DEM_CATARACTING,
+    DEM_RAINING,
+    DEM_SLIDING,
+    DEM_CENTRIFUGING
 } dem_regime;
 
 /* An angle with the uncertainty of its mean over the measuring window. NaN where it could not be measured. */
@@ -168,7 +175,7 @@ typedef struct dem_repose_result {
     dem_angle angle[DEM_ANGLE_METHODS];
     bool steady;
     double drift_deg_per_revolution;
-    double interface_fluctuation; /* m: mean over x of the standard deviation in time of the interface height */
+    double interface_fluctuation;    /* m: mean over x of the standard deviation in time of the interface height */
     double window_start, window_end; /* s since rotation began */
     double correlation_time;         /* s, of the surface-fit angle */
     size_t frames;                   /* in the window */
@@ -176,21 +183,21 @@ typedef struct dem_repose_result {
 
 typedef struct dem_regime_result {
     dem_regime regime;
-    double omega2_outer, omega2_inner;  /* omega^2 R/g at the wall and at the bed's inner surface */
+    double omega2_outer, omega2_inner; /* omega^2 R/g at the wall and at the bed's inner surface */
     /* predicted boundaries of Omega_i^2 for the measured angle of repose */
-    double predicted_stationary;        /* Eq 33: 1/sin(phi) */
-    double predicted_sliding_eq35;      /* Eq 35 */
-    double predicted_sliding_eq36;      /* Eqns 36-37 */
+    double predicted_stationary;   /* Eq 33: 1/sin(phi) */
+    double predicted_sliding_eq35; /* Eq 35 */
+    double predicted_sliding_eq36; /* Eqns 36-37 */
     /* evidence */
-    double wall_slip;                   /* 1 - spin of the outermost layer / spin of the drum, mean */
-    double wall_slip_fluctuation;       /* its standard deviation in time */
-    double angle_fluctuation_deg;       /* standard deviation in time of the centre of mass's direction */
-    double flow_fluctuation;            /* standard deviation over mean of the surface flow's speed */
-    double airborne_fraction;           /* share of particles in flight: no contact, 3 d above the surface; mean */
-    double wall_coverage;               /* share of the wall's circumference that has particles against it */
-    double curvature_deg;               /* upper less lower half of the chord */
-    double fallen_fraction;             /* share of particles lately nearer the axis than R_i - 2d */
-    double surface_lag;                 /* rad a revolution by which the inner surface lags the drum */
+    double wall_slip;             /* 1 - spin of the outermost layer / spin of the drum, mean */
+    double wall_slip_fluctuation; /* its standard deviation in time */
+    double angle_fluctuation_deg; /* standard deviation in time of the centre of mass's direction */
+    double flow_fluctuation;      /* standard deviation over mean of the surface flow's speed */
+    double airborne_fraction;     /* share of particles in flight: no contact, 3 d above the surface; mean */
+    double wall_coverage;         /* share of the wall's circumference that has particles against it */
+    double curvature_deg;         /* upper less lower half of the chord */
+    double fallen_fraction;       /* share of particles lately nearer the axis than R_i - 2d */
+    double surface_lag;           /* rad a revolution by which the inner surface lags the drum */
 } dem_regime_result;
 
 typedef struct dem_segregation_result {

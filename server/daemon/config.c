@@ -11,24 +11,23 @@
 #include "dispatcher.h"
 #include "service.h"
 
-static const char usage[] =
-    "reposed: virtual rotary-drum tests over HTTP\n"
-    "\n"
-    "  reposed serve [options]     run the service until SIGTERM, SIGINT or SIGHUP\n"
-    "  reposed --help | --version\n"
-    "\n"
-    "  --host ADDRESS       where to listen (127.0.0.1); beyond loopback needs --token-file\n"
-    "  --port NUMBER        0 to 65535 (8080); 0 takes any free port and prints it\n"
-    "  --data DIR           database and job folders, made when missing (./data)\n"
-    "  --workers N          jobs at once, 1 to 256 (one for each core)\n"
-    "  --threads N          threads of a job that does not ask, 1 to 256 (1)\n"
-    "  --queue-limit N      jobs that may wait, 1 to 1000000 (10000); a study that makes more is refused\n"
-    "  --token-file FILE    clients must send \"Authorization: Bearer\" with its text; mode 0600\n"
-    "  --allow-host NAME    accept this name in the Host header; may be given 8 times\n"
-    "  --port-file FILE     write the port there once it is open\n"
-    "  --worker PATH        the worker program (repose, beside this one)\n"
-    "  --web DIR            the page (../web from this program)\n"
-    "  --api-file FILE      the OpenAPI document (../api/openapi.yaml from this program)\n";
+static const char usage[] = "reposed: virtual rotary-drum tests over HTTP\n"
+                            "\n"
+                            "  reposed serve [options]     run the service until SIGTERM, SIGINT or SIGHUP\n"
+                            "  reposed --help | --version\n"
+                            "\n"
+                            "  --host ADDRESS       where to listen (127.0.0.1); beyond loopback needs --token-file\n"
+                            "  --port NUMBER        0 to 65535 (8080); 0 takes any free port and prints it\n"
+                            "  --data DIR           database and job folders, made when missing (./data)\n"
+                            "  --workers N          jobs at once, 1 to 256 (one for each core)\n"
+                            "  --threads N          threads of a job that does not ask, 1 to 256 (1)\n"
+                            "  --queue-limit N      jobs that may wait, 1 to 1000000 (10000); a study that makes more is refused\n"
+                            "  --token-file FILE    clients must send \"Authorization: Bearer\" with its text; mode 0600\n"
+                            "  --allow-host NAME    accept this name in the Host header; may be given 8 times\n"
+                            "  --port-file FILE     write the port there once it is open\n"
+                            "  --worker PATH        the worker program (repose, beside this one)\n"
+                            "  --web DIR            the page (../web from this program)\n"
+                            "  --api-file FILE      the OpenAPI document (../api/openapi.yaml from this program)\n";
 
 static bool beside_program(char path[4096], const char *relative)
 {
@@ -54,10 +53,7 @@ static bool read_number(const char *name, const char *text, int low, int high, i
     return false;
 }
 
-static void copy_path(char path[4096], const char *text)
-{
-    snprintf(path, 4096, "%s", text);
-}
+static void copy_path(char path[4096], const char *text) { snprintf(path, 4096, "%s", text); }
 
 static bool take_option(config *settings, const char *name, const char *value)
 {
@@ -85,10 +81,10 @@ static bool take_option(config *settings, const char *name, const char *value)
 static enum config_outcome read_options(config *settings, int argc, char **argv)
 {
     static const struct option options[] = {
-        {"host", 1, NULL, 0}, {"port", 1, NULL, 0}, {"data", 1, NULL, 0}, {"workers", 1, NULL, 0}, {"threads", 1, NULL, 0},
-        {"queue-limit", 1, NULL, 0},
-        {"token-file", 1, NULL, 0}, {"allow-host", 1, NULL, 0}, {"port-file", 1, NULL, 0}, {"worker", 1, NULL, 0},
-        {"web", 1, NULL, 0}, {"api-file", 1, NULL, 0}, {"help", 0, NULL, 'h'}, {NULL, 0, NULL, 0},
+        { "host", 1, NULL, 0 },      { "port", 1, NULL, 0 },        { "data", 1, NULL, 0 },       { "workers", 1, NULL, 0 },
+        { "threads", 1, NULL, 0 },   { "queue-limit", 1, NULL, 0 }, { "token-file", 1, NULL, 0 }, { "allow-host", 1, NULL, 0 },
+        { "port-file", 1, NULL, 0 }, { "worker", 1, NULL, 0 },      { "web", 1, NULL, 0 },        { "api-file", 1, NULL, 0 },
+        { "help", 0, NULL, 'h' },    { NULL, 0, NULL, 0 },
     };
     int which = 0;
     for (int code; (code = getopt_long(argc, argv, "h", options, &which)) != -1;) {
@@ -109,7 +105,8 @@ static bool check(config *settings)
 {
     char found[PATH_MAX];
     if (access(settings->worker, X_OK) != 0 || !realpath(settings->worker, found)) {
-        fprintf(stderr, "reposed: the worker program %s can't be started: %s (--worker names another)\n", settings->worker, strerror(errno));
+        fprintf(stderr, "reposed: the worker program %s can't be started: %s (--worker names another)\n", settings->worker,
+                strerror(errno));
         return false;
     }
     copy_path(settings->worker, found);
@@ -119,8 +116,14 @@ static bool check(config *settings)
 enum config_outcome config_read(config *settings, int argc, char **argv)
 {
     const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    *settings = (config){.host = "127.0.0.1", .data = "data", .port = 8080, .threads = 1, .queue_limit = 10000,
-                         .workers = cores < 1 ? 1 : cores > DISPATCHER_MOST_WORKERS ? DISPATCHER_MOST_WORKERS : (int)cores};
+    *settings = (config){ .host = "127.0.0.1",
+                          .data = "data",
+                          .port = 8080,
+                          .threads = 1,
+                          .queue_limit = 10000,
+                          .workers = cores < 1                         ? 1
+                                     : cores > DISPATCHER_MOST_WORKERS ? DISPATCHER_MOST_WORKERS
+                                                                       : (int)cores };
     const char *command = argc > 1 ? argv[1] : "";
     if (strcmp(command, "--version") == 0) {
         puts("reposed " REPOSED_VERSION);
@@ -135,7 +138,8 @@ enum config_outcome config_read(config *settings, int argc, char **argv)
         return CONFIG_WRONG;
     }
     if (!beside_program(settings->worker, "repose") || !beside_program(settings->web, "../web")
-        || !beside_program(settings->api_file, "../api/openapi.yaml")) return CONFIG_WRONG;
+        || !beside_program(settings->api_file, "../api/openapi.yaml"))
+        return CONFIG_WRONG;
     argv[1] = argv[0]; /* in the place of "serve": getopt begins its complaints with it */
     const enum config_outcome outcome = read_options(settings, argc - 1, argv + 1);
     return outcome == CONFIG_SERVE && !check(settings) ? CONFIG_WRONG : outcome;

@@ -13,16 +13,13 @@ void connection_watch_init(connection_watch *watch)
     pthread_mutex_init(&watch->lock, NULL);
 }
 
-void connection_watch_clear(connection_watch *watch)
-{
-    pthread_mutex_destroy(&watch->lock);
-}
+void connection_watch_clear(connection_watch *watch) { pthread_mutex_destroy(&watch->lock); }
 
 watched_connection *connection_watch_add(connection_watch *watch, int socket)
 {
     watched_connection *connection = malloc(sizeof *connection);
     if (!connection) return NULL;
-    *connection = (watched_connection){.socket = socket, .reading_since = monotonic_seconds()};
+    *connection = (watched_connection){ .socket = socket, .reading_since = monotonic_seconds() };
     pthread_mutex_lock(&watch->lock);
     connection->next = watch->first;
     if (watch->first) watch->first->previous = connection;

@@ -53,7 +53,7 @@ static bool take_lock(data_folder *data, const char *path)
 
 bool data_folder_open(data_folder *data, const char *path)
 {
-    *data = (data_folder){.jobs = -1, .lock = -1};
+    *data = (data_folder){ .jobs = -1, .lock = -1 };
     char jobs[4096], resolved[4096];
     snprintf(jobs, sizeof jobs, "%s/jobs", path);
     if ((mkdir(path, 0700) != 0 && errno != EEXIST) || (mkdir(jobs, 0700) != 0 && errno != EEXIST) || !realpath(path, resolved)
@@ -102,8 +102,8 @@ bool job_folder_create(const data_folder *data, const char *id, const char *spec
     if (mkdirat(data->jobs, id, 0700) != 0 && errno != EEXIST) return false;
     const int folder = job_folder_open(data, id);
     if (folder < 0) return false;
-    const bool good = faccessat(folder, JOB_SPEC_FILE, R_OK, 0) == 0
-                   || (write_durably(folder, JOB_SPEC_FILE, spec) && fsync(data->jobs) == 0);
+    const bool good =
+        faccessat(folder, JOB_SPEC_FILE, R_OK, 0) == 0 || (write_durably(folder, JOB_SPEC_FILE, spec) && fsync(data->jobs) == 0);
     const int reason = errno;
     close(folder);
     errno = reason;

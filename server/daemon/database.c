@@ -82,7 +82,8 @@ static bool migrate(sqlite3 *database, const char *path)
     const int version = read_pragma(database, "PRAGMA user_version");
     const int application = read_pragma(database, "PRAGMA application_id");
     if (version < 0 || version > schema_version || (application != SCHEMA_APPLICATION_ID && (application != 0 || version != 0))) {
-        log_line("%s is of schema version %d, application %d; this program knows versions 0 to %d", path, version, application, schema_version);
+        log_line("%s is of schema version %d, application %d; this program knows versions 0 to %d", path, version, application,
+                 schema_version);
         return false;
     }
     for (int next = version; next < schema_version; next++) {

@@ -35,7 +35,8 @@ void dispatcher_end_signals(sigset_t *ends)
 
 bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job)
 {
-    *dispatcher = (job_dispatcher){.store = store, .executor = executor, .workers = workers, .threads = workers * threads_per_job};
+    *dispatcher =
+        (job_dispatcher){ .store = store, .executor = executor, .workers = workers, .threads = workers * threads_per_job };
     sigset_t ends;
     dispatcher_end_signals(&ends);
     dispatcher->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
@@ -93,7 +94,7 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
     /* Somebody may have tidied the folder away while the job waited. */
     const int file = job_folder_create(data, claim->id, claim->spec) ? job_folder_open(data, claim->id) : -1;
     if (file < 0) return false;
-    worker_order order = {.job_folder = folder, .job_folder_file = file, .attempt = claim->attempt, .threads = claim->threads};
+    worker_order order = { .job_folder = folder, .job_folder_file = file, .attempt = claim->attempt, .threads = claim->threads };
     set_limits(claim, &order);
     const bool started = dispatcher->executor->start(dispatcher->executor, &order, &slot->worker);
     close(file);
@@ -105,9 +106,11 @@ static bool start_next_job(job_dispatcher *dispatcher)
 {
     worker_slot *slot = free_slot(dispatcher);
     job_claim claim;
-    if (!slot || store_claim_job(dispatcher->store, dispatcher->threads - threads_in_use(dispatcher), dispatcher->threads, &claim) != STORE_OK)
+    if (!slot
+        || store_claim_job(dispatcher->store, dispatcher->threads - threads_in_use(dispatcher), dispatcher->threads, &claim)
+               != STORE_OK)
         return false;
-    *slot = (worker_slot){.state = SLOT_WORKING, .claim = claim, .worker.watch = -1, .events = -1, .speed = NAN};
+    *slot = (worker_slot){ .state = SLOT_WORKING, .claim = claim, .worker.watch = -1, .events = -1, .speed = NAN };
     const bool started = start_worker(dispatcher, slot);
     free(slot->claim.spec);
     slot->claim.spec = NULL;
@@ -116,7 +119,7 @@ static bool start_next_job(job_dispatcher *dispatcher)
         log_line("job %s: attempt %d started, process %d", claim.id, claim.attempt, (int)slot->worker.process);
     } else { /* no folder or no process to be had: as a full disk, which it most likely is */
         slot->state = SLOT_ENDED;
-        slot->end = (worker_end){false, WORKER_DISK};
+        slot->end = (worker_end){ false, WORKER_DISK };
         log_line("job %s: the worker can't be started: %s", claim.id, strerror(errno));
     }
     dispatcher->jobs_changed(dispatcher->context);
@@ -157,7 +160,7 @@ static store_status record_events_of(job_dispatcher *dispatcher, worker_slot *sl
 /* One transaction for what all workers wrote. If it fails nothing is forgotten: the files still have it. */
 static void record_events(job_dispatcher *dispatcher)
 {
-    int64_t before[DISPATCHER_MOST_WORKERS] = {0};
+    int64_t before[DISPATCHER_MOST_WORKERS] = { 0 };
     bool any = false;
     for (int i = 0; i < dispatcher->workers; i++) {
         before[i] = dispatcher->slot[i].events_at;
@@ -212,7 +215,7 @@ static void release_slot(worker_slot *slot)
 {
     if (slot->events >= 0) close(slot->events);
     json_decref(slot->failure);
-    *slot = (worker_slot){.state = SLOT_FREE, .events = -1};
+    *slot = (worker_slot){ .state = SLOT_FREE, .events = -1 };
 }
 
 static void record_ends(job_dispatcher *dispatcher)
@@ -263,11 +266,12 @@ static bool take_signal(job_dispatcher *dispatcher)
 
 static void sleep_until_needed(job_dispatcher *dispatcher)
 {
-    struct pollfd watched[DISPATCHER_MOST_WORKERS + 2] = {{.fd = dispatcher->wake, .events = POLLIN}, {.fd = dispatcher->signals, .events = POLLIN}};
+    struct pollfd watched[DISPATCHER_MOST_WORKERS + 2] = { { .fd = dispatcher->wake, .events = POLLIN },
+                                                           { .fd = dispatcher->signals, .events = POLLIN } };
     nfds_t count = 2;
     for (int i = 0; i < dispatcher->workers; i++)
         if (dispatcher->slot[i].state == SLOT_WORKING && dispatcher->slot[i].worker.watch >= 0)
-            watched[count++] = (struct pollfd){.fd = dispatcher->slot[i].worker.watch, .events = POLLIN};
+            watched[count++] = (struct pollfd){ .fd = dispatcher->slot[i].worker.watch, .events = POLLIN };
     poll(watched, count, is_idle(dispatcher) ? IDLE_ROUND_MS : BUSY_ROUND_MS);
     uint64_t ignored;
     while (read(dispatcher->wake, &ignored, sizeof ignored) > 0) continue;

@@ -14,7 +14,7 @@ void event_batch_clear(event_batch *batch)
     json_decref(batch->samples);
     json_decref(batch->snapshots);
     json_decref(batch->failure);
-    *batch = (event_batch){.progress = NAN, .eta_seconds = NAN, .speed = NAN};
+    *batch = (event_batch){ .progress = NAN, .eta_seconds = NAN, .speed = NAN };
 }
 
 static double number_of(const json_t *event, const char *name)
@@ -61,7 +61,7 @@ static ssize_t read_all(int file, char *text, size_t size, int64_t offset)
 
 bool event_tail_read(int file, int64_t offset, event_batch *batch)
 {
-    *batch = (event_batch){.progress = NAN, .eta_seconds = NAN, .speed = NAN, .end = offset};
+    *batch = (event_batch){ .progress = NAN, .eta_seconds = NAN, .speed = NAN, .end = offset };
     batch->samples = json_array();
     batch->snapshots = json_array();
     char *text = malloc(BATCH_BYTES);

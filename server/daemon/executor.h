@@ -26,7 +26,8 @@ typedef struct worker_end {
 
 typedef struct worker_executor {
     bool (*start)(struct worker_executor *executor, const worker_order *order, worker_handle *worker); /* false: errno */
-    bool (*has_ended)(struct worker_executor *executor, worker_handle *worker, worker_end *end); /* true once; then the handle is void */
+    bool (*has_ended)(struct worker_executor *executor, worker_handle *worker,
+                      worker_end *end);                                                 /* true once; then the handle is void */
     void (*ask_to_stop)(struct worker_executor *executor, const worker_handle *worker); /* checkpoint and leave */
     void (*kill)(struct worker_executor *executor, const worker_handle *worker);
     const char *program; /* path of the worker program */

@@ -23,7 +23,7 @@ enum { EXEC_FAILED = 127, SECONDS_FOR_THE_FOLDER = 10 };
 
 static void limit(int resource, double value)
 {
-    const struct rlimit bound = {(rlim_t)value, (rlim_t)value};
+    const struct rlimit bound = { (rlim_t)value, (rlim_t)value };
     setrlimit(resource, &bound);
 }
 
@@ -48,7 +48,8 @@ static void lock_folder(int folder)
 {
     close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);
     alarm(SECONDS_FOR_THE_FOLDER);
-    while (flock(folder, LOCK_EX) != 0) if (errno != EINTR) _exit(WORKER_DISK);
+    while (flock(folder, LOCK_EX) != 0)
+        if (errno != EINTR) _exit(WORKER_DISK);
     alarm(0);
     fcntl(folder, F_SETFD, 0);
 }
@@ -76,14 +77,15 @@ static bool start(worker_executor *executor, const worker_order *order, worker_h
     snprintf(spec, sizeof spec, "%s/" JOB_SPEC_FILE, order->job_folder);
     snprintf(attempt, sizeof attempt, "%d", order->attempt);
     snprintf(threads, sizeof threads, "%d", order->threads);
-    char *const arguments[] = {(char *)executor->program, "run", spec, "--out", (char *)order->job_folder,
-                               "--attempt", attempt, "--threads", threads, NULL};
+    char *const arguments[] = {
+        (char *)executor->program, "run", spec, "--out", (char *)order->job_folder, "--attempt", attempt, "--threads", threads, NULL
+    };
     const pid_t parent = getpid();
     const pid_t process = fork();
     if (process == 0) become_worker(order, executor->program, arguments, parent);
     if (process < 0) return false;
     setpgid(process, process); /* also here: whoever comes first */
-    *worker = (worker_handle){.process = process, .watch = pidfd_open(process, 0)};
+    *worker = (worker_handle){ .process = process, .watch = pidfd_open(process, 0) };
     return true;
 }
 
@@ -93,10 +95,10 @@ static bool has_ended(worker_executor *executor, worker_handle *worker, worker_e
     int status;
     const pid_t process = waitpid(worker->process, &status, WNOHANG);
     if (process == 0 || (process < 0 && errno == EINTR)) return false;
-    *end = WIFSIGNALED(status) ? (worker_end){true, WTERMSIG(status)} : (worker_end){false, WEXITSTATUS(status)};
-    if (process < 0) *end = (worker_end){false, WORKER_FAULT}; /* not our child: nothing to wait for */
+    *end = WIFSIGNALED(status) ? (worker_end){ true, WTERMSIG(status) } : (worker_end){ false, WEXITSTATUS(status) };
+    if (process < 0) *end = (worker_end){ false, WORKER_FAULT }; /* not our child: nothing to wait for */
     if (worker->watch >= 0) close(worker->watch);
-    *worker = (worker_handle){.watch = -1};
+    *worker = (worker_handle){ .watch = -1 };
     return true;
 }
 
@@ -116,6 +118,7 @@ static void kill_worker(worker_executor *executor, const worker_handle *worker)
 
 void executor_local_init(worker_executor *executor, const char *program)
 {
-    *executor = (worker_executor){.start = start, .has_ended = has_ended, .ask_to_stop = ask_to_stop, .kill = kill_worker,
-                                  .program = program};
+    *executor = (worker_executor){
+        .start = start, .has_ended = has_ended, .ask_to_stop = ask_to_stop, .kill = kill_worker, .program = program
+    };
 }

@@ -29,7 +29,8 @@ static bool read_token(const char *path, char token[HTTP_TOKEN_SIZE])
     token[got > 0 ? got : 0] = '\0';
     token[strcspn(token, " \t\r\n")] = '\0';
     if ((facts.st_mode & 077) != 0) log_line("token file %s has mode %03o; must be 0600", path, (unsigned)facts.st_mode & 0777U);
-    else if (strlen(token) < 16) log_line("token file %s holds %zu characters; must hold 16 to %d", path, strlen(token), HTTP_TOKEN_SIZE - 1);
+    else if (strlen(token) < 16)
+        log_line("token file %s holds %zu characters; must hold 16 to %d", path, strlen(token), HTTP_TOKEN_SIZE - 1);
     else return true;
     return false;
 }
@@ -45,7 +46,7 @@ static bool is_loopback(const char *host)
 
 bool http_guard_init(http_guard *guard, const config *settings)
 {
-    *guard = (http_guard){.settings = settings};
+    *guard = (http_guard){ .settings = settings };
     if (settings->token_file) return read_token(settings->token_file, guard->token);
     if (is_loopback(settings->host)) return true;
     log_line("--host %s is reachable from outside; this needs --token-file", settings->host);
@@ -58,12 +59,22 @@ void http_headers_take(http_headers *headers, http_request *request, const char 
 {
     for (const char *c = name; *c; c++)
         if (!isalnum((unsigned char)*c) && !strchr("!#$%&'*+-.^_`|~", *c)) headers->strange_name = true;
-    const struct { const char *name; const char **value; int *count; } wanted[] = {
-        {"Host", &request->host, &headers->hosts}, {"Content-Length", &headers->length, &headers->lengths},
-        {"Transfer-Encoding", NULL, &headers->encodings}, {"Origin", &request->origin, NULL}, {"Accept", &request->accept, NULL},
-        {"Content-Type", &request->content_type, NULL}, {"Authorization", &request->authorization, NULL},
-        {"Prefer", &request->prefer, NULL}, {"Range", &request->range, NULL}, {"If-Range", &request->if_range, NULL},
-        {"If-None-Match", &request->if_none_match, NULL},
+    const struct {
+        const char *name;
+        const char **value;
+        int *count;
+    } wanted[] = {
+        { "Host", &request->host, &headers->hosts },
+        { "Content-Length", &headers->length, &headers->lengths },
+        { "Transfer-Encoding", NULL, &headers->encodings },
+        { "Origin", &request->origin, NULL },
+        { "Accept", &request->accept, NULL },
+        { "Content-Type", &request->content_type, NULL },
+        { "Authorization", &request->authorization, NULL },
+        { "Prefer", &request->prefer, NULL },
+        { "Range", &request->range, NULL },
+        { "If-Range", &request->if_range, NULL },
+        { "If-None-Match", &request->if_none_match, NULL },
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         if (strcasecmp(name, wanted[i].name) != 0) continue;
@@ -102,14 +113,18 @@ static bool host_is_ours(const config *settings, const char *host)
     return false;
 }
 
-bool http_guard_knows_host(const http_guard *guard, const http_headers *headers, const http_request *request, http_response *response)
+bool http_guard_knows_host(const http_guard *guard, const http_headers *headers, const http_request *request,
+                           http_response *response)
 {
     if (headers->hosts != 1) return refuse(response, 400, "Bad request", "exactly one Host header must be sent");
-    if (headers->strange_name) return refuse(response, 400, "Bad request", "a header name holds a character that is not allowed, or a header goes on over a second line");
+    if (headers->strange_name)
+        return refuse(response, 400, "Bad request",
+                      "a header name holds a character that is not allowed, or a header goes on over a second line");
     if (headers->lengths > 1 || (headers->lengths > 0 && headers->encodings > 0))
         return refuse(response, 400, "Bad request", "the length of the body is given twice");
     if (!host_is_ours(guard->settings, request->host))
-        return refuse(response, 421, "Not this host", "the Host header names neither localhost, nor an address, nor a name of --allow-host");
+        return refuse(response, 421, "Not this host",
+                      "the Host header names neither localhost, nor an address, nor a name of --allow-host");
     return true;
 }
 
@@ -126,7 +141,7 @@ static bool is_json(const char *content_type)
 {
     static const char json[] = "application/json";
     return content_type && strncasecmp(content_type, json, sizeof json - 1) == 0
-        && (content_type[sizeof json - 1] == '\0' || strchr("; \t", content_type[sizeof json - 1]));
+           && (content_type[sizeof json - 1] == '\0' || strchr("; \t", content_type[sizeof json - 1]));
 }
 
 /* Looks at every byte whatever it finds, so that the time tells nothing about where they differ. */
@@ -150,14 +165,15 @@ static bool admits_body(const http_headers *headers, const http_request *request
         return refuse(response, 415, "Not JSON", "send Content-Type: application/json; with curl: curl --json @file");
     *length = headers->length ? (size_t)strtoull(headers->length, NULL, 10) : 0;
     if (*length > HTTP_BODY_LIMIT) {
-        http_respond_problem(response, 413, NULL, "Body too large", "the body has %zu bytes; at most %d are read", *length, HTTP_BODY_LIMIT);
+        http_respond_problem(response, 413, NULL, "Body too large", "the body has %zu bytes; at most %d are read", *length,
+                             HTTP_BODY_LIMIT);
         return false;
     }
     return true;
 }
 
-bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request,
-                       const http_route *route, http_response *response, size_t *body_length)
+bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
+                       http_response *response, size_t *body_length)
 {
     const bool writes = strcmp(request->method, "POST") == 0 || strcmp(request->method, "DELETE") == 0;
     if (guard->token[0] && !route->open && !token_matches(guard->token, request->authorization)) {
@@ -165,6 +181,8 @@ bool http_guard_admits(const http_guard *guard, const http_headers *headers, con
         response->authenticate = "Bearer";
         return false;
     }
-    if (writes && !origin_is_ours(request)) return refuse(response, 403, "Foreign page", "writes are taken from this service's own page or from programs, not from other pages");
+    if (writes && !origin_is_ours(request))
+        return refuse(response, 403, "Foreign page",
+                      "writes are taken from this service's own page or from programs, not from other pages");
     return admits_body(headers, request, response, body_length);
 }

@@ -24,9 +24,10 @@ typedef struct http_headers {
 bool http_guard_init(http_guard *guard, const config *settings);
 void http_headers_take(http_headers *headers, http_request *request, const char *name, const char *value);
 /* False: the response says why not. *body_length: to be expected. */
-bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request,
-                       const http_route *route, http_response *response, size_t *body_length);
+bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
+                       http_response *response, size_t *body_length);
 /* The part that holds for requests to unknown addresses, too. */
-bool http_guard_knows_host(const http_guard *guard, const http_headers *headers, const http_request *request, http_response *response);
+bool http_guard_knows_host(const http_guard *guard, const http_headers *headers, const http_request *request,
+                           http_response *response);
 
 #endif

@@ -10,9 +10,15 @@
 
 #include "log.h"
 
-enum { HTTP_THREADS = 4, MOST_CONNECTIONS = 256, MOST_PER_ADDRESS = 192, CONNECTION_MEMORY = 32768,
-       THREAD_STACK = 1 << 20, /* JSON nests up to 2048 deep */
-       SILENCE_SECONDS = 20, DROPPED_BODY_LIMIT = 16 << 20 };
+enum {
+    HTTP_THREADS = 4,
+    MOST_CONNECTIONS = 256,
+    MOST_PER_ADDRESS = 192,
+    CONNECTION_MEMORY = 32768,
+    THREAD_STACK = 1 << 20, /* JSON nests up to 2048 deep */
+    SILENCE_SECONDS = 20,
+    DROPPED_BODY_LIMIT = 16 << 20
+};
 
 /* --- answering --- */
 
@@ -49,7 +55,8 @@ static struct MHD_Response *reply_of(http_response *response)
         if (reply) response->file = -1; /* the library closes it */
         return reply;
     }
-    struct MHD_Response *reply = MHD_create_response_from_buffer(response->body ? response->length : 0, response->body, MHD_RESPMEM_MUST_FREE);
+    struct MHD_Response *reply =
+        MHD_create_response_from_buffer(response->body ? response->length : 0, response->body, MHD_RESPMEM_MUST_FREE);
     if (reply) response->body = NULL; /* the library frees it */
     return reply;
 }
@@ -70,7 +77,8 @@ static enum MHD_Result send_response(http_exchange *exchange)
 static enum MHD_Result answer_slowly(http_exchange *exchange)
 {
     if (waiting_room_queue_slow(&exchange->server->room, exchange)) return MHD_YES;
-    http_respond_problem(&exchange->response, 503, NULL, "Too many requests that take long", "%d wait already; try again later", WAITING_ROOM_SLOW_LIMIT);
+    http_respond_problem(&exchange->response, 503, NULL, "Too many requests that take long", "%d wait already; try again later",
+                         WAITING_ROOM_SLOW_LIMIT);
     exchange->response.retry_after = 5;
     return send_response(exchange);
 }
@@ -118,7 +126,8 @@ static bool admit(http_exchange *exchange, const char *method)
     const http_guard *guard = &exchange->server->guard;
     if (!http_guard_knows_host(guard, &exchange->headers, request, &exchange->response)) return false;
     exchange->route = routes_match(route_table, route_count, request, &exchange->response);
-    return exchange->route && http_guard_admits(guard, &exchange->headers, request, exchange->route, &exchange->response, &exchange->body_expected);
+    return exchange->route
+           && http_guard_admits(guard, &exchange->headers, request, exchange->route, &exchange->response, &exchange->body_expected);
 }
 
 static enum MHD_Result begin(http_exchange *exchange, const char *method)
@@ -131,7 +140,8 @@ static enum MHD_Result begin(http_exchange *exchange, const char *method)
     exchange->stage = EXCHANGE_REFUSED;
     /* Taking in what is still on its way lets the client read the answer rather than a broken connection. */
     const http_headers *headers = &exchange->headers;
-    const bool takes_rest = headers->lengths == 1 && headers->encodings == 0 && strtoull(headers->length, NULL, 10) <= DROPPED_BODY_LIMIT;
+    const bool takes_rest =
+        headers->lengths == 1 && headers->encodings == 0 && strtoull(headers->length, NULL, 10) <= DROPPED_BODY_LIMIT;
     return takes_rest ? MHD_YES : send_response(exchange);
 }
 
@@ -223,7 +233,7 @@ static int open_listener(const char *host, int port)
 {
     char service[8];
     snprintf(service, sizeof service, "%d", port);
-    const struct addrinfo wanted = {.ai_socktype = SOCK_STREAM, .ai_flags = AI_PASSIVE | AI_NUMERICSERV};
+    const struct addrinfo wanted = { .ai_socktype = SOCK_STREAM, .ai_flags = AI_PASSIVE | AI_NUMERICSERV };
     struct addrinfo *found;
     const int code = getaddrinfo(host, service, &wanted, &found);
     if (code != 0) {
@@ -268,11 +278,10 @@ bool http_server_start(http_server *server)
 {
     if (!waiting_room_open(&server->room, server->service, &server->watch)) return false;
     server->daemon = MHD_start_daemon(
-        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, take_request, server,
-        MHD_OPTION_LISTEN_SOCKET, server->listener, MHD_OPTION_THREAD_POOL_SIZE, (unsigned)HTTP_THREADS,
-        MHD_OPTION_THREAD_STACK_SIZE, (size_t)THREAD_STACK, MHD_OPTION_STRICT_FOR_CLIENT, 1,
-        MHD_OPTION_URI_LOG_CALLBACK, take_target, server, MHD_OPTION_NOTIFY_COMPLETED, end_request, server,
-        MHD_OPTION_NOTIFY_CONNECTION, note_connection, server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)MOST_CONNECTIONS,
+        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, take_request, server, MHD_OPTION_LISTEN_SOCKET,
+        server->listener, MHD_OPTION_THREAD_POOL_SIZE, (unsigned)HTTP_THREADS, MHD_OPTION_THREAD_STACK_SIZE, (size_t)THREAD_STACK,
+        MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_URI_LOG_CALLBACK, take_target, server, MHD_OPTION_NOTIFY_COMPLETED, end_request,
+        server, MHD_OPTION_NOTIFY_CONNECTION, note_connection, server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)MOST_CONNECTIONS,
         MHD_OPTION_PER_IP_CONNECTION_LIMIT, (unsigned)MOST_PER_ADDRESS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_SECONDS,
         MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY, MHD_OPTION_END);
     if (server->daemon) return true;

@@ -84,10 +84,7 @@ store_status store_end(job_store *store, store_status status)
 
 /* --- adding and dismissing --- */
 
-bool store_random_bits(uint32_t *bits)
-{
-    return getrandom(bits, sizeof *bits, 0) == (ssize_t)sizeof *bits;
-}
+bool store_random_bits(uint32_t *bits) { return getrandom(bits, sizeof *bits, 0) == (ssize_t)sizeof *bits; }
 
 void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits)
 {
@@ -97,10 +94,7 @@ void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits)
     snprintf(id + length, JOB_ID_SIZE - length, "%08x", bits);
 }
 
-int64_t store_queue_limit(const job_store *store)
-{
-    return store->queue_limit;
-}
+int64_t store_queue_limit(const job_store *store) { return store->queue_limit; }
 
 store_status store_check_queue(job_store *store, int64_t jobs)
 {
@@ -118,15 +112,17 @@ static store_status insert_row(job_store *store, const job_spec *spec, const cha
     char now[JOB_TIME_SIZE];
     time_text(now);
     const job_estimate estimate = job_spec_estimate(spec, speed);
-    return sql_run(store->writer, NULL,
-                   "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
-                   "study,study_case,study_repeat) VALUES(?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
-                   "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11))", "ttttiddtiii",
-                   id, spec->process, label, text, (int64_t)spec->threads, estimate.wall_seconds, estimate.memory_bytes, now,
-                   place->study, place->index, place->repeat);
+    return sql_run(
+        store->writer, NULL,
+        "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
+        "study,study_case,study_repeat) VALUES(?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
+        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11))",
+        "ttttiddtiii", id, spec->process, label, text, (int64_t)spec->threads, estimate.wall_seconds, estimate.memory_bytes, now,
+        place->study, place->index, place->repeat);
 }
 
-store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place, double speed)
+store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
+                              double speed)
 {
     char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
     store_status status = label ? insert_row(store, spec, id, text, label, place, speed) : STORE_FAILED;
@@ -137,7 +133,7 @@ store_status store_insert_job(job_store *store, const job_spec *spec, const char
 
 static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
 {
-    static const study_place of_no_study = {0, 0, 0};
+    static const study_place of_no_study = { 0, 0, 0 };
     uint32_t bits;
     if (!text || !store_random_bits(&bits)) return STORE_FAILED;
     store_write_id(id, time(NULL), bits);
@@ -185,7 +181,8 @@ store_status store_dismiss_job(job_store *store, const char *id)
     if (status != STORE_OK) return status;
     status = sql_run(store->writer, &changed,
                      "UPDATE job SET status='dismissed', message='dismissed on request', eta_seconds=NULL, finished=?, updated=?"
-                     " WHERE id=? AND status IN ('accepted','running')", "ttt", now, now, id);
+                     " WHERE id=? AND status IN ('accepted','running')",
+                     "ttt", now, now, id);
     status = store_end(store, status);
     if (status != STORE_OK || changed > 0) return status;
     const store_status found = exists(store, id);
@@ -249,10 +246,12 @@ store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES])
 double store_measured_speed(job_store *store)
 {
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader,
+    sqlite3_stmt *statement = sql_prepare(
+        reader,
         "SELECT speed FROM (SELECT particle_steps_per_second/max(threads,1) AS speed FROM run_result"
         " WHERE particle_steps_per_second>0 ORDER BY job DESC LIMIT 9) ORDER BY speed"
-        " LIMIT 1 OFFSET (SELECT min(count(*),9)/2 FROM (SELECT 1 FROM run_result WHERE particle_steps_per_second>0 LIMIT 9))", "");
+        " LIMIT 1 OFFSET (SELECT min(count(*),9)/2 FROM (SELECT 1 FROM run_result WHERE particle_steps_per_second>0 LIMIT 9))",
+        "");
     double speed = 0.0;
     if (statement) {
         const int code = sqlite3_step(statement);
@@ -272,7 +271,8 @@ store_status store_open_log(job_store *store, const char *id, int *file)
 store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file)
 {
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader, "SELECT file FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number=?", "ti", id, number);
+    sqlite3_stmt *statement = sql_prepare(
+        reader, "SELECT file FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number=?", "ti", id, number);
     store_status status = STORE_FAILED;
     if (statement) {
         const int code = sqlite3_step(statement);

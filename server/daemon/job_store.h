@@ -15,7 +15,7 @@ enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
 /* Everything below is private to job_store*.c, result_tables.c and query.c. */
 struct job_store {
     data_folder *data;
-    int64_t queue_limit; /* jobs that may wait */
+    int64_t queue_limit;        /* jobs that may wait */
     pthread_mutex_t write_lock; /* held for each transaction of the one writer */
     sqlite3 *writer;
     pthread_mutex_t readers_lock;
@@ -43,7 +43,8 @@ typedef struct study_place {
     int64_t study, index, repeat;
 } study_place;
 /* Between begin and end: one job's rows. text: its canonical specification. */
-store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place, double speed);
+store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
+                              double speed);
 /* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */
 store_status store_check_queue(job_store *store, int64_t jobs);
 store_status store_read_text(job_store *store, const char *sql, const char *id, char **text);

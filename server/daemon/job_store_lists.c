@@ -9,16 +9,16 @@
 
 /* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary. */
 #define RECORD_COLUMNS 14
-#define SELECT_JOBS                                                                                                   \
-    "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"     \
-    " job.started, job.finished, job.updated, job.message, job.label, study.id,"                                       \
-    " i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate, i.fill_fraction,"   \
-    " i.particles, i.species, i.diameter, i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution,"     \
-    " i.wall_friction, i.stiffness, i.duration, i.seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"    \
-    " a.standard_error_deg, a.steady, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds"    \
-    " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"              \
-    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                      \
-    " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"             \
+#define SELECT_JOBS                                                                                                                \
+    "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"                 \
+    " job.started, job.finished, job.updated, job.message, job.label, study.id,"                                                   \
+    " i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate, i.fill_fraction,"              \
+    " i.particles, i.species, i.diameter, i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution,"                \
+    " i.wall_friction, i.stiffness, i.duration, i.seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"               \
+    " a.standard_error_deg, a.steady, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds"               \
+    " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"                         \
+    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                                 \
+    " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"                                 \
     " LEFT JOIN study ON study.number=job.study"
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
@@ -34,8 +34,9 @@ static json_t *summary_of(sqlite3_stmt *row)
         const char *name = sqlite3_column_name(row, i);
         switch (sqlite3_column_type(row, i)) {
         case SQLITE_INTEGER:
-            json_object_set_new(summary, name, strcmp(name, "steady") == 0 ? json_boolean(sqlite3_column_int(row, i))
-                                                                           : json_integer(sqlite3_column_int64(row, i)));
+            json_object_set_new(summary, name,
+                                strcmp(name, "steady") == 0 ? json_boolean(sqlite3_column_int(row, i))
+                                                            : json_integer(sqlite3_column_int64(row, i)));
             break;
         case SQLITE_FLOAT: json_object_set_new(summary, name, json_real(sqlite3_column_double(row, i))); break;
         case SQLITE_TEXT: json_object_set_new(summary, name, json_string((const char *)sqlite3_column_text(row, i))); break;
@@ -47,8 +48,9 @@ static json_t *summary_of(sqlite3_stmt *row)
 
 static void fill_record(sqlite3_stmt *row, job_record *job)
 {
-    *job = (job_record){.number = sqlite3_column_int64(row, 0), .attempt = sqlite3_column_int(row, 4),
-                        .progress = sqlite3_column_double(row, 5)};
+    *job = (job_record){ .number = sqlite3_column_int64(row, 0),
+                         .attempt = sqlite3_column_int(row, 4),
+                         .progress = sqlite3_column_double(row, 5) };
     copy_text(job->id, sizeof job->id, row, 1);
     copy_text(job->process, sizeof job->process, row, 2);
     const char *status = (const char *)sqlite3_column_text(row, 3);
@@ -84,9 +86,11 @@ store_status store_find_job(job_store *store, const char *id, job_record *job)
 static void write_list_sql(const job_filter *filter, text_buffer *sql)
 {
     const bool single = (filter->statuses & (filter->statuses - 1U)) == 0U;
-    text_buffer_print(sql, SELECT_JOBS " WHERE job.number<?1 AND (?2 IS NULL OR job.process=?2)"
-                           " AND (?3 IS NULL OR instr(lower(job.label), lower(?3)) OR instr(job.id, ?3))"
-                           "%s", filter->study ? " AND job.study=(SELECT number FROM study WHERE id=?5)" : "");
+    text_buffer_print(sql,
+                      SELECT_JOBS " WHERE job.number<?1 AND (?2 IS NULL OR job.process=?2)"
+                                  " AND (?3 IS NULL OR instr(lower(job.label), lower(?3)) OR instr(job.id, ?3))"
+                                  "%s",
+                      filter->study ? " AND job.study=(SELECT number FROM study WHERE id=?5)" : "");
     const char *before = single ? " AND job.status=" : " AND +job.status IN (";
     for (int i = 0; i < JOB_STATUSES; i++) {
         if (!(filter->statuses & (1U << i))) continue;
@@ -102,8 +106,10 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
     text_buffer_init(&sql, 8192);
     write_list_sql(filter, &sql);
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, filter->study ? "ittit" : "itti",
-                                                             filter->before ? filter->before : INT64_MAX, filter->process, filter->text, filter->limit, filter->study);
+    sqlite3_stmt *statement =
+        sql.failed ? NULL
+                   : sql_prepare(reader, sql.text, filter->study ? "ittit" : "itti", filter->before ? filter->before : INT64_MAX,
+                                 filter->process, filter->text, filter->limit, filter->study);
     store_status status = STORE_FAILED;
     if (statement) {
         int code;
@@ -124,7 +130,8 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
 /* A walk over rows of one job that begin with number, step and time. */
 typedef bool row_taker(sqlite3_stmt *row, void *context);
 
-static store_status walk(job_store *store, const char *sql, const char *id, int64_t after, int64_t limit, row_taker *take, void *context)
+static store_status walk(job_store *store, const char *sql, const char *id, int64_t after, int64_t limit, row_taker *take,
+                         void *context)
 {
     sqlite3 *reader = store_borrow_reader(store);
     sqlite3_stmt *statement = sql_prepare(reader, sql, "tii", id, after, limit);
@@ -146,16 +153,19 @@ typedef struct sample_walk {
 static bool take_sample(sqlite3_stmt *row, void *context)
 {
     const sample_walk *to = context;
-    const sample_row sample = {sqlite3_column_int64(row, 0), sqlite3_column_int64(row, 1), sqlite3_column_double(row, 2),
-                               (const char *)sqlite3_column_text(row, 3)};
+    const sample_row sample = { sqlite3_column_int64(row, 0), sqlite3_column_int64(row, 1), sqlite3_column_double(row, 2),
+                                (const char *)sqlite3_column_text(row, 3) };
     return to->visit(to->context, &sample);
 }
 
-store_status store_list_samples(job_store *store, const char *id, int64_t after, int64_t limit, sample_visitor *visit, void *context)
+store_status store_list_samples(job_store *store, const char *id, int64_t after, int64_t limit, sample_visitor *visit,
+                                void *context)
 {
-    sample_walk to = {visit, context};
-    return walk(store, "SELECT number, step, time, measures FROM sample WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
-                       " ORDER BY number LIMIT ?", id, after, limit, take_sample, &to);
+    sample_walk to = { visit, context };
+    return walk(store,
+                "SELECT number, step, time, measures FROM sample WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
+                " ORDER BY number LIMIT ?",
+                id, after, limit, take_sample, &to);
 }
 
 typedef struct snapshot_walk {
@@ -166,14 +176,18 @@ typedef struct snapshot_walk {
 static bool take_snapshot(sqlite3_stmt *row, void *context)
 {
     const snapshot_walk *to = context;
-    const snapshot_row snapshot = {sqlite3_column_int64(row, 0), sqlite3_column_int64(row, 1), sqlite3_column_int64(row, 2),
-                                   sqlite3_column_int64(row, 3), sqlite3_column_double(row, 4)};
+    const snapshot_row snapshot = { sqlite3_column_int64(row, 0), sqlite3_column_int64(row, 1), sqlite3_column_int64(row, 2),
+                                    sqlite3_column_int64(row, 3), sqlite3_column_double(row, 4) };
     return to->visit(to->context, &snapshot);
 }
 
-store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit, void *context)
+store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit,
+                                  void *context)
 {
-    snapshot_walk to = {visit, context};
-    return walk(store, "SELECT number, step, bytes, particles, time FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
-                       " ORDER BY number LIMIT ?", id, after, limit, take_snapshot, &to);
+    snapshot_walk to = { visit, context };
+    return walk(
+        store,
+        "SELECT number, step, bytes, particles, time FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
+        " ORDER BY number LIMIT ?",
+        id, after, limit, take_snapshot, &to);
 }

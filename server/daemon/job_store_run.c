@@ -29,9 +29,11 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
         const store_status status = sql_finish(statement, code);
         return status == STORE_OK ? STORE_NOT_FOUND : status;
     }
-    *claim = (job_claim){.number = sqlite3_column_int64(statement, 0), .attempt = sqlite3_column_int(statement, 2),
-                         .threads = sqlite3_column_int(statement, 3), .estimated_seconds = sqlite3_column_double(statement, 4),
-                         .estimated_memory_bytes = sqlite3_column_double(statement, 5)};
+    *claim = (job_claim){ .number = sqlite3_column_int64(statement, 0),
+                          .attempt = sqlite3_column_int(statement, 2),
+                          .threads = sqlite3_column_int(statement, 3),
+                          .estimated_seconds = sqlite3_column_double(statement, 4),
+                          .estimated_memory_bytes = sqlite3_column_double(statement, 5) };
     snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
     const char *spec = (const char *)sqlite3_column_text(statement, 6);
     claim->spec = spec ? strdup(spec) : NULL;
@@ -42,15 +44,17 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
 
 store_status store_claim_job(job_store *store, int free_threads, int all_threads, job_claim *claim)
 {
-    *claim = (job_claim){0};
+    *claim = (job_claim){ 0 };
     char now[JOB_TIME_SIZE];
     time_text(now);
     const double unix = unix_seconds(); /* further ahead than any delay: the clock was set back since */
     store_status status = store_begin(store);
     if (status != STORE_OK) return status;
-    sqlite3_stmt *statement = sql_prepare(store->writer,
+    sqlite3_stmt *statement = sql_prepare(
+        store->writer,
         "UPDATE job SET status='running', message='starting', started=coalesce(started,?1), updated=?1, eta_seconds=NULL"
-        " WHERE number=(SELECT number FROM job WHERE status='accepted' AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY number LIMIT 1)"
+        " WHERE number=(SELECT number FROM job WHERE status='accepted' AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY number LIMIT "
+        "1)"
         " AND min(threads,?3)<=?4"
         " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec",
         "tdiid", now, unix, (int64_t)all_threads, (int64_t)free_threads, unix + LONGEST_DELAY);
@@ -75,10 +79,7 @@ bool store_claim_holds(job_store *store, const job_claim *claim)
 
 /* --- events --- */
 
-static int64_t whole(const json_t *event, const char *name)
-{
-    return (int64_t)json_number_value(json_object_get(event, name));
-}
+static int64_t whole(const json_t *event, const char *name) { return (int64_t)json_number_value(json_object_get(event, name)); }
 
 static store_status insert_samples(sqlite3 *writer, int64_t job, const json_t *samples)
 {
@@ -89,19 +90,18 @@ static store_status insert_samples(sqlite3 *writer, int64_t job, const json_t *s
         if (!json_is_object(values) || !json_is_integer(json_object_get(event, "number"))) continue;
         char *text = json_dumps(values, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* as the worker wrote them */
         /* A later attempt repeats samples with the same numbers: the later line wins. */
-        status = text ? sql_run(writer, NULL, "INSERT INTO sample(job,number,step,time,measures) VALUES(?,?,?,?,?)"
-                                              " ON CONFLICT DO UPDATE SET step=excluded.step, time=excluded.time, measures=excluded.measures",
+        status = text ? sql_run(writer, NULL,
+                                "INSERT INTO sample(job,number,step,time,measures) VALUES(?,?,?,?,?)"
+                                " ON CONFLICT DO UPDATE SET step=excluded.step, time=excluded.time, measures=excluded.measures",
                                 "iiidt", job, whole(event, "number"), whole(event, "step"),
-                                json_number_value(json_object_get(event, "time")), text) : STORE_FAILED;
+                                json_number_value(json_object_get(event, "time")), text)
+                      : STORE_FAILED;
         free(text);
     }
     return status;
 }
 
-static bool is_plain_name(const char *name)
-{
-    return name && name[0] && name[0] != '.' && strlen(name) < 64 && !strchr(name, '/');
-}
+static bool is_plain_name(const char *name) { return name && name[0] && name[0] != '.' && strlen(name) < 64 && !strchr(name, '/'); }
 
 static store_status insert_snapshots(sqlite3 *writer, int64_t job, const json_t *snapshots)
 {
@@ -110,7 +110,8 @@ static store_status insert_snapshots(sqlite3 *writer, int64_t job, const json_t 
         const json_t *event = json_array_get(snapshots, i);
         const char *file = json_string_value(json_object_get(event, "file"));
         if (!is_plain_name(file) || !json_is_integer(json_object_get(event, "number"))) continue;
-        status = sql_run(writer, NULL, "INSERT OR REPLACE INTO snapshot(job,number,step,time,file,bytes,particles) VALUES(?,?,?,?,?,?,?)",
+        status = sql_run(writer, NULL,
+                         "INSERT OR REPLACE INTO snapshot(job,number,step,time,file,bytes,particles) VALUES(?,?,?,?,?,?,?)",
                          "iiidtii", job, whole(event, "number"), whole(event, "step"),
                          json_number_value(json_object_get(event, "time")), file, whole(event, "bytes"), whole(event, "particles"));
     }
@@ -122,10 +123,11 @@ store_status store_record_events(job_store *store, const job_claim *claim, const
     char now[JOB_TIME_SIZE];
     time_text(now);
     int64_t changed;
-    store_status status = sql_run(store->writer, &changed,
-        "UPDATE job SET updated=?, progress=coalesce(min(max(?,0),100),progress), eta_seconds=coalesce(?,eta_seconds),"
-        " message=coalesce(nullif(?,''),message)" FENCE,
-        "tddtii", now, events->progress, events->eta_seconds, events->phase, claim->number, (int64_t)claim->attempt);
+    store_status status =
+        sql_run(store->writer, &changed,
+                "UPDATE job SET updated=?, progress=coalesce(min(max(?,0),100),progress), eta_seconds=coalesce(?,eta_seconds),"
+                " message=coalesce(nullif(?,''),message)" FENCE,
+                "tddtii", now, events->progress, events->eta_seconds, events->phase, claim->number, (int64_t)claim->attempt);
     if (status == STORE_OK && changed == 0) return STORE_CONFLICT;
     if (status == STORE_OK) status = insert_samples(store->writer, claim->number, events->samples);
     if (status == STORE_OK) status = insert_snapshots(store->writer, claim->number, events->snapshots);
@@ -139,10 +141,11 @@ static store_status end_job(job_store *store, const job_claim *claim, job_status
     char now[JOB_TIME_SIZE];
     time_text(now);
     int64_t changed;
-    const store_status status = sql_run(store->writer, &changed,
-        "UPDATE job SET status=?, message=?, failure=?, finished=?, updated=?, eta_seconds=NULL,"
-        " progress=CASE WHEN ?1='successful' THEN 100 ELSE progress END" FENCE,
-        "tttttii", job_status_name(end), message, failure, now, now, claim->number, (int64_t)claim->attempt);
+    const store_status status =
+        sql_run(store->writer, &changed,
+                "UPDATE job SET status=?, message=?, failure=?, finished=?, updated=?, eta_seconds=NULL,"
+                " progress=CASE WHEN ?1='successful' THEN 100 ELSE progress END" FENCE,
+                "tttttii", job_status_name(end), message, failure, now, now, claim->number, (int64_t)claim->attempt);
     return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
 }
 
@@ -173,9 +176,10 @@ static store_status put_back(job_store *store, const job_claim *claim, bool uses
         return end_job(store, claim, JOB_FAILED, text, NULL);
     }
     int64_t changed;
-    const store_status status = sql_run(store->writer, &changed,
-        "UPDATE job SET status='accepted', attempt=attempt+?, not_before=?, message=?, updated=?, eta_seconds=NULL" FENCE,
-        "idttii", (int64_t)uses_attempt, delay > 0.0 ? unix_seconds() + delay : 0.0, message, now, claim->number, (int64_t)claim->attempt);
+    const store_status status = sql_run(
+        store->writer, &changed,
+        "UPDATE job SET status='accepted', attempt=attempt+?, not_before=?, message=?, updated=?, eta_seconds=NULL" FENCE, "idttii",
+        (int64_t)uses_attempt, delay > 0.0 ? unix_seconds() + delay : 0.0, message, now, claim->number, (int64_t)claim->attempt);
     return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
 }
 
@@ -190,9 +194,11 @@ store_status store_put_back(job_store *store, const job_claim *claim, bool uses_
 /* The oldest job still marked running, with a number above `after`. */
 static store_status next_orphan(job_store *store, int64_t after, job_claim *claim)
 {
-    sqlite3_stmt *statement = sql_prepare(store->writer,
-        "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec FROM job"
-        " WHERE status='running' AND number>? ORDER BY number LIMIT 1", "i", after);
+    sqlite3_stmt *statement =
+        sql_prepare(store->writer,
+                    "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec FROM job"
+                    " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
+                    "i", after);
     return statement ? read_claim(statement, claim) : STORE_FAILED;
 }
 
@@ -211,7 +217,7 @@ static store_status recover_one(job_store *store, const job_claim *claim)
 
 store_status store_recover(job_store *store)
 {
-    job_claim claim = {0};
+    job_claim claim = { 0 };
     int64_t after = 0;
     store_status status;
     while ((status = next_orphan(store, after, &claim)) == STORE_OK) {

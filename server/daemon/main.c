@@ -11,7 +11,7 @@
 #include "http_server.h"
 #include "log.h"
 
-#define ROUND_TOO_LONG 30.0          /* s without a round of the supervisor: something hangs */
+#define ROUND_TOO_LONG 30.0 /* s without a round of the supervisor: something hangs */
 #define LEAST_FREE_BYTES 67108864.0
 
 typedef struct parts {
@@ -47,7 +47,8 @@ static bool is_ready(void *context, char *why_not, size_t size)
     const double room = data_folder_free_bytes(&all->data);
     if (store_count_jobs(all->store, counts) != STORE_OK) snprintf(why_not, size, "the database can't be read");
     else if (silence > ROUND_TOO_LONG) snprintf(why_not, size, "the supervisor has been silent for %.0f s", silence);
-    else if (room < LEAST_FREE_BYTES) snprintf(why_not, size, "the data folder's disk has %.0f MB left; needs %.0f MB", room / 1e6, LEAST_FREE_BYTES / 1e6);
+    else if (room < LEAST_FREE_BYTES)
+        snprintf(why_not, size, "the data folder's disk has %.0f MB left; needs %.0f MB", room / 1e6, LEAST_FREE_BYTES / 1e6);
     else return true;
     return false;
 }
@@ -110,9 +111,14 @@ static bool open_parts(parts *all)
     if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.workers, all->settings.threads)) return false;
     all->dispatcher.jobs_changed = jobs_changed_by_worker;
     all->dispatcher.context = all;
-    all->service = (api_service){.store = all->store, .web_folder = open(all->settings.web, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
-                                 .api_file = all->settings.api_file, .default_threads = all->settings.threads, .daemon = all,
-                                 .jobs_changed = jobs_changed_by_request, .is_ready = is_ready, .write_metrics = write_metrics};
+    all->service = (api_service){ .store = all->store,
+                                  .web_folder = open(all->settings.web, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
+                                  .api_file = all->settings.api_file,
+                                  .default_threads = all->settings.threads,
+                                  .daemon = all,
+                                  .jobs_changed = jobs_changed_by_request,
+                                  .is_ready = is_ready,
+                                  .write_metrics = write_metrics };
     if (all->service.web_folder < 0) log_line("no page: the folder %s can't be opened", all->settings.web);
     return http_server_open(&all->server, &all->settings, &all->service) && http_server_start(&all->server);
 }

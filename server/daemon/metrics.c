@@ -3,9 +3,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
-
-static const int codes[METRICS_CODES - 1] = {200, 201, 206, 304, 400, 401, 403, 404, 405, 408, 409, 411, 413, 415, 416, 421, 500, 503, 507};
-static const double bounds[METRICS_BUCKETS] = {0.001, 0.005, 0.025, 0.1, 0.5, 2.5, 1e300};
+static const int codes[METRICS_CODES - 1] = { 200, 201, 206, 304, 400, 401, 403, 404, 405, 408,
+                                              409, 411, 413, 415, 416, 421, 500, 503, 507 };
+static const double bounds[METRICS_BUCKETS] = { 0.001, 0.005, 0.025, 0.1, 0.5, 2.5, 1e300 };
 
 void metrics_count(http_metrics *metrics, const http_route *route, int status, double seconds)
 {
@@ -50,7 +50,8 @@ static void write_latencies(const http_metrics *metrics, text_buffer *out)
     uint64_t total = 0;
     for (size_t i = 0; i < METRICS_BUCKETS; i++) {
         total += metrics->bucket[i];
-        if (i < METRICS_BUCKETS - 1) text_buffer_print(out, "reposed_http_request_seconds_bucket{le=\"%g\"} %llu\n", bounds[i], (unsigned long long)total);
+        if (i < METRICS_BUCKETS - 1)
+            text_buffer_print(out, "reposed_http_request_seconds_bucket{le=\"%g\"} %llu\n", bounds[i], (unsigned long long)total);
         else text_buffer_print(out, "reposed_http_request_seconds_bucket{le=\"+Inf\"} %llu\n", (unsigned long long)total);
     }
     text_buffer_print(out, "reposed_http_request_seconds_sum %.9f\nreposed_http_request_seconds_count %llu\n",
@@ -69,9 +70,12 @@ static void write_jobs(job_dispatcher *dispatcher, text_buffer *out)
     write_one(out, "reposed_workers", "gauge", "Most workers at once.", dispatcher->workers);
     write_one(out, "reposed_workers_running", "gauge", "Workers at work.", dispatcher->running);
     write_one(out, "reposed_worker_starts_total", "counter", "Attempts started.", (double)dispatcher->started);
-    write_one(out, "reposed_jobs_put_back_total", "counter", "Attempts that ended early with the job back in the queue.", (double)dispatcher->put_back);
-    write_one(out, "reposed_store_failures_total", "counter", "Rounds in which the database could not be written.", (double)dispatcher->store_failures);
-    write_one(out, "reposed_particle_steps_per_second", "gauge", "Particle steps a second of all workers together.", dispatcher->speed);
+    write_one(out, "reposed_jobs_put_back_total", "counter", "Attempts that ended early with the job back in the queue.",
+              (double)dispatcher->put_back);
+    write_one(out, "reposed_store_failures_total", "counter", "Rounds in which the database could not be written.",
+              (double)dispatcher->store_failures);
+    write_one(out, "reposed_particle_steps_per_second", "gauge", "Particle steps a second of all workers together.",
+              dispatcher->speed);
 }
 
 static double resident_bytes(void)
@@ -91,6 +95,7 @@ void metrics_write(http_metrics *metrics, job_dispatcher *dispatcher, text_buffe
     write_requests(metrics, out);
     write_latencies(metrics, out);
     write_one(out, "reposed_http_connections", "gauge", "Open connections.", metrics->connections);
-    write_one(out, "reposed_disk_free_bytes", "gauge", "Free room on the data folder's disk.", data_folder_free_bytes(dispatcher->store->data));
+    write_one(out, "reposed_disk_free_bytes", "gauge", "Free room on the data folder's disk.",
+              data_folder_free_bytes(dispatcher->store->data));
     write_one(out, "process_resident_memory_bytes", "gauge", "Resident memory of the daemon.", resident_bytes());
 }

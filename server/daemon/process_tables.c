@@ -9,10 +9,13 @@ typedef store_status inputs_inserter(sqlite3 *writer, int64_t job, const job_spe
 static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *spec)
 {
     const dem_drum_definition *drum = &spec->drum;
-    return sql_run(writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)", "idddddii" "dddddddddd" "i",
-                   job, drum->diameter, drum->length, drum->rotation_rate, drum->gravity,
-                   drum->fill_fraction, (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter,
-                   drum->species[0].density, drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
+    return sql_run(writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                   "idddddii"
+                   "dddddddddd"
+                   "i",
+                   job, drum->diameter, drum->length, drum->rotation_rate, drum->gravity, drum->fill_fraction,
+                   (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter, drum->species[0].density,
+                   drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
                    drum->contact.tangential_stiffness_ratio, drum->contact.stiffness, drum->lining.diameter, drum->time_step,
                    spec->duration, (int64_t)drum->seed);
 }
@@ -20,16 +23,16 @@ static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *sp
 static store_status insert_granule(sqlite3 *writer, int64_t job, const job_spec *spec)
 {
     const dem_granule_definition *granule = &spec->granule;
-    return sql_run(writer, NULL, "INSERT INTO granule_input VALUES(?,?,?,?,?,?,?)", "idddidd", job, granule->friction, granule->radius,
-                   granule->rotation_rate, (int64_t)granule->revolutions, granule->gravity, granule->tolerance);
+    return sql_run(writer, NULL, "INSERT INTO granule_input VALUES(?,?,?,?,?,?,?)", "idddidd", job, granule->friction,
+                   granule->radius, granule->rotation_rate, (int64_t)granule->revolutions, granule->gravity, granule->tolerance);
 }
 
 static const struct {
     const char *process;
     inputs_inserter *insert;
 } tables[] = {
-    {"drum", insert_drum},
-    {"granule", insert_granule},
+    { "drum", insert_drum },
+    { "granule", insert_granule },
 };
 
 store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec)

@@ -57,10 +57,10 @@ static int authorize(void *context, int action, const char *first, const char *s
 void query_connection_restrict(sqlite3 *database)
 {
     static const int limits[][2] = {
-        {SQLITE_LIMIT_LENGTH, 256 << 10}, {SQLITE_LIMIT_SQL_LENGTH, 20000}, {SQLITE_LIMIT_COLUMN, 200},
-        {SQLITE_LIMIT_EXPR_DEPTH, 100}, {SQLITE_LIMIT_COMPOUND_SELECT, 20}, {SQLITE_LIMIT_VDBE_OP, 50000},
-        {SQLITE_LIMIT_FUNCTION_ARG, 100}, {SQLITE_LIMIT_ATTACHED, 0},
-        {SQLITE_LIMIT_VARIABLE_NUMBER, 16}, {SQLITE_LIMIT_TRIGGER_DEPTH, 1}, {SQLITE_LIMIT_WORKER_THREADS, 0},
+        { SQLITE_LIMIT_LENGTH, 256 << 10 }, { SQLITE_LIMIT_SQL_LENGTH, 20000 },   { SQLITE_LIMIT_COLUMN, 200 },
+        { SQLITE_LIMIT_EXPR_DEPTH, 100 },   { SQLITE_LIMIT_COMPOUND_SELECT, 20 }, { SQLITE_LIMIT_VDBE_OP, 50000 },
+        { SQLITE_LIMIT_FUNCTION_ARG, 100 }, { SQLITE_LIMIT_ATTACHED, 0 },         { SQLITE_LIMIT_VARIABLE_NUMBER, 16 },
+        { SQLITE_LIMIT_TRIGGER_DEPTH, 1 },  { SQLITE_LIMIT_WORKER_THREADS, 0 },
     };
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) sqlite3_limit(database, limits[i][0], limits[i][1]);
     sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
@@ -71,10 +71,7 @@ void query_connection_restrict(sqlite3 *database)
     sqlite3_set_authorizer(database, authorize, NULL);
 }
 
-static int is_past(void *deadline)
-{
-    return monotonic_seconds() > *(const double *)deadline;
-}
+static int is_past(void *deadline) { return monotonic_seconds() > *(const double *)deadline; }
 
 /* Spaces, semicolons and comments after a statement are none. */
 static bool holds_statement(sqlite3 *database, const char *sql)
@@ -94,7 +91,8 @@ static sqlite3_stmt *prepare_one(sqlite3 *database, const char *sql, char *probl
     if (code == SQLITE_OK) tail += strspn(tail, " \t\r\n;");
     if (code != SQLITE_OK) snprintf(problem, size, "%s", sqlite3_errmsg(database));
     else if (!statement) snprintf(problem, size, "the query is empty");
-    else if (holds_statement(database, tail)) snprintf(problem, size, "only one statement is allowed; a second begins with \"%.40s\"", tail);
+    else if (holds_statement(database, tail))
+        snprintf(problem, size, "only one statement is allowed; a second begins with \"%.40s\"", tail);
     else if (!sqlite3_stmt_readonly(statement)) snprintf(problem, size, "only reading is allowed");
     else return statement;
     sqlite3_finalize(statement);
@@ -104,13 +102,13 @@ static sqlite3_stmt *prepare_one(sqlite3 *database, const char *sql, char *probl
 static query_value value_of(sqlite3_stmt *row, int column)
 {
     switch (sqlite3_column_type(row, column)) {
-    case SQLITE_INTEGER: return (query_value){.kind = QUERY_INTEGER, .integer = sqlite3_column_int64(row, column)};
-    case SQLITE_FLOAT: return (query_value){.kind = QUERY_REAL, .real = sqlite3_column_double(row, column)};
+    case SQLITE_INTEGER: return (query_value){ .kind = QUERY_INTEGER, .integer = sqlite3_column_int64(row, column) };
+    case SQLITE_FLOAT: return (query_value){ .kind = QUERY_REAL, .real = sqlite3_column_double(row, column) };
     case SQLITE_TEXT: {
         const char *text = (const char *)sqlite3_column_text(row, column);
-        return (query_value){.kind = QUERY_TEXT, .text = text, .length = (size_t)sqlite3_column_bytes(row, column)};
+        return (query_value){ .kind = QUERY_TEXT, .text = text, .length = (size_t)sqlite3_column_bytes(row, column) };
     }
-    default: return (query_value){.kind = QUERY_NULL}; /* our tables hold no blobs */
+    default: return (query_value){ .kind = QUERY_NULL }; /* our tables hold no blobs */
     }
 }
 
@@ -120,7 +118,7 @@ static int walk(sqlite3_stmt *statement, query_visitor *visit, void *context)
     const int count = sqlite3_column_count(statement);
     for (int i = 0; i < count; i++) {
         const char *name = sqlite3_column_name(statement, i);
-        values[i] = (query_value){.kind = QUERY_TEXT, .text = name ? name : "", .length = name ? strlen(name) : 0};
+        values[i] = (query_value){ .kind = QUERY_TEXT, .text = name ? name : "", .length = name ? strlen(name) : 0 };
     }
     bool more = visit(context, 0, values, count);
     int code = SQLITE_DONE;
@@ -141,8 +139,10 @@ query_status store_query(job_store *store, const char *sql, query_visitor *visit
     query_status status = QUERY_REFUSED;
     if (statement) {
         const int code = walk(statement, visit, context);
-        status = code == SQLITE_DONE ? QUERY_OK : (code & 0xff) == SQLITE_INTERRUPT ? QUERY_TOO_SLOW
-               : (code & 0xff) == SQLITE_IOERR || (code & 0xff) == SQLITE_BUSY ? QUERY_UNAVAILABLE : QUERY_REFUSED;
+        status = code == SQLITE_DONE                                             ? QUERY_OK
+                 : (code & 0xff) == SQLITE_INTERRUPT                             ? QUERY_TOO_SLOW
+                 : (code & 0xff) == SQLITE_IOERR || (code & 0xff) == SQLITE_BUSY ? QUERY_UNAVAILABLE
+                                                                                 : QUERY_REFUSED;
         if (status == QUERY_TOO_SLOW) snprintf(problem, problem_size, "it ran for %.0f s, which is the limit", QUERY_SECONDS);
         else if (status != QUERY_OK) snprintf(problem, problem_size, "%s", sqlite3_errmsg(store->query));
         sqlite3_finalize(statement);

@@ -42,8 +42,7 @@ static void like(sqlite3_context *call, int count, sqlite3_value **values)
     const char *escape = count > 2 ? text_of(values[2]) : "";
     if (count > 2 && (strlen(escape) != 1 || (escape[0] & 0x80)))
         sqlite3_result_error(call, "ESCAPE must be one ASCII character", -1);
-    else
-        sqlite3_result_int(call, sqlite3_strlike(text_of(values[0]), text_of(values[1]), (unsigned char)escape[0]) == 0);
+    else sqlite3_result_int(call, sqlite3_strlike(text_of(values[0]), text_of(values[1]), (unsigned char)escape[0]) == 0);
 }
 
 static void glob(sqlite3_context *call, int count, sqlite3_value **values)
@@ -95,11 +94,13 @@ bool query_functions_install(sqlite3 *database, const double *deadline)
         const char *name;
         int arguments;
         void (*function)(sqlite3_context *, int, sqlite3_value **);
-    } ours[] = {{"like", 2, like}, {"like", 3, like}, {"glob", 2, glob}, {"instr", 2, instr}, {"replace", 3, replace},
-                {"trim", 2, refuse_trim}, {"ltrim", 2, refuse_trim}, {"rtrim", 2, refuse_trim}};
+    } ours[] = { { "like", 2, like },       { "like", 3, like },        { "glob", 2, glob },         { "instr", 2, instr },
+                 { "replace", 3, replace }, { "trim", 2, refuse_trim }, { "ltrim", 2, refuse_trim }, { "rtrim", 2, refuse_trim } };
     bool good = true;
     for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++)
-        good = good && sqlite3_create_function(database, ours[i].name, ours[i].arguments, SQLITE_UTF8 | SQLITE_DETERMINISTIC,
-                                               (void *)deadline, ours[i].function, NULL, NULL) == SQLITE_OK;
+        good = good
+               && sqlite3_create_function(database, ours[i].name, ours[i].arguments, SQLITE_UTF8 | SQLITE_DETERMINISTIC,
+                                          (void *)deadline, ours[i].function, NULL, NULL)
+                      == SQLITE_OK;
     return good;
 }

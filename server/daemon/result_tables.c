@@ -5,15 +5,20 @@
 #include "text_buffer.h"
 
 /* Table <object>_result has these columns, each named as the document's member. */
-static const struct { const char *object; const char *columns[12]; } tables[] = {
-    {"repose", {"angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady", "drift_deg_per_revolution",
-                "method", "interface_fluctuation"}},
-    {"regime", {"name", "omega2_outer", "omega2_inner"}},
-    {"segregation", {"radial_index", "axial_index", "lacey_index"}},
-    {"packing", {"solid_fraction", "coordination_number"}},
-    {"granule", {"minimum_omega2", "error", "minimum_rotation_rate", "slip_per_revolution", "slip_onset_deg"}},
-    {"run", {"particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second",
-             "maximum_overlap", "threads", "seed"}},
+static const struct {
+    const char *object;
+    const char *columns[12];
+} tables[] = {
+    { "repose",
+      { "angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady", "drift_deg_per_revolution", "method",
+        "interface_fluctuation" } },
+    { "regime", { "name", "omega2_outer", "omega2_inner" } },
+    { "segregation", { "radial_index", "axial_index", "lacey_index" } },
+    { "packing", { "solid_fraction", "coordination_number" } },
+    { "granule", { "minimum_omega2", "error", "minimum_rotation_rate", "slip_per_revolution", "slip_onset_deg" } },
+    { "run",
+      { "particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second", "maximum_overlap",
+        "threads", "seed" } },
 };
 
 static void bind_json(sqlite3_stmt *statement, int index, const json_t *value)
@@ -45,7 +50,8 @@ static store_status fill_table(sqlite3 *writer, int64_t job, size_t table, const
 store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document)
 {
     json_t *results = json_loads(document, 0, NULL);
-    store_status status = results ? sql_run(writer, NULL, "INSERT OR REPLACE INTO result VALUES(?,?)", "it", job, document) : STORE_FAILED;
+    store_status status =
+        results ? sql_run(writer, NULL, "INSERT OR REPLACE INTO result VALUES(?,?)", "it", job, document) : STORE_FAILED;
     for (size_t i = 0; status == STORE_OK && i < sizeof tables / sizeof tables[0]; i++) {
         const json_t *object = json_object_get(results, tables[i].object);
         if (object) status = fill_table(writer, job, i, object);

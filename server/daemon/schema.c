@@ -10,8 +10,8 @@ static const char job_tables[] =
     "  number INTEGER PRIMARY KEY," /* order of submission */
     "  id TEXT NOT NULL UNIQUE,"
     "  process TEXT NOT NULL,"
-    "  label TEXT NOT NULL,"  /* JSON object */
-    "  spec TEXT NOT NULL,"   /* canonical JSON */
+    "  label TEXT NOT NULL," /* JSON object */
+    "  spec TEXT NOT NULL,"  /* canonical JSON */
     "  status TEXT NOT NULL CHECK(status IN ('accepted','running','successful','failed','dismissed')),"
     "  message TEXT NOT NULL,"
     "  attempt INTEGER NOT NULL DEFAULT 1,"
@@ -68,7 +68,7 @@ static const char result_tables[] =
     "CREATE TABLE sample("
     "  job INTEGER NOT NULL REFERENCES job(number) ON DELETE CASCADE,"
     "  number INTEGER NOT NULL, step INTEGER NOT NULL, time REAL NOT NULL," /* s since rotation began */
-    "  measures TEXT NOT NULL," /* JSON object */
+    "  measures TEXT NOT NULL,"                                             /* JSON object */
     "  angle_deg REAL GENERATED ALWAYS AS (measures->>'angle_deg') VIRTUAL,"
     "  PRIMARY KEY(job, number)) STRICT, WITHOUT ROWID;"
     "CREATE TABLE snapshot("
@@ -163,8 +163,8 @@ static const char study_tables[] =
     "   dismissed=dismissed-(old.status='dismissed') WHERE number=old.study; END;";
 
 const schema_migration schema_migrations[] = {
-    {{job_tables, result_tables}},
-    {{granule_tables, run_summary_with_granule}},
-    {{study_tables}},
+    { { job_tables, result_tables } },
+    { { granule_tables, run_summary_with_granule } },
+    { { study_tables } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -7,7 +7,7 @@ typedef struct schema_migration {
 } schema_migration;
 
 extern const schema_migration schema_migrations[];
-extern const int schema_version; /* of this program */
+extern const int schema_version;             /* of this program */
 enum { SCHEMA_APPLICATION_ID = 0x72657073 }; /* "reps" */
 
 #endif

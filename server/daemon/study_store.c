@@ -12,14 +12,19 @@
 
 /* --- adding --- */
 
-static store_status insert_study(job_store *store, const study_spec *study, const study_estimate *estimate, const char *id, int64_t *number)
+static store_status insert_study(job_store *store, const study_spec *study, const study_estimate *estimate, const char *id,
+                                 int64_t *number)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
     char *document = json_dumps(study->document, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    const store_status status = !document ? STORE_FAILED : sql_run(store->writer, NULL,
-        "INSERT INTO study(id,process,name,document,cases,repeats,jobs,estimated_seconds,created,updated) VALUES(?1,?2,?3,?4,?5,?6,?5*?6,?7,?8,?8)",
-        "ttttiidt", id, study->process, study->name, document, (int64_t)study->cases, (int64_t)study->repeats, estimate->wall_seconds, now);
+    const store_status status =
+        !document ? STORE_FAILED
+                  : sql_run(store->writer, NULL,
+                            "INSERT INTO study(id,process,name,document,cases,repeats,jobs,estimated_seconds,created,updated) "
+                            "VALUES(?1,?2,?3,?4,?5,?6,?5*?6,?7,?8,?8)",
+                            "ttttiidt", id, study->process, study->name, document, (int64_t)study->cases, (int64_t)study->repeats,
+                            estimate->wall_seconds, now);
     *number = sqlite3_last_insert_rowid(store->writer);
     free(document);
     return status;
@@ -33,7 +38,8 @@ static store_status insert_case(job_store *store, const study_spec *study, int64
     char *label = json_dumps(json_object_get(request, "label"), JSON_COMPACT);
     char *inputs = json_dumps(varied, JSON_COMPACT | JSON_REAL_PRECISION(15));
     const store_status status = !label || !inputs ? STORE_FAILED
-        : sql_run(store->writer, NULL, "INSERT INTO study_case VALUES(?,?,?,?,?)", "iittt", number, (int64_t)index, name, inputs, label);
+                                                  : sql_run(store->writer, NULL, "INSERT INTO study_case VALUES(?,?,?,?,?)",
+                                                            "iittt", number, (int64_t)index, name, inputs, label);
     free(inputs);
     free(label);
     json_decref(varied);
@@ -41,7 +47,8 @@ static store_status insert_case(job_store *store, const study_spec *study, int64
     return status;
 }
 
-static store_status insert_job_of_study(job_store *store, const study_spec *study, const study_place *place, const char *id, double speed)
+static store_status insert_job_of_study(job_store *store, const study_spec *study, const study_place *place, const char *id,
+                                        double speed)
 {
     problem_list problems;
     if (!problem_list_init(&problems)) return STORE_FAILED;
@@ -61,13 +68,14 @@ static store_status insert_job_of_study(job_store *store, const study_spec *stud
 
 /* First each case once, then each case again: the whole table is seen early. Ids follow one another, because among
  * ten thousand random ones of the same second two would be equal once in a hundred studies. */
-static store_status insert_jobs(job_store *store, const study_spec *study, int64_t number, time_t second, uint32_t bits, double speed)
+static store_status insert_jobs(job_store *store, const study_spec *study, int64_t number, time_t second, uint32_t bits,
+                                double speed)
 {
     store_status status = STORE_OK;
     char id[JOB_ID_SIZE];
     for (int repeat = 0; repeat < study->repeats; repeat++) {
         for (size_t i = 0; i < study->cases && status == STORE_OK; i++) {
-            const study_place place = {number, (int64_t)i, repeat};
+            const study_place place = { number, (int64_t)i, repeat };
             store_write_id(id, second, ++bits);
             status = insert_job_of_study(store, study, &place, id, speed);
         }
@@ -101,9 +109,11 @@ store_status store_dismiss_study(job_store *store, const char *id)
     int64_t changed = 0;
     store_status status = store_begin(store);
     if (status != STORE_OK) return status;
-    status = sql_run(store->writer, &changed,
-                     "UPDATE job SET status='dismissed', message='dismissed with its study', eta_seconds=NULL, finished=?1, updated=?1"
-                     " WHERE study=(SELECT number FROM study WHERE id=?2) AND status IN ('accepted','running')", "tt", now, id);
+    status =
+        sql_run(store->writer, &changed,
+                "UPDATE job SET status='dismissed', message='dismissed with its study', eta_seconds=NULL, finished=?1, updated=?1"
+                " WHERE study=(SELECT number FROM study WHERE id=?2) AND status IN ('accepted','running')",
+                "tt", now, id);
     status = store_end(store, status);
     if (status != STORE_OK || changed > 0) return status;
     study_record study;
@@ -114,9 +124,9 @@ store_status store_dismiss_study(job_store *store, const char *id)
 /* --- looking --- */
 
 /* The + keeps to the index of running jobs, which are few, where a study may have ten thousand. */
-#define SELECT_STUDIES                                                                                               \
-    "SELECT number, id, process, name, cases, repeats, jobs, estimated_seconds, created, started, updated,"            \
-    " accepted, running, successful, failed, dismissed,"                                                              \
+#define SELECT_STUDIES                                                                                                             \
+    "SELECT number, id, process, name, cases, repeats, jobs, estimated_seconds, created, started, updated,"                        \
+    " accepted, running, successful, failed, dismissed,"                                                                           \
     " (SELECT coalesce(sum(progress),0) FROM job WHERE status='running' AND +job.study=study.number) FROM study"
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
@@ -127,9 +137,11 @@ static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
 
 static void fill_record(sqlite3_stmt *row, study_record *study)
 {
-    *study = (study_record){.number = sqlite3_column_int64(row, 0), .cases = sqlite3_column_int64(row, 4),
-                            .repeats = sqlite3_column_int64(row, 5), .jobs = sqlite3_column_int64(row, 6),
-                            .estimated_seconds = sqlite3_column_double(row, 7)};
+    *study = (study_record){ .number = sqlite3_column_int64(row, 0),
+                             .cases = sqlite3_column_int64(row, 4),
+                             .repeats = sqlite3_column_int64(row, 5),
+                             .jobs = sqlite3_column_int64(row, 6),
+                             .estimated_seconds = sqlite3_column_double(row, 7) };
     copy_text(study->id, sizeof study->id, row, 1);
     copy_text(study->process, sizeof study->process, row, 2);
     copy_text(study->name, sizeof study->name, row, 3);
@@ -194,38 +206,41 @@ static bool take_study(sqlite3_stmt *row, void *context)
 
 store_status store_list_studies(job_store *store, int64_t before, int64_t limit, study_visitor *visit, void *context)
 {
-    study_walk to = {.visit = visit, .context = context};
+    study_walk to = { .visit = visit, .context = context };
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader, SELECT_STUDIES " WHERE number<? ORDER BY number DESC LIMIT ?", "ii", before ? before : INT64_MAX, limit);
+    sqlite3_stmt *statement = sql_prepare(reader, SELECT_STUDIES " WHERE number<? ORDER BY number DESC LIMIT ?", "ii",
+                                          before ? before : INT64_MAX, limit);
     return walk(store, reader, statement, take_study, &to);
 }
 
 static bool take_case(sqlite3_stmt *row, void *context)
 {
     const study_walk *to = context;
-    const study_case_row one = {sqlite3_column_int64(row, 0), (const char *)sqlite3_column_text(row, 1),
-                                (const char *)sqlite3_column_text(row, 2), (const char *)sqlite3_column_text(row, 3)};
+    const study_case_row one = { sqlite3_column_int64(row, 0), (const char *)sqlite3_column_text(row, 1),
+                                 (const char *)sqlite3_column_text(row, 2), (const char *)sqlite3_column_text(row, 3) };
     return to->visit_case(to->context, &one);
 }
 
 store_status store_list_study_cases(job_store *store, const char *id, study_case_visitor *visit, void *context)
 {
-    study_walk to = {.visit_case = visit, .context = context};
+    study_walk to = { .visit_case = visit, .context = context };
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader, "SELECT position, name, inputs, label FROM study_case"
-                                                  " WHERE study=(SELECT number FROM study WHERE id=?) ORDER BY position", "t", id);
+    sqlite3_stmt *statement = sql_prepare(reader,
+                                          "SELECT position, name, inputs, label FROM study_case"
+                                          " WHERE study=(SELECT number FROM study WHERE id=?) ORDER BY position",
+                                          "t", id);
     return walk(store, reader, statement, take_case, &to);
 }
 
 /* The first RUN_COLUMNS say which job; the rest, by their own names, what it measured. */
 #define RUN_COLUMNS 2
-#define SELECT_RUNS                                                                                                   \
-    "SELECT job.study_case, job.status, a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg,"              \
-    " a.drift_deg_per_revolution, a.interface_fluctuation, g.name AS regime, s.radial_index, s.axial_index,"           \
-    " s.lacey_index, p.solid_fraction, p.coordination_number, r.maximum_overlap, gr.minimum_omega2, gr.error,"         \
-    " gr.minimum_rotation_rate, gr.slip_per_revolution"                                                                \
-    " FROM job LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"            \
-    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"               \
+#define SELECT_RUNS                                                                                                                \
+    "SELECT job.study_case, job.status, a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg,"                          \
+    " a.drift_deg_per_revolution, a.interface_fluctuation, g.name AS regime, s.radial_index, s.axial_index,"                       \
+    " s.lacey_index, p.solid_fraction, p.coordination_number, r.maximum_overlap, gr.minimum_omega2, gr.error,"                     \
+    " gr.minimum_rotation_rate, gr.slip_per_revolution"                                                                            \
+    " FROM job LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                        \
+    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"                           \
     " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"
 
 static json_t *measures_of(sqlite3_stmt *row)
@@ -235,7 +250,8 @@ static json_t *measures_of(sqlite3_stmt *row)
         const int type = sqlite3_column_type(row, i);
         if (type == SQLITE_NULL) continue;
         json_object_set_new(measures, sqlite3_column_name(row, i),
-                            type == SQLITE_TEXT ? json_string((const char *)sqlite3_column_text(row, i)) : json_real(sqlite3_column_double(row, i)));
+                            type == SQLITE_TEXT ? json_string((const char *)sqlite3_column_text(row, i))
+                                                : json_real(sqlite3_column_double(row, i)));
     }
     return measures;
 }
@@ -244,7 +260,7 @@ static bool take_run(sqlite3_stmt *row, void *context)
 {
     const study_walk *to = context;
     const char *status = (const char *)sqlite3_column_text(row, 1);
-    study_run_row run = {.index = sqlite3_column_int64(row, 0)};
+    study_run_row run = { .index = sqlite3_column_int64(row, 0) };
     job_status_parse(status, strlen(status), &run.status); /* the table's CHECK allows no other names */
     json_t *measures = measures_of(row);
     run.measures = measures;
@@ -255,9 +271,11 @@ static bool take_run(sqlite3_stmt *row, void *context)
 
 store_status store_list_study_runs(job_store *store, const char *id, study_run_visitor *visit, void *context)
 {
-    study_walk to = {.visit_run = visit, .context = context};
+    study_walk to = { .visit_run = visit, .context = context };
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader, SELECT_RUNS " WHERE job.study=(SELECT number FROM study WHERE id=?)"
-                                                              " ORDER BY job.study_case, job.study_repeat", "t", id);
+    sqlite3_stmt *statement = sql_prepare(reader,
+                                          SELECT_RUNS " WHERE job.study=(SELECT number FROM study WHERE id=?)"
+                                                      " ORDER BY job.study_case, job.study_repeat",
+                                          "t", id);
     return walk(store, reader, statement, take_run, &to);
 }

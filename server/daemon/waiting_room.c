@@ -28,7 +28,7 @@ static struct timespec next_look(const waiting_room *room, double now)
 {
     double at = now + SECONDS_BETWEEN_SWEEPS;
     for (const http_exchange *e = room->parked; e; e = e->next) at = fmin(at, e->resume_at);
-    return (struct timespec){(time_t)at, (long)((at - floor(at)) * 1e9)};
+    return (struct timespec){ (time_t)at, (long)((at - floor(at)) * 1e9) };
 }
 
 static void *run_clock(void *context)
@@ -132,7 +132,7 @@ static void *run_slow(void *context)
 
 bool waiting_room_open(waiting_room *room, api_service *service, connection_watch *watch)
 {
-    *room = (waiting_room){.service = service, .watch = watch};
+    *room = (waiting_room){ .service = service, .watch = watch };
     room->slow_end = &room->slow;
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);

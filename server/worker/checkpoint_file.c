@@ -21,10 +21,7 @@ static hid_t memory_type(dem_element element)
     return element == DEM_FLOAT64 ? H5T_NATIVE_DOUBLE : element == DEM_INT64 ? H5T_NATIVE_INT64 : H5T_NATIVE_INT32;
 }
 
-static size_t element_size(dem_element element)
-{
-    return element == DEM_INT32 ? 4 : 8;
-}
+static size_t element_size(dem_element element) { return element == DEM_INT32 ? 4 : 8; }
 
 static void add_number(hdf_file *file, const char *path, const char *name, int64_t number)
 {
@@ -40,7 +37,7 @@ static void add_state(hdf_file *file, const dem_state *state)
         const hid_t type = memory_type(array->element);
         char path[LONGEST_PATH];
         snprintf(path, sizeof path, "/state/%zu", a);
-        hdf_add_array(file, &(hdf_array){path, type, type, array->rows, array->columns, array->data}, HDF_PLAIN);
+        hdf_add_array(file, &(hdf_array){ path, type, type, array->rows, array->columns, array->data }, HDF_PLAIN);
         hdf_add_text_attribute(file, path, "name", array->name, H5T_CSET_ASCII);
         add_number(file, path, "element", array->element);
     }
@@ -58,8 +55,10 @@ bool checkpoint_write(const checkpoint *saved, const char *params)
     hdf_add_real_attribute(&file, "/run", "wall_seconds", saved->wall_seconds);
     hdf_add_real_attribute(&file, "/run", "time_step", saved->time_step);
     hdf_add_real_attribute(&file, "/run", "stiffness", saved->stiffness);
-    hdf_add_array(&file, &(hdf_array){"/frames", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, (size_t)saved->next_sample,
-                                      saved->frame_width, saved->frames}, HDF_PLAIN);
+    hdf_add_array(
+        &file,
+        &(hdf_array){ "/frames", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, (size_t)saved->next_sample, saved->frame_width, saved->frames },
+        HDF_PLAIN);
     add_state(&file, &saved->state);
     return hdf_publish(&file);
 }
@@ -70,7 +69,8 @@ static bool read_state_array(hid_t file, size_t place, dem_state_array *array)
     snprintf(path, sizeof path, "/state/%zu", place);
     int64_t element;
     if (!hdf_read_integer_attribute(file, path, "element", &element) || element < DEM_FLOAT64 || element > DEM_INT32
-        || !hdf_read_extent(file, path, &array->rows, &array->columns)) return false;
+        || !hdf_read_extent(file, path, &array->rows, &array->columns))
+        return false;
     array->element = (dem_element)element;
     array->name = hdf_read_text_attribute(file, path, "name");
     const size_t count = array->rows * array->columns;
@@ -81,8 +81,7 @@ static bool read_state_array(hid_t file, size_t place, dem_state_array *array)
 static bool read_state(hid_t file, dem_state *state)
 {
     int64_t count;
-    if (!hdf_read_integer_attribute(file, "/state", "arrays", &count) || count < 0 || count > DEM_STATE_ARRAYS)
-        return false;
+    if (!hdf_read_integer_attribute(file, "/state", "arrays", &count) || count < 0 || count > DEM_STATE_ARRAYS) return false;
     for (int64_t a = 0; a < count; a++) {
         state->array_count = (size_t)a + 1; /* counted before it is whole, so that clearing frees what there is */
         if (!read_state_array(file, (size_t)a, &state->array[a])) return false;
@@ -108,18 +107,17 @@ static bool read_run(hid_t file, checkpoint *saved, const char *params)
     const bool same = written && strcmp(written, params) == 0;
     free(written);
     return same && hdf_read_integer_attribute(file, "/run", "next_sample", &saved->next_sample)
-        && hdf_read_integer_attribute(file, "/run", "next_snapshot", &saved->next_snapshot)
-        && hdf_read_real_attribute(file, "/run", "wall_seconds", &saved->wall_seconds)
-        && hdf_read_real_attribute(file, "/run", "time_step", &saved->time_step)
-        && hdf_read_real_attribute(file, "/run", "stiffness", &saved->stiffness);
+           && hdf_read_integer_attribute(file, "/run", "next_snapshot", &saved->next_snapshot)
+           && hdf_read_real_attribute(file, "/run", "wall_seconds", &saved->wall_seconds)
+           && hdf_read_real_attribute(file, "/run", "time_step", &saved->time_step)
+           && hdf_read_real_attribute(file, "/run", "stiffness", &saved->stiffness);
 }
 
 bool checkpoint_read(checkpoint *saved, const char *params)
 {
     memset(saved, 0, sizeof *saved);
     const hid_t file = H5Fopen(JOB_CHECKPOINT_FILE, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const bool read = file >= 0 && read_run(file, saved, params) && read_frames(file, saved)
-                   && read_state(file, &saved->state);
+    const bool read = file >= 0 && read_run(file, saved, params) && read_frames(file, saved) && read_state(file, &saved->state);
     if (file >= 0) H5Fclose(file);
     if (read) return true;
     worker_warn("%s can't be read or is of another run: starting anew", JOB_CHECKPOINT_FILE);

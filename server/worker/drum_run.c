@@ -13,9 +13,9 @@
 #include <unistd.h>
 
 #include "checkpoint_file.h"
+#include "drum_result.h"
 #include "failure_report.h"
 #include "progress.h"
-#include "drum_result.h"
 #include "run_summary.h"
 #include "schedule.h"
 #include "snapshot_file.h"
@@ -34,7 +34,7 @@ typedef struct run {
     double *frames; /* (plan.samples, frame_width) */
     size_t frame_width;
     int64_t next_sample, next_snapshot;
-    bool is_known; /* the angle, as well as was asked for */
+    bool is_known;                       /* the angle, as well as was asked for */
     double last_checkpoint, last_series; /* s, monotonic */
     dem_phase phase;                     /* the last one logged */
     progress progress;
@@ -43,8 +43,8 @@ typedef struct run {
 /* Takes over `members`, which follow the event's name, step and time. */
 static bool add_event(run *r, const char *name, json_t *members)
 {
-    json_t *event = json_pack("{s:s, s:I, s:f}", "event", name, "step", (json_int_t)dem_scene_step_count(r->scene),
-                              "time", dem_scene_time(r->scene) + 0.0 /* no -0 at the start */);
+    json_t *event = json_pack("{s:s, s:I, s:f}", "event", name, "step", (json_int_t)dem_scene_step_count(r->scene), "time",
+                              dem_scene_time(r->scene) + 0.0 /* no -0 at the start */);
     if (!members || !event || json_object_update(event, members) != 0) {
         json_decref(event);
         event = NULL;
@@ -58,10 +58,7 @@ static enum worker_exit fail(run *r, dem_status status)
     return failure_report(r->events, status, r->scene ? dem_scene_failure(r->scene) : NULL);
 }
 
-static enum worker_exit fail_for_disk(run *r, const char *name)
-{
-    return failure_report_disk(r->events, name);
-}
+static enum worker_exit fail_for_disk(run *r, const char *name) { return failure_report_disk(r->events, name); }
 
 /* Rotation's first step is not known before: in the phases before it the scene is looked at after every step. */
 static dem_status advance_towards_rotation(dem_scene *scene, int64_t steps)
@@ -73,15 +70,9 @@ static dem_status advance_towards_rotation(dem_scene *scene, int64_t steps)
 }
 
 /* Steps since rotation began. */
-static int64_t rotation_step(const run *r)
-{
-    return dem_scene_step_count(r->scene) - dem_scene_rotation_start(r->scene);
-}
+static int64_t rotation_step(const run *r) { return dem_scene_step_count(r->scene) - dem_scene_rotation_start(r->scene); }
 
-static bool is_rotating(const run *r)
-{
-    return dem_scene_phase(r->scene) == DEM_PHASE_ROTATING;
-}
+static bool is_rotating(const run *r) { return dem_scene_phase(r->scene) == DEM_PHASE_ROTATING; }
 
 static dem_status advance(run *r)
 {
@@ -126,15 +117,14 @@ static enum worker_exit end_when_known(run *r)
     if (status == DEM_TOO_FEW_FRAMES) return WORKER_DONE;
     if (status != DEM_OK) return fail(r, status);
     r->is_known = now.repose.steady && now.repose.frames >= LEAST_FRAMES
-               && now.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= r->spec->until_standard_error;
+                  && now.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= r->spec->until_standard_error;
     if (r->is_known) schedule_end_at(&r->plan, rotation_step(r), r->next_sample, r->next_snapshot);
     return WORKER_DONE;
 }
 
 static bool write_series(run *r, bool now)
 {
-    if (!now && r->next_snapshot >= SERIES_ALWAYS_BELOW && monotonic_seconds() - r->last_series < SERIES_SECONDS)
-        return true;
+    if (!now && r->next_snapshot >= SERIES_ALWAYS_BELOW && monotonic_seconds() - r->last_series < SERIES_SECONDS) return true;
     r->last_series = monotonic_seconds();
     return snapshot_series_write(&r->plan, r->spec->drum.time_step, r->next_snapshot);
 }
@@ -144,9 +134,9 @@ static enum worker_exit take_snapshot(run *r)
     int64_t bytes;
     if (!snapshot_file_write(r->scene, r->next_snapshot, r->params, &bytes)) return fail_for_disk(r, "a snapshot");
     const long long number = r->next_snapshot++;
-    json_t *event = json_pack("{s:I, s:o, s:I, s:I}", "number", (json_int_t)number,
-                              "file", json_sprintf(JOB_SNAPSHOT_FILE_FORMAT, number), "bytes", (json_int_t)bytes,
-                              "particles", (json_int_t)dem_scene_particle_count(r->scene));
+    json_t *event =
+        json_pack("{s:I, s:o, s:I, s:I}", "number", (json_int_t)number, "file", json_sprintf(JOB_SNAPSHOT_FILE_FORMAT, number),
+                  "bytes", (json_int_t)bytes, "particles", (json_int_t)dem_scene_particle_count(r->scene));
     if (!write_series(r, false)) return fail_for_disk(r, JOB_SERIES_FILE);
     return add_event(r, "snapshot", event) ? WORKER_DONE : WORKER_DISK;
 }
@@ -159,8 +149,7 @@ static enum worker_exit take_what_is_due(run *r)
     const bool sampled = r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) == step;
     if (sampled) exit = take_sample(r);
     if (exit == WORKER_DONE && sampled) exit = end_when_known(r);
-    if (exit == WORKER_DONE && r->next_snapshot < r->plan.snapshots
-        && schedule_snapshot_step(&r->plan, r->next_snapshot) == step)
+    if (exit == WORKER_DONE && r->next_snapshot < r->plan.snapshots && schedule_snapshot_step(&r->plan, r->next_snapshot) == step)
         exit = take_snapshot(r);
     return exit;
 }
@@ -195,9 +184,8 @@ static enum worker_exit report_progress(run *r)
     progress_report report;
     if (!progress_is_due(&r->progress, r->scene, &report)) return WORKER_DONE;
     if (r->options->on_terminal) terminal_progress(&report, r->phase, dem_scene_time(r->scene));
-    json_t *event = json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_phase_name(r->phase), "progress", report.percent,
-                              "eta_seconds", json_real_or_null(report.eta_seconds), "particle_steps_per_second",
-                              report.particle_steps_per_second);
+    json_t *event = json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_phase_name(r->phase), "progress", report.percent, "eta_seconds",
+                              json_real_or_null(report.eta_seconds), "particle_steps_per_second", report.particle_steps_per_second);
     return add_event(r, "progress", event) ? WORKER_DONE : WORKER_DISK;
 }
 
@@ -244,7 +232,9 @@ static run_facts facts_of(const run *r)
         .threads = drum->threads,
         .seed = (double)drum->seed,
         .attempt = r->options->attempt,
-        .ended_by = r->is_known ? "standard-error" : r->spec->until_standard_error > 0 ? "at-most-revolutions" : "duration",
+        .ended_by = r->is_known                         ? "standard-error"
+                    : r->spec->until_standard_error > 0 ? "at-most-revolutions"
+                                                        : "duration",
     };
 }
 
@@ -274,8 +264,8 @@ static bool resume(run *r, double *earlier_seconds)
     if (!checkpoint_read(&saved, r->params)) return false;
     /* Another version of the program may derive other numbers from the same inputs. */
     const bool fits = saved.time_step == r->spec->drum.time_step && saved.stiffness == r->spec->drum.contact.stiffness
-                   && saved.frame_width == r->frame_width && saved.next_sample <= r->plan.samples
-                   && saved.next_snapshot >= 0 && saved.next_snapshot <= r->plan.snapshots;
+                      && saved.frame_width == r->frame_width && saved.next_sample <= r->plan.samples && saved.next_snapshot >= 0
+                      && saved.next_snapshot <= r->plan.snapshots;
     const dem_status status = fits ? dem_scene_restore(r->scene, &saved.state) : DEM_STATE_MISMATCH;
     if (status == DEM_OK) {
         memcpy(r->frames, saved.frames, (size_t)saved.next_sample * saved.frame_width * sizeof *saved.frames);
@@ -315,20 +305,20 @@ static enum worker_exit begin(run *r)
     r->last_checkpoint = monotonic_seconds();
     r->phase = dem_scene_phase(r->scene);
     const job_estimate estimate = job_spec_estimate(r->spec, 0.0);
-    worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d",
-               r->options->attempt, resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene),
-               dem_phase_name(r->phase), dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps,
-               r->spec->drum.threads);
-    json_t *event = json_pack("{s:i, s:b, s:I, s:f, s:I}", "attempt", r->options->attempt, "resumed", resumed,
-                              "particles", (json_int_t)dem_scene_particle_count(r->scene), "time_step",
-                              r->spec->drum.time_step, "total_steps", (json_int_t)estimate.steps);
+    worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d", r->options->attempt,
+               resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene), dem_phase_name(r->phase),
+               dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps, r->spec->drum.threads);
+    json_t *event = json_pack("{s:i, s:b, s:I, s:f, s:I}", "attempt", r->options->attempt, "resumed", resumed, "particles",
+                              (json_int_t)dem_scene_particle_count(r->scene), "time_step", r->spec->drum.time_step, "total_steps",
+                              (json_int_t)estimate.steps);
     return add_event(r, "start", event) ? WORKER_DONE : WORKER_DISK;
 }
 
 enum worker_exit drum_run(const job_context *job)
 {
-    run r = {.spec = job->spec, .options = job->options, .params = job->params, .events = job->events,
-             .plan = schedule_of(job->spec)};
+    run r = {
+        .spec = job->spec, .options = job->options, .params = job->params, .events = job->events, .plan = schedule_of(job->spec)
+    };
     enum worker_exit exit = begin(&r);
     if (exit == WORKER_DONE) exit = run_to_the_end(&r);
     if (exit == WORKER_DONE) exit = write_result(&r);

@@ -25,7 +25,7 @@ static bool lock_for_this_worker(int fd)
 {
     for (int tries = 0; tries < 50; tries++) {
         if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
-        nanosleep(&(struct timespec){.tv_nsec = 100000000}, NULL);
+        nanosleep(&(struct timespec){ .tv_nsec = 100000000 }, NULL);
     }
     return false;
 }
@@ -44,7 +44,7 @@ static bool cut_unfinished_line(int fd)
 
 bool event_log_open(event_log *log)
 {
-    *log = (event_log){.fd = open(JOB_EVENTS_FILE, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644)};
+    *log = (event_log){ .fd = open(JOB_EVENTS_FILE, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644) };
     if (log->fd < 0) return fail(log, strerror(errno));
     if (!lock_for_this_worker(log->fd)) return fail(log, "another worker is at work in this folder");
     if (!cut_unfinished_line(log->fd)) return fail(log, strerror(errno));
@@ -57,10 +57,7 @@ void event_log_close(event_log *log)
     log->fd = -1;
 }
 
-bool event_log_empty(event_log *log)
-{
-    return ftruncate(log->fd, 0) == 0 || fail(log, strerror(errno));
-}
+bool event_log_empty(event_log *log) { return ftruncate(log->fd, 0) == 0 || fail(log, strerror(errno)); }
 
 bool event_log_add(event_log *log, json_t *event)
 {
@@ -80,12 +77,6 @@ bool event_log_add(event_log *log, json_t *event)
     return fail(log, written < 0 ? strerror(reason) : "no room for a whole line");
 }
 
-bool event_log_sync(event_log *log)
-{
-    return !log->failed && (fsync(log->fd) == 0 || fail(log, strerror(errno)));
-}
+bool event_log_sync(event_log *log) { return !log->failed && (fsync(log->fd) == 0 || fail(log, strerror(errno))); }
 
-json_t *json_real_or_null(double number)
-{
-    return isfinite(number) ? json_real(number) : json_null();
-}
+json_t *json_real_or_null(double number) { return isfinite(number) ? json_real(number) : json_null(); }

@@ -12,18 +12,18 @@ typedef struct failure_kind {
 static failure_kind kind_of(dem_status status)
 {
     switch (status) {
-    case DEM_OK:                return (failure_kind){"none", WORKER_FAULT};
-    case DEM_NO_MEMORY:         return (failure_kind){"no-memory", WORKER_FAULT};
-    case DEM_BAD_PARAMETER:     return (failure_kind){"bad-parameter", WORKER_BAD_SPEC};
-    case DEM_DOES_NOT_FIT:      return (failure_kind){"does-not-fit", WORKER_BAD_SPEC};
-    case DEM_NOT_A_NUMBER:      return (failure_kind){"not-a-number", WORKER_NUMERICAL};
-    case DEM_OVERLAP_TOO_LARGE: return (failure_kind){"overlap-too-large", WORKER_NUMERICAL};
-    case DEM_PARTICLE_ESCAPED:  return (failure_kind){"particle-escaped", WORKER_NUMERICAL};
-    case DEM_NEVER_SETTLED:     return (failure_kind){"never-settled", WORKER_NUMERICAL};
-    case DEM_TOO_FEW_FRAMES:    return (failure_kind){"too-few-frames", WORKER_FAULT};
-    case DEM_STATE_MISMATCH:    return (failure_kind){"state-mismatch", WORKER_FAULT};
+    case DEM_OK: return (failure_kind){ "none", WORKER_FAULT };
+    case DEM_NO_MEMORY: return (failure_kind){ "no-memory", WORKER_FAULT };
+    case DEM_BAD_PARAMETER: return (failure_kind){ "bad-parameter", WORKER_BAD_SPEC };
+    case DEM_DOES_NOT_FIT: return (failure_kind){ "does-not-fit", WORKER_BAD_SPEC };
+    case DEM_NOT_A_NUMBER: return (failure_kind){ "not-a-number", WORKER_NUMERICAL };
+    case DEM_OVERLAP_TOO_LARGE: return (failure_kind){ "overlap-too-large", WORKER_NUMERICAL };
+    case DEM_PARTICLE_ESCAPED: return (failure_kind){ "particle-escaped", WORKER_NUMERICAL };
+    case DEM_NEVER_SETTLED: return (failure_kind){ "never-settled", WORKER_NUMERICAL };
+    case DEM_TOO_FEW_FRAMES: return (failure_kind){ "too-few-frames", WORKER_FAULT };
+    case DEM_STATE_MISMATCH: return (failure_kind){ "state-mismatch", WORKER_FAULT };
     }
-    return (failure_kind){"unknown", WORKER_FAULT};
+    return (failure_kind){ "unknown", WORKER_FAULT };
 }
 
 /* "an overlap is too large: particle 17 with the wall, overlap 1.2e-3 m (limit 9e-4 m) at (..) m, step 5, 0.1 s after
@@ -46,15 +46,13 @@ static void describe(const dem_failure *failure, char *text, size_t size)
 
 static json_t *detail_json(const dem_failure *failure)
 {
-    json_t *detail = json_pack("{s:I, s:o, s:I, s:I, s:[o, o, o], s:o, s:o, s:s, s:s, s:s}",
-                               "step", (json_int_t)failure->step, "time", json_real_or_null(failure->time),
-                               "particle", (json_int_t)failure->particle, "other", (json_int_t)failure->other,
-                               "position", json_real_or_null(failure->position[0]),
-                               json_real_or_null(failure->position[1]), json_real_or_null(failure->position[2]),
-                               "value", json_real_or_null(failure->value), "limit", json_real_or_null(failure->limit),
-                               "quantity", failure->quantity ? failure->quantity : "",
-                               "unit", failure->unit ? failure->unit : "",
-                               "likely_cause", failure->likely_cause ? failure->likely_cause : "");
+    json_t *detail =
+        json_pack("{s:I, s:o, s:I, s:I, s:[o, o, o], s:o, s:o, s:s, s:s, s:s}", "step", (json_int_t)failure->step, "time",
+                  json_real_or_null(failure->time), "particle", (json_int_t)failure->particle, "other", (json_int_t)failure->other,
+                  "position", json_real_or_null(failure->position[0]), json_real_or_null(failure->position[1]),
+                  json_real_or_null(failure->position[2]), "value", json_real_or_null(failure->value), "limit",
+                  json_real_or_null(failure->limit), "quantity", failure->quantity ? failure->quantity : "", "unit",
+                  failure->unit ? failure->unit : "", "likely_cause", failure->likely_cause ? failure->likely_cause : "");
     return detail;
 }
 

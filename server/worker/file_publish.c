@@ -20,8 +20,7 @@ void file_log_write_failure(const char *name, const char *reason)
     if (statvfs(".", &disk) == 0)
         worker_warn("can't write %s: %s (%.1f MB free on its disk)", name, reason,
                     1e-6 * (double)disk.f_bavail * (double)disk.f_frsize);
-    else
-        worker_warn("can't write %s: %s", name, reason);
+    else worker_warn("can't write %s: %s", name, reason);
 }
 
 static bool sync_path(const char *path, int flags)

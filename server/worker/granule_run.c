@@ -21,8 +21,9 @@ enum worker_exit granule_run(const job_context *job)
     dem_granule_result solved;
     const dem_status status = dem_granule_solve(&job->spec->granule, &solved);
     if (status != DEM_OK) return failure_report(job->events, status, NULL);
-    const run_facts facts = {.particles = 1, .wall_seconds = monotonic_seconds() - started, .threads = 1,
-                             .attempt = job->options->attempt};
+    const run_facts facts = {
+        .particles = 1, .wall_seconds = monotonic_seconds() - started, .threads = 1, .attempt = job->options->attempt
+    };
     granule_result result;
     granule_result_set(&result, &solved, &facts);
     worker_log("least omega^2 R/g %.9g, found in %.3f s", solved.minimum_omega2, facts.wall_seconds);

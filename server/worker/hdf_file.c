@@ -16,10 +16,7 @@ static herr_t log_error_stack(hid_t stack, void *unused)
     return H5Eprint2(stack, stderr);
 }
 
-void hdf_init(void)
-{
-    H5Eset_auto2(H5E_DEFAULT, log_error_stack, NULL);
-}
+void hdf_init(void) { H5Eset_auto2(H5E_DEFAULT, log_error_stack, NULL); }
 
 static bool is_good(hdf_file *file, hid_t id)
 {
@@ -42,7 +39,7 @@ void hdf_create(hdf_file *file, const char *name)
 {
     char temporary[PATH_MAX];
     snprintf(temporary, sizeof temporary, "%s.tmp", name);
-    *file = (hdf_file){.file = H5I_INVALID_HID, .name = name};
+    *file = (hdf_file){ .file = H5I_INVALID_HID, .name = name };
     const hid_t properties = properties_without_times(H5P_FILE_CREATE);
     if (!is_good(file, properties)) return;
     file->file = H5Fcreate(temporary, H5F_ACC_TRUNC, properties, H5P_DEFAULT);
@@ -64,7 +61,7 @@ static hid_t array_properties(const hdf_array *array, hdf_packing packing)
 {
     const hid_t properties = properties_without_times(H5P_DATASET_CREATE);
     if (properties < 0 || packing == HDF_PLAIN || array->rows == 0) return properties;
-    const hsize_t chunk[2] = {array->rows < ROWS_OF_A_CHUNK ? array->rows : ROWS_OF_A_CHUNK, array->columns};
+    const hsize_t chunk[2] = { array->rows < ROWS_OF_A_CHUNK ? array->rows : ROWS_OF_A_CHUNK, array->columns };
     if (H5Pset_chunk(properties, array->columns ? 2 : 1, chunk) < 0 || H5Pset_shuffle(properties) < 0
         || H5Pset_deflate(properties, GZIP_LEVEL) < 0) {
         H5Pclose(properties);
@@ -76,7 +73,7 @@ static hid_t array_properties(const hdf_array *array, hdf_packing packing)
 void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing)
 {
     if (file->failed) return;
-    const hsize_t extent[2] = {array->rows, array->columns};
+    const hsize_t extent[2] = { array->rows, array->columns };
     const hid_t space = H5Screate_simple(array->columns ? 2 : 1, extent, NULL);
     const hid_t properties = array_properties(array, packing);
     if (is_good(file, space) && is_good(file, properties)) {
@@ -119,8 +116,7 @@ void hdf_add_text_attribute(hdf_file *file, const char *path, const char *name, 
     if (space >= 0) H5Sclose(space);
 }
 
-void hdf_add_integers_attribute(hdf_file *file, const char *path, const char *name, const int64_t *numbers,
-                                size_t count)
+void hdf_add_integers_attribute(hdf_file *file, const char *path, const char *name, const int64_t *numbers, size_t count)
 {
     if (file->failed) return;
     const hsize_t extent = count;

@@ -45,8 +45,7 @@ bool hdf_read_extent(hid_t file, const char *path, size_t *rows, size_t *columns
     if (set < 0) return false;
     const hid_t space = H5Dget_space(set);
     hsize_t extent[2];
-    const bool plain = space >= 0 && H5Sget_simple_extent_ndims(space) == 2
-                    && H5Sget_simple_extent_dims(space, extent, NULL) == 2;
+    const bool plain = space >= 0 && H5Sget_simple_extent_ndims(space) == 2 && H5Sget_simple_extent_dims(space, extent, NULL) == 2;
     if (space >= 0) H5Sclose(space);
     H5Dclose(set);
     if (!plain) return false;

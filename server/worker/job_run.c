@@ -23,8 +23,8 @@ typedef struct job_runner {
 } job_runner;
 
 static const job_runner runners[] = {
-    {"drum", drum_run, terminal_summary},
-    {"granule", granule_run, granule_summary},
+    { "drum", drum_run, terminal_summary },
+    { "granule", granule_run, granule_summary },
 };
 
 /* NULL: none, which is our own mistake. */
@@ -45,7 +45,7 @@ static void request_stop(int signal_number)
 
 void job_run_catch_signals(void)
 {
-    struct sigaction action = {.sa_handler = request_stop, .sa_flags = SA_RESTART};
+    struct sigaction action = { .sa_handler = request_stop, .sa_flags = SA_RESTART };
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGINT, &action, NULL);
     if (signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup has it ignored */
@@ -54,10 +54,7 @@ void job_run_catch_signals(void)
     signal(SIGPIPE, SIG_IGN);
 }
 
-bool job_run_is_asked_to_stop(void)
-{
-    return stop_requested;
-}
+bool job_run_is_asked_to_stop(void) { return stop_requested; }
 
 enum worker_exit job_run_write_result(event_log *events, json_t *document)
 {
@@ -89,12 +86,11 @@ enum worker_exit job_run(const job_spec *spec, const char *folder, const run_opt
 {
     const job_runner *runner = runner_of(spec->process);
     char *params = job_spec_to_text(spec);
-    event_log events = {.fd = -1};
+    event_log events = { .fd = -1 };
     enum worker_exit exit = WORKER_FAULT;
     if (!params) worker_warn("out of memory");
     else if (!runner) worker_warn("no runner for the process %s", spec->process);
-    else if (run_folder_enter(folder, &events))
-        exit = run_in_folder(runner, &(job_context){spec, options, params, &events});
+    else if (run_folder_enter(folder, &events)) exit = run_in_folder(runner, &(job_context){ spec, options, params, &events });
     event_log_close(&events);
     free(params);
     return exit;

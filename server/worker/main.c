@@ -73,11 +73,11 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        {"out", required_argument, NULL, 'o'},     {"threads", required_argument, NULL, 't'},
-        {"attempt", required_argument, NULL, 'a'}, {"checkpoint-seconds", required_argument, NULL, 'c'},
-        {"json", no_argument, NULL, 'j'},          {NULL, 0, NULL, 0},
+        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },          { NULL, 0, NULL, 0 },
     };
-    *line = (command_line){.run = {.attempt = 1, .checkpoint_seconds = 30.0}};
+    *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
     bool good = true;
     for (int option; good && (option = getopt_long(argc, argv, "o:", options, NULL)) != -1;) {
         switch (option) {
@@ -128,10 +128,7 @@ static enum worker_exit refuse(problem_list *problems)
     return WORKER_BAD_SPEC;
 }
 
-static const char *path_of(const char *name)
-{
-    return strcmp(name, "-") == 0 ? "/dev/stdin" : name;
-}
+static const char *path_of(const char *name) { return strcmp(name, "-") == 0 ? "/dev/stdin" : name; }
 
 /* The spec, or the problem document on stdout. */
 static enum worker_exit load_spec(const char *name, const char *folder, job_spec *spec)

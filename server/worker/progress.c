@@ -17,8 +17,7 @@ double monotonic_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *scene,
-                   double earlier_seconds)
+void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *scene, double earlier_seconds)
 {
     const dem_drum_definition *drum = &spec->drum;
     const double now = monotonic_seconds();
@@ -48,9 +47,8 @@ bool progress_is_due(progress *run, const dem_scene *scene, progress_report *rep
     if (passed < SECONDS_BETWEEN_REPORTS) return false;
     const int64_t step = dem_scene_step_count(scene);
     const double speed = (double)(step - run->last_step) / passed;
-    run->steps_per_second = run->steps_per_second > 0.0
-                          ? (1.0 - NEWEST_WEIGHT) * run->steps_per_second + NEWEST_WEIGHT * speed
-                          : speed;
+    run->steps_per_second =
+        run->steps_per_second > 0.0 ? (1.0 - NEWEST_WEIGHT) * run->steps_per_second + NEWEST_WEIGHT * speed : speed;
     run->last_step = step;
     run->last_report = now;
 
@@ -64,10 +62,7 @@ bool progress_is_due(progress *run, const dem_scene *scene, progress_report *rep
     return true;
 }
 
-double progress_wall_seconds(const progress *run)
-{
-    return run->earlier_seconds + monotonic_seconds() - run->started;
-}
+double progress_wall_seconds(const progress *run) { return run->earlier_seconds + monotonic_seconds() - run->started; }
 
 int64_t progress_short_run(const progress *run)
 {

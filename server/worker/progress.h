@@ -10,12 +10,12 @@
 #include "schedule.h"
 
 typedef struct progress {
-    double started, last_report;  /* s, monotonic clock */
-    double earlier_seconds;       /* spent by earlier attempts on the way to where this one started */
+    double started, last_report; /* s, monotonic clock */
+    double earlier_seconds;      /* spent by earlier attempts on the way to where this one started */
     double spheres, settling_steps_expected, rotation_steps;
-    double steps_per_second;      /* of late; 0: not known yet */
+    double steps_per_second; /* of late; 0: not known yet */
     int64_t last_step;
-    double last_percent;          /* never goes back */
+    double last_percent; /* never goes back */
 } progress;
 
 typedef struct progress_report {
@@ -24,8 +24,7 @@ typedef struct progress_report {
 
 double monotonic_seconds(void);
 
-void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *scene,
-                   double earlier_seconds);
+void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *scene, double earlier_seconds);
 
 /* True when a report is due (about once a second, of wall time) and made. */
 bool progress_is_due(progress *run, const dem_scene *scene, progress_report *report);

@@ -2,10 +2,7 @@
 
 #include <math.h>
 
-static int64_t step_of(double steps_between, int64_t number)
-{
-    return llround((double)number * steps_between);
-}
+static int64_t step_of(double steps_between, int64_t number) { return llround((double)number * steps_between); }
 
 /* How many of 0, 1, 2, ... fall at or before the end (or strictly before it). */
 static int64_t count_until(double steps_between, int64_t end, int strictly_before)
@@ -26,20 +23,15 @@ schedule schedule_of(const job_spec *spec)
     };
     plan.samples = count_until(plan.steps_per_sample, plan.rotation_steps, 0);
     plan.snapshots = 1;
-    if (plan.steps_per_snapshot > 0.0)
-        plan.snapshots += count_until(plan.steps_per_snapshot, plan.rotation_steps, 1);
+    if (plan.steps_per_snapshot > 0.0) plan.snapshots += count_until(plan.steps_per_snapshot, plan.rotation_steps, 1);
     return plan;
 }
 
-int64_t schedule_sample_step(const schedule *plan, int64_t number)
-{
-    return step_of(plan->steps_per_sample, number);
-}
+int64_t schedule_sample_step(const schedule *plan, int64_t number) { return step_of(plan->steps_per_sample, number); }
 
 int64_t schedule_snapshot_step(const schedule *plan, int64_t number)
 {
-    return number + 1 >= plan->snapshots ? plan->rotation_steps
-                                             : step_of(plan->steps_per_snapshot, number);
+    return number + 1 >= plan->snapshots ? plan->rotation_steps : step_of(plan->steps_per_snapshot, number);
 }
 
 void schedule_end_at(schedule *plan, int64_t step, int64_t samples, int64_t snapshots)

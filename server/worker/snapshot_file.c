@@ -23,17 +23,17 @@
 
 static void add_reals(hdf_file *file, const char *path, const double *data, size_t rows, size_t columns)
 {
-    hdf_add_array(file, &(hdf_array){path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, rows, columns, data}, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, rows, columns, data }, HDF_COMPRESSED);
 }
 
 static void add_integers(hdf_file *file, const char *path, const int32_t *data, size_t rows)
 {
-    hdf_add_array(file, &(hdf_array){path, H5T_NATIVE_INT32, H5T_STD_I32LE, rows, 0, data}, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_INT32, H5T_STD_I32LE, rows, 0, data }, HDF_COMPRESSED);
 }
 
 static void add_one(hdf_file *file, const char *path, int64_t number)
 {
-    hdf_add_array(file, &(hdf_array){path, H5T_NATIVE_INT64, H5T_STD_I64LE, 1, 0, &number}, HDF_PLAIN);
+    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_INT64, H5T_STD_I64LE, 1, 0, &number }, HDF_PLAIN);
 }
 
 /* Each sphere is a cell of one point. rising, vertices: room for n + 1 and n. */
@@ -44,46 +44,44 @@ static void add_cells(hdf_file *file, size_t n, int64_t *rising, uint8_t *vertic
     add_one(file, "/VTKHDF/NumberOfPoints", (int64_t)n);
     add_one(file, "/VTKHDF/NumberOfCells", (int64_t)n);
     add_one(file, "/VTKHDF/NumberOfConnectivityIds", (int64_t)n);
-    hdf_add_array(file, &(hdf_array){"/VTKHDF/Connectivity", H5T_NATIVE_INT64, H5T_STD_I64LE, n, 0, rising},
-                  HDF_COMPRESSED);
-    hdf_add_array(file, &(hdf_array){"/VTKHDF/Offsets", H5T_NATIVE_INT64, H5T_STD_I64LE, n + 1, 0, rising},
-                  HDF_COMPRESSED);
-    hdf_add_array(file, &(hdf_array){"/VTKHDF/Types", H5T_NATIVE_UINT8, H5T_STD_U8LE, n, 0, vertices}, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Connectivity", H5T_NATIVE_INT64, H5T_STD_I64LE, n, 0, rising }, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Offsets", H5T_NATIVE_INT64, H5T_STD_I64LE, n + 1, 0, rising }, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Types", H5T_NATIVE_UINT8, H5T_STD_U8LE, n, 0, vertices }, HDF_COMPRESSED);
 }
 
 /* reals: room for 4 n, used for one field after the other, as is integers with n. */
 static void add_spheres(hdf_file *file, const dem_scene *scene, double *reals, int32_t *integers)
 {
     const size_t n = dem_scene_sphere_count(scene);
-    dem_scene_particles(scene, &(dem_particle_arrays){.position = reals});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .position = reals });
     add_reals(file, "/VTKHDF/Points", reals, n, 3);
-    dem_scene_particles(scene, &(dem_particle_arrays){.radius = reals});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .radius = reals });
     add_reals(file, "/VTKHDF/PointData/radius", reals, n, 0);
-    dem_scene_particles(scene, &(dem_particle_arrays){.angular_velocity = reals});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .angular_velocity = reals });
     add_reals(file, "/VTKHDF/PointData/angular_velocity", reals, n, 3);
-    dem_scene_particles(scene, &(dem_particle_arrays){.velocity = reals});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .velocity = reals });
     add_reals(file, "/VTKHDF/PointData/velocity", reals, n, 3);
-    for (size_t i = 0; i < n; i++) reals[i] = sqrt(reals[3 * i] * reals[3 * i] + reals[3 * i + 1] * reals[3 * i + 1]
-                                                   + reals[3 * i + 2] * reals[3 * i + 2]);
+    for (size_t i = 0; i < n; i++)
+        reals[i] = sqrt(reals[3 * i] * reals[3 * i] + reals[3 * i + 1] * reals[3 * i + 1] + reals[3 * i + 2] * reals[3 * i + 2]);
     add_reals(file, "/VTKHDF/PointData/speed", reals, n, 0);
 
     for (size_t i = 0; i < n; i++) integers[i] = (int32_t)i;
     add_integers(file, "/VTKHDF/PointData/id", integers, n);
-    dem_scene_particles(scene, &(dem_particle_arrays){.species = integers});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .species = integers });
     add_integers(file, "/VTKHDF/PointData/species", integers, n);
-    dem_scene_particles(scene, &(dem_particle_arrays){.contacts = integers});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .contacts = integers });
     add_integers(file, "/VTKHDF/PointData/contacts", integers, n);
-    dem_scene_particles(scene, &(dem_particle_arrays){.cluster = integers});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .cluster = integers });
     add_integers(file, "/VTKHDF/PointData/cluster", integers, n);
     /* A sphere by itself turns without anything depending on where it points to: it has none. */
     if (!dem_scene_has_clusters(scene)) return;
-    dem_scene_particles(scene, &(dem_particle_arrays){.orientation = reals});
+    dem_scene_particles(scene, &(dem_particle_arrays){ .orientation = reals });
     add_reals(file, "/VTKHDF/PointData/orientation", reals, n, 4);
 }
 
 static void add_groups(hdf_file *file, const char *params)
 {
-    static const int64_t version[2] = {1, 0};
+    static const int64_t version[2] = { 1, 0 };
     hdf_add_group(file, "/VTKHDF");
     hdf_add_integers_attribute(file, "/VTKHDF", "Version", version, 2);
     hdf_add_text_attribute(file, "/VTKHDF", "Type", "UnstructuredGrid", H5T_CSET_ASCII);
@@ -104,8 +102,7 @@ static bool write_file(const char *name, const dem_scene *scene, const char *par
     add_groups(&file, params);
     add_cells(&file, dem_scene_sphere_count(scene), rising, vertices);
     add_spheres(&file, scene, reals, integers);
-    hdf_add_array(&file, &(hdf_array){"/VTKHDF/FieldData/time", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &time},
-                  HDF_PLAIN);
+    hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/time", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &time }, HDF_PLAIN);
     add_one(&file, "/VTKHDF/FieldData/step", dem_scene_step_count(scene));
     hdf_add_hard_link(&file, "/VTKHDF/Points", "/particles/position");
     return hdf_publish(&file);
@@ -121,10 +118,8 @@ bool snapshot_file_write(const dem_scene *scene, int64_t number, const char *par
     int32_t *integers = malloc(n * sizeof *integers);
     uint8_t *vertices = malloc(n);
     bool written = false;
-    if (reals && rising && integers && vertices)
-        written = write_file(name, scene, params, reals, rising, integers, vertices);
-    else
-        worker_warn("can't write %s: out of memory", name);
+    if (reals && rising && integers && vertices) written = write_file(name, scene, params, reals, rising, integers, vertices);
+    else worker_warn("can't write %s: out of memory", name);
     free(reals);
     free(rising);
     free(integers);
@@ -143,8 +138,8 @@ bool snapshot_series_write(const schedule *plan, double time_step, int64_t count
     if (!stream) return false;
     fputs("{\"file-series-version\":\"1.0\",\"files\":[", stream);
     for (int64_t number = 0; number < count; number++)
-        fprintf(stream, "%s\n{\"name\":\"" JOB_SNAPSHOT_FOLDER "/" JOB_SNAPSHOT_FILE_FORMAT "\",\"time\":%.9g}",
-                number ? "," : "", (long long)number, (double)schedule_snapshot_step(plan, number) * time_step);
+        fprintf(stream, "%s\n{\"name\":\"" JOB_SNAPSHOT_FOLDER "/" JOB_SNAPSHOT_FILE_FORMAT "\",\"time\":%.9g}", number ? "," : "",
+                (long long)number, (double)schedule_snapshot_step(plan, number) * time_step);
     fputs("\n]}\n", stream);
     bool written = fclose(stream) == 0 && text;
     written = written && file_write(JOB_SERIES_FILE, text, length);

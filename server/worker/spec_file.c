@@ -15,8 +15,7 @@ json_t *spec_file_read(const char *name, problem_list *problems)
     errno = 0;
     char *text = file_read(name, LONGEST_SPEC, &length);
     if (!text) {
-        problem_list_add(problems, "", "can't read %.200s: %s", name,
-                         errno ? strerror(errno) : "it is longer than 1 MB");
+        problem_list_add(problems, "", "can't read %.200s: %s", name, errno ? strerror(errno) : "it is longer than 1 MB");
         return NULL;
     }
     json_t *document = json_text_load(text, length, problems);

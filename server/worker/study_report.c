@@ -4,10 +4,7 @@
 
 enum { MOST_JOBS = 1000000 }; /* a daemon's own limit may be lower */
 
-bool study_report_is_study(const json_t *document)
-{
-    return json_object_get(document, "base") != NULL;
-}
+bool study_report_is_study(const json_t *document) { return json_object_get(document, "base") != NULL; }
 
 static json_t *cases_of(const study_spec *study)
 {
@@ -22,7 +19,7 @@ static json_t *cases_of(const study_spec *study)
 
 json_t *study_report(const json_t *document, uint64_t seed_if_missing, problem_list *problems)
 {
-    const study_options options = {.seed_if_missing = seed_if_missing, .default_threads = 1, .most_jobs = MOST_JOBS};
+    const study_options options = { .seed_if_missing = seed_if_missing, .default_threads = 1, .most_jobs = MOST_JOBS };
     study_spec study;
     study_estimate estimate;
     json_t *report = NULL;

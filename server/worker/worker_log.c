@@ -6,10 +6,7 @@
 
 static bool only_warnings;
 
-void worker_log_only_warnings(bool only)
-{
-    only_warnings = only;
-}
+void worker_log_only_warnings(bool only) { only_warnings = only; }
 
 static void write_line(const char *level, const char *format, va_list arguments)
 {

@@ -35,8 +35,9 @@ static dem_drum_definition paper_drum(int argc, char **argv)
     d.rotation_rate = argument(argc, argv, 5, DEM_PI / 2);
     const double one = dem_particles_of_fill(d.diameter, 1.0, d.fill_fraction, d.species, 1);
     d.length = (double)d.particle_count / one;
-    d.contact = (dem_contact_parameters){ .restitution = 0.8, .friction = argument(argc, argv, 4, 0.1), .wall_friction = 0.5,
-                                          .tangential_stiffness_ratio = 0.8 };
+    d.contact = (dem_contact_parameters){
+        .restitution = 0.8, .friction = argument(argc, argv, 4, 0.1), .wall_friction = 0.5, .tangential_stiffness_ratio = 0.8
+    };
     const double mass = dem_sphere_mass(d.species[0].diameter, d.species[0].density);
     const double speed = dem_impact_speed(d.diameter, d.species[0].diameter, d.gravity, d.contact.friction, d.rotation_rate);
     d.contact.stiffness = dem_stiffness_for_overlap(speed, mass, 0.01 * d.species[0].diameter);

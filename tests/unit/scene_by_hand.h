@@ -16,11 +16,21 @@ enum { PARKED = 10 };
 static inline dem_drum_definition hand_definition(size_t n)
 {
     return (dem_drum_definition){
-        .diameter = 0.2, .length = 0.1, .gravity = 9.81, .fill_fraction = 0.5, .particle_count = n, .species_count = 1,
+        .diameter = 0.2,
+        .length = 0.1,
+        .gravity = 9.81,
+        .fill_fraction = 0.5,
+        .particle_count = n,
+        .species_count = 1,
         .species = { { .diameter = 0.004, .density = 2500, .share = 1 } },
-        .contact = { .stiffness = 4000, .restitution = 0.8, .friction = 0.3, .wall_friction = 0.5,
+        .contact = { .stiffness = 4000,
+                     .restitution = 0.8,
+                     .friction = 0.3,
+                     .wall_friction = 0.5,
                      .tangential_stiffness_ratio = 0.8 },
-        .time_step = 1e-5, .seed = 1, .threads = 1,
+        .time_step = 1e-5,
+        .seed = 1,
+        .threads = 1,
     };
 }
 
@@ -75,8 +85,8 @@ typedef struct placement {
     dem_phase phase;
     const double *position, *velocity, *spin; /* (n,3) m, m/s, rad/s */
     size_t pair_count;
-    const int32_t *pair;                      /* (pair_count, 2), in ascending order */
-    const double *history;                    /* (pair_count, HISTORY_WIDTH) */
+    const int32_t *pair;   /* (pair_count, 2), in ascending order */
+    const double *history; /* (pair_count, HISTORY_WIDTH) */
 } placement;
 
 static inline void state_fill(dem_state *state, const char *name, const double *numbers)
@@ -157,7 +167,8 @@ static inline bool states_are_equal(const dem_state *a, const dem_state *b)
     for (size_t k = 0; k < a->array_count; k++) {
         const dem_state_array *x = &a->array[k], *y = &b->array[k];
         if (strcmp(x->name, y->name) != 0 || x->element != y->element || x->rows != y->rows || x->columns != y->columns
-            || memcmp(x->data, y->data, x->rows * x->columns * size[x->element]) != 0) return false;
+            || memcmp(x->data, y->data, x->rows * x->columns * size[x->element]) != 0)
+            return false;
     }
     return true;
 }

@@ -10,10 +10,16 @@
 static inline dem_drum_definition small_drum(void)
 {
     dem_drum_definition d = {
-        .diameter = 0.04, .length = 0.012, .rotation_rate = 4, .gravity = 9.81, .fill_fraction = 0.5, .species_count = 1,
+        .diameter = 0.04,
+        .length = 0.012,
+        .rotation_rate = 4,
+        .gravity = 9.81,
+        .fill_fraction = 0.5,
+        .species_count = 1,
         .species = { { .diameter = 0.003, .density = 2500, .share = 1 } },
         .contact = { .restitution = 0.7, .friction = 0.3, .wall_friction = 0.5, .tangential_stiffness_ratio = 0.8 },
-        .seed = 5, .threads = 1,
+        .seed = 5,
+        .threads = 1,
     };
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 1);
     return d;

@@ -33,7 +33,8 @@ static double gap_between(const spheres *s, size_t i, size_t j, double period)
 {
     double dz = fabs(s->row[i].x[2] - s->row[j].x[2]);
     dz = fmin(dz, period - dz);
-    return hypot(hypot(s->row[i].x[0] - s->row[j].x[0], s->row[i].x[1] - s->row[j].x[1]), dz) - s->full_radius[i] - s->full_radius[j];
+    return hypot(hypot(s->row[i].x[0] - s->row[j].x[0], s->row[i].x[1] - s->row[j].x[1]), dz) - s->full_radius[i]
+           - s->full_radius[j];
 }
 
 static size_t times_found(const int32_t *found, size_t count, size_t j)
@@ -76,8 +77,7 @@ static void every_pair_within_the_skin_is_found_once(void **unused)
     (void)unused;
     static const double periods_in_reach[] = { 1.0, 1.7, 2.0, 2.9, 3.0, 3.5, 4.0, 11.3 };
     for (int k = 0; k < 8; k++)
-        for (double reach = 0.05; reach < 2.5; reach *= 1.7)
-            check_box(0.5, periods_in_reach[k] * reach, 0.4 * reach, 0.2 * reach);
+        for (double reach = 0.05; reach < 2.5; reach *= 1.7) check_box(0.5, periods_in_reach[k] * reach, 0.4 * reach, 0.2 * reach);
 }
 
 /* Too little room: what was asked for is counted all the same, and nothing behind the LANES to spare is touched. */

@@ -21,7 +21,10 @@ static dem_cluster completed(dem_shape shape, double diameter, double spacing)
 static void touching_spheres_have_the_sums_of_their_moments(void **unused)
 {
     (void)unused;
-    static const struct { dem_shape shape; double mass, moment[3], reach; } by_hand[] = {
+    static const struct {
+        dem_shape shape;
+        double mass, moment[3], reach;
+    } by_hand[] = {
         { DEM_DUMBBELL, 2, { 0.8, 2.8, 2.8 }, 2 },
         { DEM_TETRAHEDRON, 4, { 5.6, 5.6, 5.6 }, 1 + 1.2247448713915890 }, /* sqrt(3/2) */
         { DEM_CUBE, 8, { 19.2, 19.2, 19.2 }, 1 + 1.7320508075688772 },
@@ -39,7 +42,10 @@ static void touching_spheres_have_the_sums_of_their_moments(void **unused)
 static void nothing_is_counted_twice_where_spheres_overlap(void **unused)
 {
     (void)unused;
-    static const struct { dem_shape shape; double mass, moment; } known[] = { { DEM_TETRAHEDRON, 3.675, 4.06 }, { DEM_CUBE, 7.33, 12.81 } };
+    static const struct {
+        dem_shape shape;
+        double mass, moment;
+    } known[] = { { DEM_TETRAHEDRON, 3.675, 4.06 }, { DEM_CUBE, 7.33, 12.81 } };
     for (int k = 0; k < 2; k++) {
         const double a = 0.002, m = dem_sphere_mass(2 * a, 1.0);
         const dem_cluster c = completed(known[k].shape, 2 * a, 0.8);
@@ -73,7 +79,8 @@ static void two_overlapping_spheres_are_the_body_of_revolution(void **unused)
         /* what 400 columns miss at the rim of the overlap */
         CHECK_NEAR(c.volume / volume, 1, 1e-5);
         int turned = 0; /* the axis of revolution has the least moment */
-        for (int i = 1; i < 3; i++) if (c.inertia[i] < c.inertia[turned]) turned = i;
+        for (int i = 1; i < 3; i++)
+            if (c.inertia[i] < c.inertia[turned]) turned = i;
         for (int i = 0; i < 3; i++) CHECK_NEAR(c.inertia[i] / (i == turned ? along : across), 1, 2e-5);
         CHECK_NEAR(fabs(c.sphere[0].position[turned]), centre, 1e-5);
     }
@@ -260,7 +267,8 @@ static heavy heavy_reference(heavy h, double duration)
     enum { STEPS = 10000 };
     const double dt = duration / STEPS;
     for (int n = 0; n < STEPS; n++) {
-        const heavy a = heavy_rate(h), b = heavy_rate(heavy_sum(h, a, dt / 2)), c = heavy_rate(heavy_sum(h, b, dt / 2)), d = heavy_rate(heavy_sum(h, c, dt));
+        const heavy a = heavy_rate(h), b = heavy_rate(heavy_sum(h, a, dt / 2)), c = heavy_rate(heavy_sum(h, b, dt / 2)),
+                    d = heavy_rate(heavy_sum(h, c, dt));
         h = heavy_sum(heavy_sum(heavy_sum(heavy_sum(h, a, dt / 6), b, dt / 3), c, dt / 3), d, dt / 6);
     }
     return h;
@@ -320,7 +328,10 @@ static void a_cluster_of_one_is_a_sphere_bit_for_bit(void **unused)
     for (int look = 0; look < 40; look++) {
         for (int k = 0; k < 2; k++) {
             if (look < 20) run(scenes[k], 150);
-            else { run_to_phase(scenes[k], DEM_PHASE_ROTATING); run(scenes[k], 100); }
+            else {
+                run_to_phase(scenes[k], DEM_PHASE_ROTATING);
+                run(scenes[k], 100);
+            }
             dem_scene_particles(scenes[k], &(dem_particle_arrays){ .position = x[k], .velocity = v[k], .angular_velocity = w[k] });
         }
         assert_memory_equal(x[0], x[1], sizeof x[0]);
@@ -340,8 +351,12 @@ static dem_drum_definition mixed_drum(void)
     d.species[0] = (dem_species){ .diameter = 0.003, .density = 2500, .share = 0.3 };
     d.species[1] = (dem_species){ .density = 2500, .share = 0.3 };
     dem_cluster_of_shape(&d.species[1].cluster, DEM_TETRAHEDRON, 0.002);
-    d.species[2] = (dem_species){ .density = 2000, .share = 0.4,
-        .cluster = { .sphere_count = 3, .sphere = { { { 0, 0, 0 }, 0.003 }, { { 0.002, 0, 0 }, 0.0025 }, { { 0.002, 0.0015, 0 }, 0.002 } } } };
+    d.species[2] = (dem_species){
+        .density = 2000,
+        .share = 0.4,
+        .cluster = { .sphere_count = 3,
+                     .sphere = { { { 0, 0, 0 }, 0.003 }, { { 0.002, 0, 0 }, 0.0025 }, { { 0.002, 0.0015, 0 }, 0.002 } } }
+    };
     for (int k = 0; k < 3; k++) dem_cluster_complete(&d.species[k].cluster);
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, 0.4, d.species, 3);
     d.fill_fraction = 0.4;
@@ -488,7 +503,9 @@ static dem_scene *weightless_clusters(dem_drum_definition *d, double friction, d
     dem_state_clear(&state);
     scene->definition.gravity = 0;
     for (size_t b = 0; b < d->particle_count; b++) {
-        const double x[3] = { b < 2 ? 0 : 0.01 * ((double)(b % 5) - 2), b < 2 ? 0.02 : -0.02, b < 2 ? 0 : 0.01 * (double)(b / 5) - 0.02 }, none[3] = { 0 };
+        const double x[3] = { b < 2 ? 0 : 0.01 * ((double)(b % 5) - 2), b < 2 ? 0.02 : -0.02,
+                              b < 2 ? 0 : 0.01 * (double)(b / 5) - 0.02 },
+                     none[3] = { 0 };
         set_body(scene, b, x, none, none);
     }
     return scene;

@@ -7,9 +7,7 @@
 enum { SIDE = 8, PAIRS = SIDE * SIDE * SIDE, SPHERES = 2 * PAIRS, ROUNDS = 2000 };
 
 /* The special cases that a random contact never is. */
-typedef enum special {
-    ORDINARY, FIRST_TOUCH, JUST_APART, REVERSAL, UNLOADED, PERPENDICULAR, FULL_SLIP, AT_REST, KINDS
-} special;
+typedef enum special { ORDINARY, FIRST_TOUCH, JUST_APART, REVERSAL, UNLOADED, PERPENDICULAR, FULL_SLIP, AT_REST, KINDS } special;
 
 typedef struct questions {
     special kind[PAIRS];
@@ -68,7 +66,9 @@ static void ask(questions *q, size_t p, dice *d, const dem_drum_definition *defi
     const double t = kind == FULL_SLIP ? 1 : dice_uniform(d, 0, 0.99);
     double t_star = dice_uniform(d, -1, 1);
     for (int c = 0; c < 3; c++)
-        memory[HISTORY_T + c] = fresh ? 0 : kind == UNLOADED ? 1e-3 * h[c] : t * mu_n * (h[c] + 1e-3 * dice_uniform(d, -1, 1) * n[c]);
+        memory[HISTORY_T + c] = fresh              ? 0
+                                : kind == UNLOADED ? 1e-3 * h[c]
+                                                   : t * mu_n * (h[c] + 1e-3 * dice_uniform(d, -1, 1) * n[c]);
     if (kind == PERPENDICULAR || kind == REVERSAL) {
         double side[3];
         cross(n, h, side);
@@ -86,18 +86,19 @@ static void ask(questions *q, size_t p, dice *d, const dem_drum_definition *defi
 
 /* What the scalar law says of one pair, its geometry computed here in double precision. */
 typedef struct answer {
-    double force[3];       /* N on the first */
-    double arm[2], q[3];   /* torque = arm q */
+    double force[3];     /* N on the first */
+    double arm[2], q[3]; /* torque = arm q */
     contact_history memory;
-    double force_scale;    /* N: of which rounding takes its share */
-    double mu_n;           /* N */
-    bool is_turning;       /* nearly at right angles to T: whether it turns is rounding's to say */
+    double force_scale; /* N: of which rounding takes its share */
+    double mu_n;        /* N */
+    bool is_turning;    /* nearly at right angles to T: whether it turns is rounding's to say */
 } answer;
 
 static answer scalar_answer(const questions *q, size_t p, const double radius[2], const dem_contact_parameters *law, double dt)
 {
     const double *x = q->position + 6 * p, *v = q->velocity + 6 * p, *w = q->spin + 6 * p, *memory = q->history + HISTORY_WIDTH * p;
-    const double k_1 = law->stiffness, k_2 = k_1 / (law->restitution * law->restitution), k_t = k_1 * law->tangential_stiffness_ratio;
+    const double k_1 = law->stiffness, k_2 = k_1 / (law->restitution * law->restitution),
+                 k_t = k_1 * law->tangential_stiffness_ratio;
     double n[3], rolling[3], s[3], v_r[3], speed = 0;
     for (int c = 0; c < 3; c++) n[c] = x[3 + c] - x[c];
     const double distance = sqrt(scalar_product(n, n)), overlap = radius[0] + radius[1] - distance;
@@ -124,7 +125,8 @@ static answer scalar_answer(const questions *q, size_t p, const double radius[2]
     friction_increment(normal, ds, (real)mu_n, (real)k_t, a.memory.t, &a.memory.t_star);
     const double t_after[3] = { a.memory.t[0], a.memory.t[1], a.memory.t[2] };
     const double size2 = scalar_product(t_before, t_before);
-    a.is_turning = fabs(s_p) < 1e-3 * sqrt(size2 * scalar_product(moved, moved)) || fabs(scalar_product(t_before, t_after)) < 1e-3 * size2;
+    a.is_turning =
+        fabs(s_p) < 1e-3 * sqrt(size2 * scalar_product(moved, moved)) || fabs(scalar_product(t_before, t_after)) < 1e-3 * size2;
     a.mu_n = mu_n;
     for (int c = 0; c < 3; c++) a.force[c] = t_after[c] - f_n * n[c];
     cross(n, t_after, a.q);
@@ -173,8 +175,7 @@ static void compare_round(const questions *q, dem_scene *scene, difference seen[
             widest(&worst->memory, fabs(m_got[HISTORY_T + c] - (double)a.memory.t[c]) / f_unit);
         }
         widest(&worst->memory, fabs(m_got[HISTORY_ALPHA_0] - (double)a.memory.alpha_0) * d->contact.stiffness / f_unit);
-        if (!a.is_turning)
-            widest(&worst->memory, fabs(m_got[HISTORY_T_STAR] - (double)a.memory.t_star) * a.mu_n / f_unit);
+        if (!a.is_turning) widest(&worst->memory, fabs(m_got[HISTORY_T_STAR] - (double)a.memory.t_star) * a.mu_n / f_unit);
         worst->count++;
     }
 }
@@ -203,8 +204,13 @@ static void a_million_contacts_at_once_are_as_one_by_one(void **unused)
     difference seen[KINDS] = { { 0 } };
     for (int round = 0; round < ROUNDS; round++) {
         for (size_t p = 0; p < PAIRS; p++) ask(&q, p, &own, &d);
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = q.position, .velocity = q.velocity,
-            .spin = q.spin, .pair_count = PAIRS, .pair = q.pair, .history = q.history });
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                           .position = q.position,
+                                           .velocity = q.velocity,
+                                           .spin = q.spin,
+                                           .pair_count = PAIRS,
+                                           .pair = q.pair,
+                                           .history = q.history });
         advance(scene, 1);
         compare_round(&q, scene, seen);
     }

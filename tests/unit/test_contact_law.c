@@ -291,8 +291,9 @@ static void a_whole_contact_from_touch_to_parting_never_gives_energy(void **unus
                 const real f = force_at(from[0] + k * step[0], k_2, &alpha_0);
                 const real before[2] = { t[0], t[1] }, ds[3] = { (real)step[1], (real)step[2], 0 };
                 friction_increment(UP, ds, (real)mu * f, (real)K_T, t, &t_star);
-                work += 0.5 * ((double)(f_before + f) * step[0] + (double)(before[0] + t[0]) * step[1]
-                               + (double)(before[1] + t[1]) * step[2]);
+                work += 0.5
+                        * ((double)(f_before + f) * step[0] + (double)(before[0] + t[0]) * step[1]
+                           + (double)(before[1] + t[1]) * step[2]);
                 f_before = f;
             }
             for (int c = 0; c < 3; c++) from[c] = home && c == 0 ? 0 : from[c] + STEPS * step[c];

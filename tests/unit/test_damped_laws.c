@@ -36,8 +36,8 @@ static void strike(damped_law law, impact *i)
     for (int64_t k = 0; k == 0 || z < 0; k++) {
         const double alpha = fmax(-z, 1e-30);
         const damped_springs springs = i->hertzian
-            ? hertz_mindlin_springs(law, (real)alpha, (real)i->mass, (real)i->effective_radius)
-            : linear_springs(law, (real)alpha, (real)i->mass);
+                                           ? hertz_mindlin_springs(law, (real)alpha, (real)i->mass, (real)i->effective_radius)
+                                           : linear_springs(law, (real)alpha, (real)i->mass);
         const double f_n = (double)damped_normal_force(springs, (real)alpha, (real)-i->v[1]);
         const double arm = i->lever > 0 ? i->lever : i->radius - alpha / 2;
         const real ds[3] = { (real)((-i->v[0] + arm * i->omega) * i->dt), 0, 0 };
@@ -55,15 +55,22 @@ static void strike(damped_law law, impact *i)
 static impact sphere_on_plane(double radius, double density, double v_x, double v_z, double dt)
 {
     const double mass = dem_sphere_mass(2 * radius, density);
-    return (impact){ .mass = mass, .inertia = 0.4 * mass * radius * radius, .radius = radius, .effective_radius = radius,
-                     .v = { v_x, -v_z }, .dt = dt };
+    return (impact){ .mass = mass,
+                     .inertia = 0.4 * mass * radius * radius,
+                     .radius = radius,
+                     .effective_radius = radius,
+                     .v = { v_x, -v_z },
+                     .dt = dt };
 }
 
 /* Chung & Ooi (2011), tests 1 and 2: printed with five digits; single precision adds a few parts in a million. */
 static void elastic_impacts_are_those_of_hertz(void **unused)
 {
     (void)unused;
-    static const struct { double r, rho, e, nu, v, overlap, force, duration; bool pair; } cases[] = {
+    static const struct {
+        double r, rho, e, nu, v, overlap, force, duration;
+        bool pair;
+    } cases[] = {
         { 0.01, 2800, 4.8e10, 0.2, 20, 274.11e-6, 10.697e3, 40.339e-6, true },
         { 0.01, 2500, 2e10, 0.25, 20, 368.30e-6, 7.108e3, 54.201e-6, true },
         { 0.1, 2699, 7e10, 0.3, 0.2, 49.717e-6, 11.370e3, 731.66e-6, false },
@@ -128,7 +135,8 @@ static void oblique_impacts_are_those_of_another_code(void **unused)
 static void tangential_restitution_over_the_angle(void **unused)
 {
     (void)unused;
-    static const double table[][2] = { { 10, 0.7118 }, { 20, 0.6219 }, { 30, 0.6859 }, { 40, 0.7837 }, { 60, 0.8952 }, { 80, 0.9680 } };
+    static const double table[][2] = { { 10, 0.7118 }, { 20, 0.6219 }, { 30, 0.6859 },
+                                       { 40, 0.7837 }, { 60, 0.8952 }, { 80, 0.9680 } };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         const double angle = table[k][0] * M_PI / 180, v_x = 3.9 * sin(angle);
         impact i = sphere_on_plane(0.0025, 4000, v_x, 3.9 * cos(angle), 5e-10);
@@ -145,8 +153,9 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
 {
     (void)unused;
     dice d = { 11 };
-    dem_contact_parameters contact = { .stiffness = 4000, .restitution = 0.7, .tangential_stiffness_ratio = 0.5,
-                                       .particle = { 1e8, 0.3 }, .wall = { 2e9, 0.25 } };
+    dem_contact_parameters contact = {
+        .stiffness = 4000, .restitution = 0.7, .tangential_stiffness_ratio = 0.5, .particle = { 1e8, 0.3 }, .wall = { 2e9, 0.25 }
+    };
     const double dt = 1e-5;
     for (int round = 0; round < 400; round++) {
         contact.law = round % 2 ? DEM_SPRING_DASHPOT : DEM_HERTZ_MINDLIN;
@@ -163,7 +172,8 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
             list.friction[k] = (real)dice_uniform(&d, 0, 1);
             b->overlap[k] = (real)dice_uniform(&d, -2e-5, 2e-5);
             b->closing[k] = (real)dice_uniform(&d, -0.5, 0.5);
-            const real slide[3] = { (real)dice_uniform(&d, -1e-6, 1e-6), (real)dice_uniform(&d, -1e-6, 1e-6), (real)dice_uniform(&d, -1e-6, 1e-6) };
+            const real slide[3] = { (real)dice_uniform(&d, -1e-6, 1e-6), (real)dice_uniform(&d, -1e-6, 1e-6),
+                                    (real)dice_uniform(&d, -1e-6, 1e-6) };
             const real unit[3] = { (real)n[0], (real)n[1], (real)n[2] }, along = dot(slide, unit);
             for (int c = 0; c < 3; c++) {
                 b->n[c][k] = unit[c];
@@ -173,12 +183,16 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
         }
         real f_n[BLOCK], force[3][BLOCK], stretch[3][BLOCK];
         for (int k = 0; k < BLOCK; k++) {
-            const real alpha = b->overlap[k], r = is_wall ? list.first_radius[k] : list.first_radius[k] * (b->radii[k] - list.first_radius[k]) * inverse(b->radii[k]);
+            const real alpha = b->overlap[k],
+                       r = is_wall ? list.first_radius[k]
+                                   : list.first_radius[k] * (b->radii[k] - list.first_radius[k]) * inverse(b->radii[k]);
             const real e_star = (real)(1 / ((1 - 0.09) / 1e8 + (is_wall ? (1 - 0.0625) / 2e9 : (1 - 0.09) / 1e8)));
             const real g_star = (real)(1 / (2 * 1.7 * 1.3 / 1e8 + (is_wall ? 2 * 1.75 * 1.25 / 2e9 : 2 * 1.7 * 1.3 / 1e8)));
-            const damped_springs springs = contact.law == DEM_SPRING_DASHPOT
-                ? linear_springs((damped_law){ 4000, 2000, (real)zeta(0.7) }, alpha, list.mass[k])
-                : hertz_mindlin_springs((damped_law){ e_star, g_star, (real)(sqrt(5.0 / 6.0) * zeta(0.7)) }, alpha > 0 ? alpha : (real)1e-9, list.mass[k], r);
+            const damped_springs springs =
+                contact.law == DEM_SPRING_DASHPOT
+                    ? linear_springs((damped_law){ 4000, 2000, (real)zeta(0.7) }, alpha, list.mass[k])
+                    : hertz_mindlin_springs((damped_law){ e_star, g_star, (real)(sqrt(5.0 / 6.0) * zeta(0.7)) },
+                                            alpha > 0 ? alpha : (real)1e-9, list.mass[k], r);
             f_n[k] = damped_normal_force(springs, alpha, b->closing[k]);
             const real n[3] = { b->n[0][k], b->n[1][k], b->n[2][k] }, ds[3] = { b->ds[0][k], b->ds[1][k], b->ds[2][k] };
             real t[3] = { list.t[0][k], list.t[1][k], list.t[2][k] }, f[3];
@@ -205,10 +219,8 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elastic_impacts_are_those_of_hertz),
-        cmocka_unit_test(restitution_out_is_restitution_in),
-        cmocka_unit_test(oblique_impacts_are_those_of_another_code),
-        cmocka_unit_test(tangential_restitution_over_the_angle),
+        cmocka_unit_test(elastic_impacts_are_those_of_hertz),        cmocka_unit_test(restitution_out_is_restitution_in),
+        cmocka_unit_test(oblique_impacts_are_those_of_another_code), cmocka_unit_test(tangential_restitution_over_the_angle),
         cmocka_unit_test(many_contacts_at_once_are_as_one_by_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

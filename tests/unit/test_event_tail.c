@@ -1,9 +1,9 @@
 /* Reading events.ndjson while somebody writes it. */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -42,8 +42,9 @@ static void a_line_counts_when_it_is_whole(void **state)
 static void the_latest_progress_counts_and_rubbish_does_not(void **state)
 {
     (void)state;
-    FILE *file = file_with("{\"event\":\"progress\",\"progress\":10,\"eta_seconds\":5,\"phase\":\"settling\"}\nrubbish\n[]\n\n"
-                           "{\"event\":\"progress\",\"progress\":20.5,\"eta_seconds\":null,\"phase\":\"rotating\"}\n{\"event\":7}\n");
+    FILE *file =
+        file_with("{\"event\":\"progress\",\"progress\":10,\"eta_seconds\":5,\"phase\":\"settling\"}\nrubbish\n[]\n\n"
+                  "{\"event\":\"progress\",\"progress\":20.5,\"eta_seconds\":null,\"phase\":\"rotating\"}\n{\"event\":7}\n");
     event_batch batch;
     assert_true(event_tail_read(fileno(file), 0, &batch));
     assert_true(batch.progress == 20.5 && isnan(batch.eta_seconds) && isnan(batch.speed));

@@ -46,7 +46,8 @@ static void an_overlap_beyond_half_a_radius_is_a_failure_of_those_two(void **unu
     const double r = 0.002, m_eff = species_mass(&d.species[0]) / 2, v = 0.6 * r / sqrt(m_eff / d.contact.stiffness);
     dem_scene *scene = weightless_scene(&d);
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-        .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 }, .velocity = (double[]){ 0, 0, 0, v, 0, 0, 0, 0, 0 } });
+                                       .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 },
+                                       .velocity = (double[]){ 0, 0, 0, v, 0, 0, 0, 0, 0 } });
     assert_int_equal(dem_scene_advance(scene, 1000), DEM_OVERLAP_TOO_LARGE);
     check_description(scene, DEM_OVERLAP_TOO_LARGE);
     const dem_failure *f = dem_scene_failure(scene);
@@ -58,7 +59,8 @@ static void an_overlap_beyond_half_a_radius_is_a_failure_of_those_two(void **unu
     /* and nine tenths of that speed is none */
     scene = weightless_scene(&d);
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-        .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 }, .velocity = (double[]){ 0, 0, 0, 0.75 * v, 0, 0, 0, 0, 0 } });
+                                       .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 },
+                                       .velocity = (double[]){ 0, 0, 0, 0.75 * v, 0, 0, 0, 0, 0 } });
     advance(scene, 300);
     CHECK_NEAR(dem_scene_maximum_overlap(scene), 0.75 * 0.6 * r / 0.004, 1e-3);
     dem_scene_free(scene);
@@ -70,8 +72,9 @@ static void a_particle_beyond_the_wall_has_escaped(void **unused)
     (void)unused;
     dem_drum_definition d = hand_definition(2);
     dem_scene *scene = weightless_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0, 0, 0.09, 0, 0.01 },
-        .velocity = (double[]){ 0, 0, 0, 3000, 0, 0 } });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                       .position = (double[]){ 0.02, 0, 0, 0.09, 0, 0.01 },
+                                       .velocity = (double[]){ 0, 0, 0, 3000, 0, 0 } });
     assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
     check_description(scene, DEM_PARTICLE_ESCAPED);
     const dem_failure *f = dem_scene_failure(scene);
@@ -107,8 +110,9 @@ static void a_failed_scene_stays_failed(void **unused)
     (void)unused;
     dem_drum_definition d = hand_definition(1);
     dem_scene *scene = weightless_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.09, 0, 0 },
-        .velocity = (double[]){ 3000, 0, 0 } });
+    place_by_hand(
+        scene,
+        &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.09, 0, 0 }, .velocity = (double[]){ 3000, 0, 0 } });
     assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
     assert_int_not_equal(dem_scene_advance(scene, 100), DEM_OK);
     dem_scene_free(scene);
@@ -122,16 +126,28 @@ static void a_definition_out_of_range_is_refused(void **unused)
     dem_scene *scene = NULL;
     assert_int_equal(dem_scene_create(&good, &scene), DEM_OK);
     dem_scene_free(scene);
-    struct { size_t offset; double bad; } cases[] = {
-        { offsetof(dem_drum_definition, diameter), -0.1 }, { offsetof(dem_drum_definition, diameter), NAN },
-        { offsetof(dem_drum_definition, diameter), 0.005 }, { offsetof(dem_drum_definition, length), 0.005 },
-        { offsetof(dem_drum_definition, rotation_rate), INFINITY }, { offsetof(dem_drum_definition, gravity), 0 },
-        { offsetof(dem_drum_definition, time_step), 0 }, { offsetof(dem_drum_definition, species[0].diameter), 0 },
-        { offsetof(dem_drum_definition, species[0].density), -1 }, { offsetof(dem_drum_definition, species[0].share), 0.9 },
-        { offsetof(dem_drum_definition, contact.stiffness), 0 }, { offsetof(dem_drum_definition, contact.restitution), 0 },
-        { offsetof(dem_drum_definition, contact.restitution), 1.01 }, { offsetof(dem_drum_definition, contact.friction), -0.1 },
-        { offsetof(dem_drum_definition, contact.wall_friction), NAN }, { offsetof(dem_drum_definition, lining.diameter), 0.02 },
-        { offsetof(dem_drum_definition, contact.tangential_stiffness_ratio), 0 }, { offsetof(dem_drum_definition, lining.diameter), NAN },
+    struct {
+        size_t offset;
+        double bad;
+    } cases[] = {
+        { offsetof(dem_drum_definition, diameter), -0.1 },
+        { offsetof(dem_drum_definition, diameter), NAN },
+        { offsetof(dem_drum_definition, diameter), 0.005 },
+        { offsetof(dem_drum_definition, length), 0.005 },
+        { offsetof(dem_drum_definition, rotation_rate), INFINITY },
+        { offsetof(dem_drum_definition, gravity), 0 },
+        { offsetof(dem_drum_definition, time_step), 0 },
+        { offsetof(dem_drum_definition, species[0].diameter), 0 },
+        { offsetof(dem_drum_definition, species[0].density), -1 },
+        { offsetof(dem_drum_definition, species[0].share), 0.9 },
+        { offsetof(dem_drum_definition, contact.stiffness), 0 },
+        { offsetof(dem_drum_definition, contact.restitution), 0 },
+        { offsetof(dem_drum_definition, contact.restitution), 1.01 },
+        { offsetof(dem_drum_definition, contact.friction), -0.1 },
+        { offsetof(dem_drum_definition, contact.wall_friction), NAN },
+        { offsetof(dem_drum_definition, lining.diameter), 0.02 },
+        { offsetof(dem_drum_definition, contact.tangential_stiffness_ratio), 0 },
+        { offsetof(dem_drum_definition, lining.diameter), NAN },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         dem_drum_definition bad = good;

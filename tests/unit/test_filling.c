@@ -35,7 +35,8 @@ static double largest_overlap(const bed *b, const dem_drum_definition *d)
         largest = fmax(largest, hypot(x[0], x[1]) + b->radius[i] - room);
         for (size_t j = i + 1; j < b->count; j++) {
             const double *y = b->position + 3 * j, dz = remainder(y[2] - x[2], d->length);
-            largest = fmax(largest, b->radius[i] + b->radius[j] - sqrt((y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + dz * dz));
+            largest = fmax(largest, b->radius[i] + b->radius[j]
+                                        - sqrt((y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + dz * dz));
         }
     }
     return largest;

@@ -10,8 +10,9 @@ enum { FRICTIONS = sizeof MU / sizeof MU[0] };
 
 static dem_granule_definition definition(double mu)
 {
-    return (dem_granule_definition){ .friction = mu, .radius = 0.063, .gravity = 9.81, .rotation_rate = NAN,
-                                     .revolutions = 5, .tolerance = 1e-9 };
+    return (dem_granule_definition){
+        .friction = mu, .radius = 0.063, .gravity = 9.81, .rotation_rate = NAN, .revolutions = 5, .tolerance = 1e-9
+    };
 }
 
 static dem_granule_result solved(const dem_granule_definition *d)
@@ -220,9 +221,13 @@ static void what_becomes_of_it_depends_on_the_rate(void **unused)
 {
     (void)unused;
     const double mu = 0.2; /* boundaries at 2.861 and at 1/sin(atan(0.2)) = 5.099 */
-    const struct { double omega2; dem_regime regime; bool keeps, round; } expected[] = {
-        { 1e-6, DEM_SLIPPING, true, false }, { 0.05, DEM_SLIPPING, true, false }, { 0.5, DEM_SLIPPING, true, false },
-        { 2.8, DEM_RAINING, false, false }, { 2.87, DEM_SLIDING, true, true }, { 5.0, DEM_SLIDING, true, true },
+    const struct {
+        double omega2;
+        dem_regime regime;
+        bool keeps, round;
+    } expected[] = {
+        { 1e-6, DEM_SLIPPING, true, false },   { 0.05, DEM_SLIPPING, true, false },   { 0.5, DEM_SLIPPING, true, false },
+        { 2.8, DEM_RAINING, false, false },    { 2.87, DEM_SLIDING, true, true },     { 5.0, DEM_SLIDING, true, true },
         { 5.2, DEM_CENTRIFUGING, true, true }, { 1e9, DEM_CENTRIFUGING, true, true },
     };
     for (size_t k = 0; k < sizeof expected / sizeof expected[0]; k++) {

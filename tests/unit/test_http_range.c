@@ -38,8 +38,9 @@ static void parts_outside_the_file_are_told(void **state)
 static void anything_else_means_the_whole(void **state)
 {
     (void)state;
-    static const char *const headers[] = {NULL, "", "bytes", "bytes=", "bytes=-", "bytes=5", "bytes=9-5", "bytes=1-2,5-6", "lines=1-2",
-                                          "bytes=1-2x", "bytes= 1-2", "bytes=+1-2", "bytes=1--2", "bytes=0x1-2"};
+    static const char *const headers[] = { NULL,         "",           "bytes",         "bytes=",     "bytes=-",
+                                           "bytes=5",    "bytes=9-5",  "bytes=1-2,5-6", "lines=1-2",  "bytes=1-2x",
+                                           "bytes= 1-2", "bytes=+1-2", "bytes=1--2",    "bytes=0x1-2" };
     for (size_t i = 0; i < sizeof headers / sizeof headers[0]; i++) expect(headers[i], 100, HTTP_RANGE_WHOLE, 0, 0);
 }
 

@@ -33,13 +33,27 @@ static void parameters_are_decoded_once(void **state)
 static void strange_targets_are_refused(void **state)
 {
     (void)state;
-    static const char *const targets[] = {"", "jobs", "//", "/a//b", "/./a", "/a/..", "/a/../b", "/%2e%2e", "/a%00", "/a b", "/a\\b",
-                                          "/jobs?q=%00", "/jobs?q=%4", "/jobs?q=%gg", "/jobs?q=%ff", "/jobs?a=1&a=2",
-                                          "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&q"};
+    static const char *const targets[] = { "",
+                                           "jobs",
+                                           "//",
+                                           "/a//b",
+                                           "/./a",
+                                           "/a/..",
+                                           "/a/../b",
+                                           "/%2e%2e",
+                                           "/a%00",
+                                           "/a b",
+                                           "/a\\b",
+                                           "/jobs?q=%00",
+                                           "/jobs?q=%4",
+                                           "/jobs?q=%gg",
+                                           "/jobs?q=%ff",
+                                           "/jobs?a=1&a=2",
+                                           "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&q" };
     http_request request;
     char copy[200];
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) assert_non_null(split(&request, copy, targets[i]));
-    static const char *const good[] = {"/", "/jobs/", "/web/a.b_c~d-e", "/...", "/jobs?", "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p"};
+    static const char *const good[] = { "/", "/jobs/", "/web/a.b_c~d-e", "/...", "/jobs?", "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p" };
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) assert_null(split(&request, copy, good[i]));
 }
 
@@ -61,11 +75,20 @@ static void whole_numbers_have_bounds(void **state)
 static void accept_names_types_not_wildcards(void **state)
 {
     (void)state;
-    const struct { const char *accept; bool html; } cases[] = {
-        {"text/html", true}, {"application/json, text/html;q=0.5", true}, {"TEXT/HTML", true}, {"*/*", false}, {NULL, false},
-        {"text/htmlx", false}, {"text/html;q=0, application/json", false}, {"application/json", false}, {"", false}};
+    const struct {
+        const char *accept;
+        bool html;
+    } cases[] = { { "text/html", true },
+                  { "application/json, text/html;q=0.5", true },
+                  { "TEXT/HTML", true },
+                  { "*/*", false },
+                  { NULL, false },
+                  { "text/htmlx", false },
+                  { "text/html;q=0, application/json", false },
+                  { "application/json", false },
+                  { "", false } };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const http_request request = {.accept = cases[i].accept};
+        const http_request request = { .accept = cases[i].accept };
         assert_int_equal(http_request_accepts(&request, "text/html"), cases[i].html);
     }
 }
@@ -76,14 +99,14 @@ static void answer_nothing(api_service *service, const http_request *request, ht
 }
 
 static const http_route table[] = {
-    {"GET", "/jobs/{}", "", answer_nothing, .open = false},
-    {"DELETE", "/jobs/{}", "", answer_nothing, .open = false},
-    {"GET", "/jobs/{}/snapshots/{}", "", answer_nothing, .open = false},
+    { "GET", "/jobs/{}", "", answer_nothing, .open = false },
+    { "DELETE", "/jobs/{}", "", answer_nothing, .open = false },
+    { "GET", "/jobs/{}/snapshots/{}", "", answer_nothing, .open = false },
 };
 
 static const http_route *match(const char *method, const char *path, http_request *request, int *status)
 {
-    *request = (http_request){.method = method, .path = path};
+    *request = (http_request){ .method = method, .path = path };
     http_response response;
     http_response_init(&response);
     const http_route *route = routes_match(table, 3, request, &response);
@@ -105,8 +128,12 @@ static void routes_fill_in_segments(void **state)
     assert_ptr_equal(match("DELETE", "/jobs/abc", &request, &status), &table[1]);
     assert_null(match("PUT", "/jobs/abc", &request, &status));
     assert_int_equal(status, 405);
-    static const char *const unknown[] = {"/jobs", "/jobs/", "/jobs/a/b", "/jobs/a/snapshots", "/jobs/a/snapshots/b/c",
-                                          "/jobs/0123456789012345678901234567890123456789012345678901234567890123456789"};
+    static const char *const unknown[] = { "/jobs",
+                                           "/jobs/",
+                                           "/jobs/a/b",
+                                           "/jobs/a/snapshots",
+                                           "/jobs/a/snapshots/b/c",
+                                           "/jobs/0123456789012345678901234567890123456789012345678901234567890123456789" };
     for (size_t i = 0; i < sizeof unknown / sizeof unknown[0]; i++) {
         assert_null(match("GET", unknown[i], &request, &status));
         assert_int_equal(status, 404);
@@ -130,8 +157,14 @@ static void ids_have_one_shape(void **state)
 {
     (void)state;
     assert_true(job_id_is_valid("20261122-014455-3f9a2c71"));
-    static const char *const bad[] = {"", "..", "20261122-014455-3f9a2c7", "20261122-014455-3f9a2c711", "20261122-014455-3F9A2C71",
-                                      "20261122/014455-3f9a2c71", "2026112x-014455-3f9a2c71", "20261122-014455-3f9a2c7g"};
+    static const char *const bad[] = { "",
+                                       "..",
+                                       "20261122-014455-3f9a2c7",
+                                       "20261122-014455-3f9a2c711",
+                                       "20261122-014455-3F9A2C71",
+                                       "20261122/014455-3f9a2c71",
+                                       "2026112x-014455-3f9a2c71",
+                                       "20261122-014455-3f9a2c7g" };
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) assert_false(job_id_is_valid(bad[i]));
 }
 

@@ -16,7 +16,8 @@ static double error_of_overlap(int steps)
     double x[6];
     const double touch = scene->spheres.full_radius[0] + scene->spheres.full_radius[1];
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-        .position = (double[]){ 0.03, 0, 0, 0.03 + touch, 0, 0 }, .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
+                                       .position = (double[]){ 0.03, 0, 0, 0.03 + touch, 0, 0 },
+                                       .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
     advance(scene, steps);
     look_at(scene, x, NULL, NULL);
     dem_scene_free(scene);
@@ -44,8 +45,10 @@ static void free_fall_is_exact(void **unused)
     dem_scene *scene = hand_scene(&d);
     const double dt = d.time_step, u = 0.3;
     const int steps = 5000;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0.03, 0.01 },
-        .velocity = (double[]){ 0.1, u, -0.05 }, .spin = (double[]){ 1, 2, 3 } });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                       .position = (double[]){ 0.02, 0.03, 0.01 },
+                                       .velocity = (double[]){ 0.1, u, -0.05 },
+                                       .spin = (double[]){ 1, 2, 3 } });
     advance(scene, steps);
     double x[3], v[3], w[3];
     look_at(scene, x, v, w);
@@ -66,8 +69,9 @@ static void places_stay_within_one_period(void **unused)
     (void)unused;
     dem_drum_definition d = hand_definition(2);
     dem_scene *scene = weightless_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0, 0.03, -0.02, 0, -0.03 },
-        .velocity = (double[]){ 0, 0, 5, 0, 0, -5 } });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                       .position = (double[]){ 0.02, 0, 0.03, -0.02, 0, -0.03 },
+                                       .velocity = (double[]){ 0, 0, 5, 0, 0, -5 } });
     double x[6];
     for (int k = 0; k < 500; k++) {
         advance(scene, 10);

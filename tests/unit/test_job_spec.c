@@ -61,7 +61,8 @@ static char *problems_of(json_t *request)
     }
     size_t p;
     json_t *problem;
-    json_array_foreach(problems.errors, p, problem) {
+    json_array_foreach(problems.errors, p, problem)
+    {
         strcat(text, json_string_value(json_object_get(problem, "pointer")));
         strcat(text, ": ");
         strcat(text, json_string_value(json_object_get(problem, "detail")));
@@ -75,15 +76,11 @@ static char *problems_of(json_t *request)
 static void expect_problem(const char *path, const char *value, const char *expected)
 {
     char *problems = problems_of(minimal_with(path, value));
-    if (strcmp(problems, expected) != 0)
-        fail_msg("%s = %s gives:\n%sexpected:\n%s", path, value, problems, expected);
+    if (strcmp(problems, expected) != 0) fail_msg("%s = %s gives:\n%sexpected:\n%s", path, value, problems, expected);
     free(problems);
 }
 
-static void expect_fine(const char *path, const char *value)
-{
-    expect_problem(path, value, "");
-}
+static void expect_fine(const char *path, const char *value) { expect_problem(path, value, ""); }
 
 static job_spec parse_or_fail(json_t *request)
 {
@@ -124,12 +121,17 @@ static void a_canonical_spec_is_read_and_written_with_the_same_bytes(void **stat
 {
     (void)state;
     const char *const variations[][2] = {
-        {"seed", "9007199254740991"}, {"particle_count", "77"}, {"contact/stiffness", "4000"},
-        {"duration/seconds", "0.7"}, {"snapshots/interval", "0"}, {"contact/friction", "0.1"},
-        {"wall/lining", "{\"diameter\": 0.002}"}, {"contact/friction", "-0.0"},
-        {"particles", "[{\"diameter\":0.003,\"share\":0.1},{\"diameter\":0.004,\"share\":0.2},{\"diameter\":0.005,"
-                      "\"share\":0.7000000001}]"},
-        {"particles", "[{\"diameter\":0.003},{\"diameter\":0.004},{\"diameter\":0.005}]"},
+        { "seed", "9007199254740991" },
+        { "particle_count", "77" },
+        { "contact/stiffness", "4000" },
+        { "duration/seconds", "0.7" },
+        { "snapshots/interval", "0" },
+        { "contact/friction", "0.1" },
+        { "wall/lining", "{\"diameter\": 0.002}" },
+        { "contact/friction", "-0.0" },
+        { "particles", "[{\"diameter\":0.003,\"share\":0.1},{\"diameter\":0.004,\"share\":0.2},{\"diameter\":0.005,"
+                       "\"share\":0.7000000001}]" },
+        { "particles", "[{\"diameter\":0.003},{\"diameter\":0.004},{\"diameter\":0.005}]" },
     };
     for (size_t v = 0; v < sizeof variations / sizeof variations[0]; v++) {
         json_t *request = minimal_with(variations[v][0], variations[v][1]);
@@ -154,8 +156,7 @@ static void a_number_out_of_range_is_named_with_value_unit_and_range(void **stat
     expect_problem("fill_fraction", "1.4", "/inputs/fill_fraction: is 1.4; must be in (0, 0.95]\n");
     expect_problem("fill_fraction", "0", "/inputs/fill_fraction: is 0; must be in (0, 0.95]\n");
     expect_problem("drum/diameter", "30", "/inputs/drum/diameter: is 30 m; must be in [0.001, 20] m\n");
-    expect_problem("drum/rotation_rate", "-1",
-                   "/inputs/drum/rotation_rate: is -1 rad/s; must be in [0.001, 500] rad/s\n");
+    expect_problem("drum/rotation_rate", "-1", "/inputs/drum/rotation_rate: is -1 rad/s; must be in [0.001, 500] rad/s\n");
     expect_problem("contact/friction", "true", "/inputs/contact/friction: is true; must be a number in [0, 5]\n");
     expect_problem("contact/friction", "null", "/inputs/contact/friction: is null; must be a number in [0, 5]\n");
     expect_problem("contact/friction", "1e300", "/inputs/contact/friction: is 1e+300; must be in [0, 5]\n");
@@ -177,8 +178,9 @@ static void the_ends_of_a_range_are_inside_or_not_as_written(void **state)
 static void a_number_that_has_lost_its_digits_is_refused(void **state)
 {
     (void)state;
-    expect_problem("contact/friction", "1e-310", "/inputs/contact/friction: is 9.99999999999997e-311; too close to 0 "
-                                                 "to be kept, must be in [0, 5]\n");
+    expect_problem("contact/friction", "1e-310",
+                   "/inputs/contact/friction: is 9.99999999999997e-311; too close to 0 "
+                   "to be kept, must be in [0, 5]\n");
 }
 
 static void whole_numbers_are_asked_for_where_they_are_needed(void **state)
@@ -186,8 +188,7 @@ static void whole_numbers_are_asked_for_where_they_are_needed(void **state)
     (void)state;
     expect_problem("threads", "1.5", "/inputs/threads: is 1.5; must be a whole number in [1, 256]\n");
     expect_problem("threads", "0", "/inputs/threads: is 0; must be in [1, 256]\n");
-    expect_problem("seed", "9007199254740992",
-                   "/inputs/seed: is 9007199254740992; must be in [0, 9007199254740991]\n");
+    expect_problem("seed", "9007199254740992", "/inputs/seed: is 9007199254740992; must be in [0, 9007199254740991]\n");
     expect_problem("seed", "-1", "/inputs/seed: is -1; must be in [0, 9007199254740991]\n");
     expect_problem("particle_count", "7", "/inputs/particle_count: is 7; must be in [8, 5000000]\n");
     expect_fine("particle_count", "8.0");
@@ -196,10 +197,10 @@ static void whole_numbers_are_asked_for_where_they_are_needed(void **state)
 static void unknown_members_are_refused_with_the_nearest_name(void **state)
 {
     (void)state;
-    expect_problem("contact/frictoin", "0.1",
-                   "/inputs/contact/frictoin: is not an input; did you mean inputs/contact/friction?\n");
+    expect_problem("contact/frictoin", "0.1", "/inputs/contact/frictoin: is not an input; did you mean inputs/contact/friction?\n");
     expect_problem("friction", "0.1", "/inputs/friction: is not an input; did you mean inputs/contact/friction?\n");
-    expect_problem("duration/until_standard_error", "0.3", "/inputs/duration/until_standard_error: is not an input; did you mean "
+    expect_problem("duration/until_standard_error", "0.3",
+                   "/inputs/duration/until_standard_error: is not an input; did you mean "
                    "inputs/duration/until_standard_error_deg?\n");
     json_t *request = load(minimal);
     json_object_set_new(json_object_get(request, "inputs"), "a/b~c", json_null());
@@ -212,11 +213,13 @@ static void what_is_not_available_yet_is_refused_with_what_is(void **state)
 {
     (void)state;
     expect_problem("drum/ends", "\"walls\"", "/inputs/drum/ends: is \"walls\"; available: \"periodic\"\n");
-    expect_problem("particles/0/shape", "\"cone\"", "/inputs/particles/0/shape: is \"cone\"; available: \"sphere\", "
+    expect_problem("particles/0/shape", "\"cone\"",
+                   "/inputs/particles/0/shape: is \"cone\"; available: \"sphere\", "
                    "\"dumbbell\", \"tetrahedron\", \"cube\", or an object\n");
-    expect_problem("contact/law", "\"hertz\"", "/inputs/contact/law: is \"hertz\"; available: \"walton-braun\", \"spring-dashpot\", \"hertz-mindlin\"\n");
-    char *problems = problems_of(json_pack("{s:s, s:o}", "process", "heap", "inputs",
-                                           json_incref(json_object_get(load(minimal), "inputs"))));
+    expect_problem("contact/law", "\"hertz\"",
+                   "/inputs/contact/law: is \"hertz\"; available: \"walton-braun\", \"spring-dashpot\", \"hertz-mindlin\"\n");
+    char *problems =
+        problems_of(json_pack("{s:s, s:o}", "process", "heap", "inputs", json_incref(json_object_get(load(minimal), "inputs"))));
     assert_string_equal(problems, "/process: is \"heap\"; was sent to the process \"drum\"\n");
     free(problems);
 }
@@ -227,8 +230,9 @@ static void a_cluster_of_named_or_given_spheres_is_one_particle(void **state)
     (void)state;
     static const char *const given = "[{\"shape\": {\"spheres\": [{\"position\": [0, 0, 0], \"diameter\": 0.002},"
                                      "{\"position\": [0, 0.0025, 0], \"diameter\": 0.003}]}}]";
-    static const char *const by_default = "[{\"diameter\": 0.003, \"shape\": {\"spheres\": [{\"position\": [0, 0, 0], \"diameter\": 0.002},"
-                                          "{\"position\": [0, 0.0025, 0]}]}}]";
+    static const char *const by_default =
+        "[{\"diameter\": 0.003, \"shape\": {\"spheres\": [{\"position\": [0, 0, 0], \"diameter\": 0.002},"
+        "{\"position\": [0, 0.0025, 0]}]}}]";
     for (int k = 0; k < 2; k++) {
         job_spec spec = parse_or_fail(minimal_with("particles", k ? by_default : given));
         const dem_cluster *cluster = &spec.drum.species[0].cluster;
@@ -258,17 +262,19 @@ static void a_cluster_of_named_or_given_spheres_is_one_particle(void **state)
 static void a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault(void **state)
 {
     (void)state;
-    static const struct { const char *spheres, *problem; } bad[] = {
+    static const struct {
+        const char *spheres, *problem;
+    } bad[] = {
         { "[{\"position\": [0, 0, 0]}, {\"position\": [0, 0.0051, 0]}]",
           "/1: is joined to sphere 0 by no chain of touching spheres; a cluster must be one body" },
         { "[{\"position\": [0, 0, 0]}, {\"position\": [0, 0, 0]}]", "/1: lies within sphere 0; each sphere of a cluster must reach "
-          "beyond every other" },
+                                                                    "beyond every other" },
         { "[{\"position\": [0, 0.001, 0], \"diameter\": 0.003}, {\"position\": [0, 0, 0]}]",
           "/0: lies within sphere 1; each sphere of a cluster must reach beyond every other" },
         { "[{\"position\": [0, 0]}]", "/0/position: is a list; must be a list of three numbers, each in [-1, 1] m" },
         { "[{\"diameter\": 0.003}]", "/0/position: is missing; must be a list of three numbers, each in [-1, 1] m" },
         { "[{\"position\": [0, \"x\", 2]}]", "/0/position/1: is \"x\"; must be a number in [-1, 1] m\n"
-          "/inputs/particles/0/shape/spheres/0/position/2: is 2 m; must be in [-1, 1] m" },
+                                             "/inputs/particles/0/shape/spheres/0/position/2: is 2 m; must be in [-1, 1] m" },
         { "[{\"position\": [0, 0, 0], \"diameter\": 1.5}]", "/0/diameter: is 1.5 m; must be in [1e-05, 1] m" },
         { "[]", ": has 0 entries; must have 1 to 64" },
     };
@@ -280,11 +286,14 @@ static void a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault(void *
     }
     expect_problem("particles", "[{\"shape\": {\"spheres\": [{\"position\": [0, 0, 0]}]}}]",
                    "/inputs/particles/0/shape/spheres/0: has no diameter; must have one, in m, or the particle must\n");
-    expect_problem("particles", "[{\"shape\": \"cube\"}]", "/inputs/particles/0/diameter: is missing; must be a number in [1e-05, 1] m\n");
+    expect_problem("particles", "[{\"shape\": \"cube\"}]",
+                   "/inputs/particles/0/diameter: is missing; must be a number in [1e-05, 1] m\n");
     expect_problem("particles/0/shape", "{}", "/inputs/particles/0/shape/spheres: is missing; must be a list of objects\n");
-    expect_problem("particles/0/shape", "\"tetrahedron\"", "/inputs/drum/diameter: is 0.05 m; must be at least 0.0889898 m, 8 of the "
-                   "largest particle diameter\n/inputs/drum/length: is 0.02 m; must be at least 0.0333712 m, 3 of the largest particle "
-                   "diameter\n");
+    expect_problem(
+        "particles/0/shape", "\"tetrahedron\"",
+        "/inputs/drum/diameter: is 0.05 m; must be at least 0.0889898 m, 8 of the "
+        "largest particle diameter\n/inputs/drum/length: is 0.02 m; must be at least 0.0333712 m, 3 of the largest particle "
+        "diameter\n");
 }
 
 static void a_run_may_be_asked_for_its_answer(void **state)
@@ -295,18 +304,22 @@ static void a_run_may_be_asked_for_its_answer(void **state)
     job_spec_clear(&spec);
     expect_problem("duration", "{\"until_standard_error_deg\": 0.3, \"seconds\": 2}",
                    "/inputs/duration/seconds: is given beside until_standard_error_deg; give one of the two\n");
-    expect_problem("duration", "{\"at_most_revolutions\": 3}", "/inputs/duration/at_most_revolutions: is 3 revolutions, but bounds "
+    expect_problem("duration", "{\"at_most_revolutions\": 3}",
+                   "/inputs/duration/at_most_revolutions: is 3 revolutions, but bounds "
                    "nothing without until_standard_error_deg; give that too, or revolutions\n");
 }
 
 static void each_law_takes_its_own_elasticity(void **state)
 {
     (void)state;
-    expect_problem("contact", "{\"law\": \"hertz-mindlin\", \"stiffness\": 4000}", "/inputs/contact/stiffness: is 4000 N/m, but "
+    expect_problem("contact", "{\"law\": \"hertz-mindlin\", \"stiffness\": 4000}",
+                   "/inputs/contact/stiffness: is 4000 N/m, but "
                    "hertz-mindlin takes youngs_modulus (Pa) or maximum_overlap\n");
-    expect_problem("contact", "{\"youngs_modulus\": 1e7}", "/inputs/contact/youngs_modulus: is 1e+07 Pa, but this law takes stiffness "
+    expect_problem("contact", "{\"youngs_modulus\": 1e7}",
+                   "/inputs/contact/youngs_modulus: is 1e+07 Pa, but this law takes stiffness "
                    "(N/m) or maximum_overlap; youngs_modulus is for hertz-mindlin\n");
-    job_spec spec = parse_or_fail(minimal_with("contact", "{\"law\": \"hertz-mindlin\", \"youngs_modulus\": 5e7, \"poissons_ratio\": 0.25}"));
+    job_spec spec =
+        parse_or_fail(minimal_with("contact", "{\"law\": \"hertz-mindlin\", \"youngs_modulus\": 5e7, \"poissons_ratio\": 0.25}"));
     assert_true(spec.drum.contact.law == DEM_HERTZ_MINDLIN && spec.drum.contact.particle.youngs_modulus > 4.999e7
                 && spec.drum.contact.particle.youngs_modulus < 5.001e7 && spec.drum.contact.wall.poissons_ratio == 0.25);
     job_spec_clear(&spec);
@@ -319,8 +332,7 @@ static void one_of_two_alternatives_is_enough_and_both_are_too_much(void **state
 {
     (void)state;
     json_t *request = minimal_with("contact/stiffness", "4000");
-    json_object_set_new(json_object_get(json_object_get(request, "inputs"), "contact"), "maximum_overlap",
-                        json_real(0.01));
+    json_object_set_new(json_object_get(json_object_get(request, "inputs"), "contact"), "maximum_overlap", json_real(0.01));
     char *problems = problems_of(request);
     assert_string_equal(problems, "/inputs/contact/stiffness: is given beside maximum_overlap; give one of the two\n");
     free(problems);
@@ -339,10 +351,17 @@ static void all_problems_are_listed_at_once(void **state)
                                       "{\"diameter\": 0.003, \"colour\": \"red\"}], \"fill_fraction\": 2, \"seed\": \"x\","
                                       "\"duration\": 5}, \"label\": [], \"extra\": 1}"));
     static const char *const expected[] = {
-        "/inputs/drum/diameter: is missing", "/inputs/drum/length: is -1 m", "/inputs/drum/ends: is \"open\"",
-        "/inputs/drum/rotation_rate: is missing", "/inputs/particles/0/diameter: is missing",
-        "/inputs/particles/1/colour: is not an input", "/inputs/fill_fraction: is 2;", "/inputs/seed: is \"x\"",
-        "/inputs/duration: is 5; must be an object", "/label: is a list", "/extra: is not",
+        "/inputs/drum/diameter: is missing",
+        "/inputs/drum/length: is -1 m",
+        "/inputs/drum/ends: is \"open\"",
+        "/inputs/drum/rotation_rate: is missing",
+        "/inputs/particles/0/diameter: is missing",
+        "/inputs/particles/1/colour: is not an input",
+        "/inputs/fill_fraction: is 2;",
+        "/inputs/seed: is \"x\"",
+        "/inputs/duration: is 5; must be an object",
+        "/label: is a list",
+        "/extra: is not",
     };
     size_t lines = 0;
     for (const char *c = problems; *c; c++) lines += *c == '\n';
@@ -359,10 +378,10 @@ static void combinations_that_make_no_sense_are_refused(void **state)
                    "/inputs/drum/diameter: is 0.039 m; must be at least 0.04 m, 8 of the largest particle diameter\n");
     expect_problem("drum/length", "0.0149",
                    "/inputs/drum/length: is 0.0149 m; must be at least 0.015 m, 3 of the largest particle diameter\n");
-    expect_problem("fill_fraction", "0.01",
-                   "/inputs/fill_fraction: is 0.01, which makes 4 particles; must make 8 to 5000000\n");
-    expect_problem("particle_count", "400", "/inputs/particle_count: is 400, a fill fraction of 1.11; must be at most "
-                                            "342, a fill fraction of 0.95\n");
+    expect_problem("fill_fraction", "0.01", "/inputs/fill_fraction: is 0.01, which makes 4 particles; must make 8 to 5000000\n");
+    expect_problem("particle_count", "400",
+                   "/inputs/particle_count: is 400, a fill fraction of 1.11; must be at most "
+                   "342, a fill fraction of 0.95\n");
     expect_problem("particles", "[{\"diameter\": 0.005, \"share\": 0.5}, {\"diameter\": 0.004, \"share\": 0.4}]",
                    "/inputs/particles: have shares that sum to 0.9; must sum to 1\n");
     expect_problem("particles", "[{\"diameter\": 0.005, \"share\": 0.5}, {\"diameter\": 0.004}]",
@@ -438,10 +457,14 @@ static void the_description_has_every_default_and_range_that_the_parser_has(void
     (void)state;
     assert_null(process_description("heap"));
     json_t *description = process_description("drum");
-    json_t *friction = json_object_get(json_object_get(json_object_get(json_object_get(json_object_get(
-        json_object_get(description, "inputs"), "contact"), "schema"), "properties"), "friction"), "maximum");
+    json_t *friction = json_object_get(
+        json_object_get(
+            json_object_get(json_object_get(json_object_get(json_object_get(description, "inputs"), "contact"), "schema"),
+                            "properties"),
+            "friction"),
+        "maximum");
     assert_true(json_number_value(friction) == 5);
-    const char *const outputs[] = {"repose", "regime", "segregation", "packing", "run"};
+    const char *const outputs[] = { "repose", "regime", "segregation", "packing", "run" };
     for (size_t o = 0; o < 5; o++) assert_non_null(json_object_get(json_object_get(description, "outputs"), outputs[o]));
     json_decref(description);
 }

@@ -10,8 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "json_text.h"
 #include "drum_result.h"
+#include "json_text.h"
 
 /* The detail of the problem, or "" when the text is read. */
 static const char *refusal(const char *text, char *detail, size_t size)
@@ -46,10 +46,12 @@ static void digits_inside_a_text_are_no_numbers(void **state)
 static void numbers_are_written_in_the_fewest_digits_that_read_back_the_same(void **state)
 {
     (void)state;
-    const double numbers[] = {0.1, 0.00378, 1.0 / 3.0, 1e-300, 1e22, 2500, 0.30000000000000004, 5e-324, -0.05,
-                              1.7976931348623157e308};
-    const char *const written[] = {"0.1", "0.00378", NULL, "1e-300", "1e+22", "2500.0", "0.30000000000000004", NULL,
-                                   "-0.05", NULL};
+    const double numbers[] = {
+        0.1, 0.00378, 1.0 / 3.0, 1e-300, 1e22, 2500, 0.30000000000000004, 5e-324, -0.05, 1.7976931348623157e308
+    };
+    const char *const written[] = {
+        "0.1", "0.00378", NULL, "1e-300", "1e+22", "2500.0", "0.30000000000000004", NULL, "-0.05", NULL
+    };
     for (size_t n = 0; n < sizeof numbers / sizeof numbers[0]; n++) {
         json_t *document = json_pack("[f]", numbers[n]);
         char *text = json_text_write(document);

@@ -81,8 +81,8 @@ static double *frame_of(dem_scene *scene)
 
 typedef struct expected_angle {
     frame_column column;
-    double level;        /* degrees that it may be off on a bed whose layers are level with the plane */
-    double rough, mean;  /* on one bed whose lattice ends anyhow at the plane, and in the mean over such beds */
+    double level;       /* degrees that it may be off on a bed whose layers are level with the plane */
+    double rough, mean; /* on one bed whose lattice ends anyhow at the plane, and in the mean over such beds */
 } expected_angle;
 
 /* A rough surface has steps of up to a layer. A line through 60 % of the chord, 25 columns, feels 0.5 degrees of them;
@@ -90,7 +90,7 @@ typedef struct expected_angle {
  * why instruments average it over 50 images. The centre of mass of a segment lies at right angles to its chord, but
  * for the unevenness with which a lattice fills the rounding of the wall. */
 static const expected_angle expected_angles[] = {
-    { FRAME_SURFACE_FIT, 0.05, 1.0, 0.3 }, { FRAME_THEIL_SEN, 0.05, 1.5, 0.4 },   { FRAME_UPPER_CHORD, 0.1, 2.5, 1.0 },
+    { FRAME_SURFACE_FIT, 0.05, 1.0, 0.3 }, { FRAME_THEIL_SEN, 0.05, 1.5, 0.4 },     { FRAME_UPPER_CHORD, 0.1, 2.5, 1.0 },
     { FRAME_LOWER_CHORD, 0.1, 2.5, 1.0 },  { FRAME_CENTER_OF_MASS, 0.7, 0.7, 0.3 }, { FRAME_CHORD, 0.3, 6.0, 2.0 },
 };
 enum { ANGLES = sizeof expected_angles / sizeof *expected_angles };

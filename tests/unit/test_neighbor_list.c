@@ -10,8 +10,8 @@ typedef struct census {
 
 /* Which pairs are listed, and all spheres in the order of x, so that "all pairs" need not take all day. */
 typedef struct listed {
-    uint8_t *pair;   /* (mobile, all) */
-    size_t *order;   /* (all) */
+    uint8_t *pair; /* (mobile, all) */
+    size_t *order; /* (all) */
     size_t mobile, all;
 } listed;
 
@@ -72,7 +72,7 @@ static size_t count_own_pairs(const dem_scene *scene)
     size_t own = 0;
     for (size_t k = 0; k < pairs->count; k++)
         own += (size_t)pairs->second[k] < s->mobile_count
-            && particle_of_sphere(s, (size_t)pairs->first[k]) == particle_of_sphere(s, (size_t)pairs->second[k]);
+               && particle_of_sphere(s, (size_t)pairs->first[k]) == particle_of_sphere(s, (size_t)pairs->second[k]);
     return own;
 }
 
@@ -181,8 +181,9 @@ static void no_contact_is_missed_among_tumbling_clusters(void **unused)
     d.species_count = 3;
     for (int k = 0; k < 3; k++) d.species[k] = (dem_species){ .diameter = 0.003, .density = 2500, .share = 1.0 / 3 };
     dem_cluster_of_shape(&d.species[0].cluster, DEM_TETRAHEDRON, 0.002);
-    d.species[1].cluster = (dem_cluster){ .sphere_count = 3, .sphere = { { { 0, 0, 0 }, 0.004 }, { { 0.003, 0, 0 }, 0.003 },
-                                                                        { { 0.003, 0.002, 0 }, 0.002 } } };
+    d.species[1].cluster =
+        (dem_cluster){ .sphere_count = 3,
+                       .sphere = { { { 0, 0, 0 }, 0.004 }, { { 0.003, 0, 0 }, 0.003 }, { { 0.003, 0.002, 0 }, 0.002 } } };
     for (int k = 0; k < 2; k++) dem_cluster_complete(&d.species[k].cluster);
     d.fill_fraction = 0.35;
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 3);

@@ -31,7 +31,8 @@ static void every_field_has_its_own_name_and_a_meaning(void **state)
             assert_int_equal(known, 1);
             for (size_t g = 0; g < f; g++) {
                 const result_field *other = &results->field[g];
-                const bool same_group = field->group && other->group ? strcmp(field->group, other->group) == 0 : field->group == other->group;
+                const bool same_group =
+                    field->group && other->group ? strcmp(field->group, other->group) == 0 : field->group == other->group;
                 assert_false(strcmp(field->output, other->output) == 0 && same_group && strcmp(field->name, other->name) == 0);
             }
         }
@@ -69,7 +70,8 @@ static void a_canonical_granule_is_read_and_written_with_the_same_bytes(void **s
     (void)state;
     const char *const texts[] = {
         "{\"inputs\": {\"friction\": 0.1}}",
-        "{\"inputs\": {\"friction\": 0.7, \"rotation_rate\": 17.3, \"revolutions\": 3, \"tolerance\": 1e-12}, \"label\": {\"a\": 1}}",
+        "{\"inputs\": {\"friction\": 0.7, \"rotation_rate\": 17.3, \"revolutions\": 3, \"tolerance\": 1e-12}, \"label\": {\"a\": "
+        "1}}",
     };
     for (size_t t = 0; t < 2; t++) {
         job_spec first, second;
@@ -109,10 +111,12 @@ static const json_t *at(const json_t *document, const char *output, const char *
 static void a_granules_results_are_null_where_no_rate_was_given(void **state)
 {
     (void)state;
-    dem_granule_definition d = {.friction = 1.0, .radius = 0.1, .gravity = 9.81, .rotation_rate = NAN, .revolutions = 2, .tolerance = 1e-9};
+    dem_granule_definition d = {
+        .friction = 1.0, .radius = 0.1, .gravity = 9.81, .rotation_rate = NAN, .revolutions = 2, .tolerance = 1e-9
+    };
     dem_granule_result solved;
     granule_result result;
-    const run_facts run = {.particles = 1, .wall_seconds = 0.25, .threads = 1, .attempt = 2};
+    const run_facts run = { .particles = 1, .wall_seconds = 0.25, .threads = 1, .attempt = 2 };
     for (int asked = 0; asked < 2; asked++) {
         if (asked) d.rotation_rate = sqrt(1.2 * 9.81 / 0.1); /* below the least, 1.319 */
         assert_int_equal(dem_granule_solve(&d, &solved), DEM_OK);

@@ -137,10 +137,16 @@ static void set_column(double *table, size_t width, frame_column column, double 
 static void regimes_are_told_from_how_the_bed_moves(void **unused)
 {
     (void)unused;
-    struct { dem_regime regime; frame_column column; double mean, swing; frame_column second; double second_mean, second_swing; } cases[] = {
-        { DEM_SLIPPING, FRAME_WALL_SLIP, 0.8, 0.02, FRAME_TIME, 0, 0 },       /* the bed lies still in a turning drum */
-        { DEM_SLUMPING, FRAME_WALL_SLIP, 0.4, 0.6, FRAME_CENTER_OF_MASS, 20, 4 }, /* carried up, slides back, as a whole */
-        { DEM_AVALANCHING, FRAME_FLOW_SPEED, 0.1, 0.09, FRAME_TIME, 0, 0 },   /* the surface flows by bursts */
+    struct {
+        dem_regime regime;
+        frame_column column;
+        double mean, swing;
+        frame_column second;
+        double second_mean, second_swing;
+    } cases[] = {
+        { DEM_SLIPPING, FRAME_WALL_SLIP, 0.8, 0.02, FRAME_TIME, 0, 0 },            /* the bed lies still in a turning drum */
+        { DEM_SLUMPING, FRAME_WALL_SLIP, 0.4, 0.6, FRAME_CENTER_OF_MASS, 20, 4 },  /* carried up, slides back, as a whole */
+        { DEM_AVALANCHING, FRAME_FLOW_SPEED, 0.1, 0.09, FRAME_TIME, 0, 0 },        /* the surface flows by bursts */
         { DEM_CASCADING, FRAME_UPPER_CHORD, 45, 0.1, FRAME_LOWER_CHORD, 20, 0.1 }, /* S-shaped */
         { DEM_CATARACTING, FRAME_AIRBORNE, 0.3, 0.01, FRAME_TIME, 0, 0 },
     };
@@ -171,8 +177,8 @@ static void fast_beds_rain_slide_or_turn_with_the_drum(void **unused)
     CHECK_NEAR(r.regime.omega2_outer, 900 * 0.06 / 9.81, 1e-9);
     CHECK_NEAR(r.regime.omega2_inner, 900 * 0.06 * sqrt(0.5) / 9.81, 1e-9);
     CHECK_NEAR(r.regime.predicted_stationary, 2.366, 0.002);
-    CHECK_NEAR(r.regime.predicted_sliding_eq35, 1.903, 0.002);  /* 0.7071 (1 + 1/(0.4663 + 0.125)) */
-    CHECK_NEAR(r.regime.predicted_sliding_eq36, 1.884, 0.001);  /* 1/sin(atan(0.6263)) */
+    CHECK_NEAR(r.regime.predicted_sliding_eq35, 1.903, 0.002); /* 0.7071 (1 + 1/(0.4663 + 0.125)) */
+    CHECK_NEAR(r.regime.predicted_sliding_eq36, 1.884, 0.001); /* 1/sin(atan(0.6263)) */
     set_column(table, width, FRAME_SURFACE_LAG, 0.5, 0);
     assert_int_equal(results_of(scene, table, FRAMES).regime.regime, DEM_SLIDING);
     for (size_t i = 0; i < n / 10; i++) scene->spheres.fallen_time[i] = FRAMES * INTERVAL; /* a tenth were seen falling */

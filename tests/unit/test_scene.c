@@ -346,8 +346,9 @@ static void a_turning_wall_drags_a_sphere_that_it_presses_on(void **unused)
     dem_scene *scene = weightless_scene(&d);
     scene_enter_phase(scene, DEM_PHASE_ROTATING);
     const double speed = d.rotation_rate * 0.1;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0, -0.0979, 0 },
-        .velocity = (double[]){ 0, -0.4, 0 } });
+    place_by_hand(
+        scene,
+        &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0, -0.0979, 0 }, .velocity = (double[]){ 0, -0.4, 0 } });
     advance(scene, 400);
     double v[3], w[3];
     look_at(scene, NULL, v, w);

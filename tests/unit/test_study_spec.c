@@ -27,21 +27,21 @@ static void test_merge_patch_follows_the_table_of_its_rfc(void **state)
 {
     (void)state;
     static const char *const table[][3] = {
-        {"{\"a\":\"b\"}", "{\"a\":\"c\"}", "{\"a\":\"c\"}"},
-        {"{\"a\":\"b\"}", "{\"b\":\"c\"}", "{\"a\":\"b\",\"b\":\"c\"}"},
-        {"{\"a\":\"b\"}", "{\"a\":null}", "{}"},
-        {"{\"a\":\"b\",\"b\":\"c\"}", "{\"a\":null}", "{\"b\":\"c\"}"},
-        {"{\"a\":[\"b\"]}", "{\"a\":\"c\"}", "{\"a\":\"c\"}"},
-        {"{\"a\":\"c\"}", "{\"a\":[\"b\"]}", "{\"a\":[\"b\"]}"},
-        {"{\"a\":{\"b\":\"c\"}}", "{\"a\":{\"b\":\"d\",\"c\":null}}", "{\"a\":{\"b\":\"d\"}}"},
-        {"{\"a\":[{\"b\":\"c\"}]}", "{\"a\":[1]}", "{\"a\":[1]}"},
-        {"[\"a\",\"b\"]", "[\"c\",\"d\"]", "[\"c\",\"d\"]"},
-        {"{\"a\":\"b\"}", "[\"c\"]", "[\"c\"]"},
-        {"{\"a\":\"foo\"}", "null", "null"},
-        {"{\"a\":\"foo\"}", "\"bar\"", "\"bar\""},
-        {"{\"e\":null}", "{\"a\":1}", "{\"e\":null,\"a\":1}"},
-        {"[1,2]", "{\"a\":\"b\",\"c\":null}", "{\"a\":\"b\"}"},
-        {"{}", "{\"a\":{\"bb\":{\"ccc\":null}}}", "{\"a\":{\"bb\":{}}}"},
+        { "{\"a\":\"b\"}", "{\"a\":\"c\"}", "{\"a\":\"c\"}" },
+        { "{\"a\":\"b\"}", "{\"b\":\"c\"}", "{\"a\":\"b\",\"b\":\"c\"}" },
+        { "{\"a\":\"b\"}", "{\"a\":null}", "{}" },
+        { "{\"a\":\"b\",\"b\":\"c\"}", "{\"a\":null}", "{\"b\":\"c\"}" },
+        { "{\"a\":[\"b\"]}", "{\"a\":\"c\"}", "{\"a\":\"c\"}" },
+        { "{\"a\":\"c\"}", "{\"a\":[\"b\"]}", "{\"a\":[\"b\"]}" },
+        { "{\"a\":{\"b\":\"c\"}}", "{\"a\":{\"b\":\"d\",\"c\":null}}", "{\"a\":{\"b\":\"d\"}}" },
+        { "{\"a\":[{\"b\":\"c\"}]}", "{\"a\":[1]}", "{\"a\":[1]}" },
+        { "[\"a\",\"b\"]", "[\"c\",\"d\"]", "[\"c\",\"d\"]" },
+        { "{\"a\":\"b\"}", "[\"c\"]", "[\"c\"]" },
+        { "{\"a\":\"foo\"}", "null", "null" },
+        { "{\"a\":\"foo\"}", "\"bar\"", "\"bar\"" },
+        { "{\"e\":null}", "{\"a\":1}", "{\"e\":null,\"a\":1}" },
+        { "[1,2]", "{\"a\":\"b\",\"c\":null}", "{\"a\":\"b\"}" },
+        { "{}", "{\"a\":{\"bb\":{\"ccc\":null}}}", "{\"a\":{\"bb\":{}}}" },
     };
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
         json_t *target = load(table[i][0]), *patch = load(table[i][1]), *expected = load(table[i][2]), *before = load(table[i][0]);
@@ -56,9 +56,13 @@ static void test_merge_patch_follows_the_table_of_its_rfc(void **state)
 static void test_pointers_follow_the_table_of_their_rfc(void **state)
 {
     (void)state;
-    json_t *document = load("{\"foo\":[\"bar\",\"baz\"],\"\":0,\"a/b\":1,\"c%d\":2,\"e^f\":3,\"g|h\":4,\"i\\\\j\":5,\"k\\\"l\":6,\" \":7,\"m~n\":8}");
-    static const struct { const char *pointer; int value; } table[] = {
-        {"/", 0}, {"/a~1b", 1}, {"/c%d", 2}, {"/e^f", 3}, {"/g|h", 4}, {"/i\\j", 5}, {"/k\"l", 6}, {"/ ", 7}, {"/m~0n", 8}};
+    json_t *document = load(
+        "{\"foo\":[\"bar\",\"baz\"],\"\":0,\"a/b\":1,\"c%d\":2,\"e^f\":3,\"g|h\":4,\"i\\\\j\":5,\"k\\\"l\":6,\" \":7,\"m~n\":8}");
+    static const struct {
+        const char *pointer;
+        int value;
+    } table[] = { { "/", 0 },     { "/a~1b", 1 }, { "/c%d", 2 }, { "/e^f", 3 }, { "/g|h", 4 },
+                  { "/i\\j", 5 }, { "/k\"l", 6 }, { "/ ", 7 },   { "/m~0n", 8 } };
     for (size_t i = 0; i < sizeof table / sizeof table[0]; i++) {
         const json_t *found = json_pointer_find(document, table[i].pointer);
         assert_non_null(found);
@@ -66,7 +70,8 @@ static void test_pointers_follow_the_table_of_their_rfc(void **state)
     }
     assert_ptr_equal(json_pointer_find(document, ""), document);
     assert_string_equal(json_string_value(json_pointer_find(document, "/foo/0")), "bar");
-    static const char *const nowhere[] = {"/foo/2", "/foo/-", "/foo/00", "/foo/0/x", "/fo", "foo", "/foo/99999999999999999999", "/m~2n", "/m~"};
+    static const char *const nowhere[] = { "/foo/2", "/foo/-", "/foo/00", "/foo/0/x", "/fo", "foo", "/foo/99999999999999999999",
+                                           "/m~2n",  "/m~" };
     for (size_t i = 0; i < sizeof nowhere / sizeof nowhere[0]; i++) assert_null(json_pointer_find(document, nowhere[i]));
     json_decref(document);
 }
@@ -89,11 +94,13 @@ static void test_setting_makes_objects_on_the_way_and_no_entries_of_lists(void *
 
 /* --- studies --- */
 
-#define BASE "\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},\"particles\":[{\"diameter\":0.005}],\"seed\":5}}"
+#define BASE                                                                                                                       \
+    "\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},\"particles\":[{\"diameter\":0.005}]," \
+    "\"seed\":5}}"
 
 static bool parse(const char *text, int64_t most_jobs, study_spec *study, study_estimate *estimate, problem_list *problems)
 {
-    const study_options options = {.seed_if_missing = 77, .default_threads = 2, .most_jobs = most_jobs};
+    const study_options options = { .seed_if_missing = 77, .default_threads = 2, .most_jobs = most_jobs };
     json_t *document = load(text);
     assert_true(problem_list_init(problems));
     study_spec_parse(document, &options, study, problems);
@@ -119,7 +126,8 @@ static void expect_problems(const char *text, const char *expected)
     assert_false(parse(text, 1000, &study, &estimate, &problems));
     size_t i;
     json_t *problem;
-    json_array_foreach(problems.errors, i, problem) {
+    json_array_foreach(problems.errors, i, problem)
+    {
         strcat(found, json_string_value(json_object_get(problem, "pointer")));
         strcat(found, ": ");
         strcat(found, json_string_value(json_object_get(problem, "detail")));
@@ -144,9 +152,11 @@ static void test_all_combinations_come_once_and_the_last_varies_fastest(void **s
 {
     (void)state;
     study_spec study;
-    take("{" BASE ",\"vary\":{\"/inputs/contact/friction\":[0.1,0.2],\"/inputs/drum/rotation_rate\":[1,2,4],\"/inputs/wall/friction\":[0.3,0.6]}}", &study);
+    take("{" BASE ",\"vary\":{\"/inputs/contact/friction\":[0.1,0.2],\"/inputs/drum/rotation_rate\":[1,2,4],\"/inputs/wall/"
+                  "friction\":[0.3,0.6]}}",
+         &study);
     assert_int_equal(study.cases, 12);
-    static const double friction[] = {0.1, 0.2}, rate[] = {1, 2, 4}, wall[] = {0.3, 0.6};
+    static const double friction[] = { 0.1, 0.2 }, rate[] = { 1, 2, 4 }, wall[] = { 0.3, 0.6 };
     for (size_t i = 0; i < 12; i++) { /* three nested loops, written out */
         assert_true(input_of(&study, i, 0, "/inputs/contact/friction") == friction[i / 6]);
         assert_true(input_of(&study, i, 0, "/inputs/drum/rotation_rate") == rate[i / 2 % 3]);
@@ -156,7 +166,8 @@ static void test_all_combinations_come_once_and_the_last_varies_fastest(void **s
     char name[STUDY_NAME_SIZE];
     study_case_name(&study, 7, name); /* two inputs are called friction: then the whole way is told */
     assert_string_equal(name, "contact/friction 0.2, rotation_rate 1, wall/friction 0.6");
-    json_t *inputs = study_case_inputs(&study, 7), *expected = load("{\"contact/friction\":0.2,\"drum/rotation_rate\":1,\"wall/friction\":0.6}");
+    json_t *inputs = study_case_inputs(&study, 7),
+           *expected = load("{\"contact/friction\":0.2,\"drum/rotation_rate\":1,\"wall/friction\":0.6}");
     assert_true(json_equal(inputs, expected));
     json_decref(inputs), json_decref(expected);
     study_spec_clear(&study);
@@ -166,15 +177,19 @@ static void test_cases_are_patches_and_show_what_any_of_them_changes(void **stat
 {
     (void)state;
     study_spec study;
-    take("{\"name\":\"s\"," BASE ",\"cases\":[{\"name\":\"a\",\"inputs\":{\"contact\":{\"friction\":0.1}},\"label\":{\"paper\":\"23\"}},"
-         "{\"name\":\"b\",\"inputs\":{\"drum\":{\"rotation_rate\":6}}}]}", &study);
+    take("{\"name\":\"s\"," BASE
+         ",\"cases\":[{\"name\":\"a\",\"inputs\":{\"contact\":{\"friction\":0.1}},\"label\":{\"paper\":\"23\"}},"
+         "{\"name\":\"b\",\"inputs\":{\"drum\":{\"rotation_rate\":6}}}]}",
+         &study);
     json_t *first = study_case_inputs(&study, 0), *second = study_case_inputs(&study, 1);
-    json_t *of_first = load("{\"contact/friction\":0.1,\"drum/rotation_rate\":3}"), *of_second = load("{\"contact/friction\":null,\"drum/rotation_rate\":6}");
+    json_t *of_first = load("{\"contact/friction\":0.1,\"drum/rotation_rate\":3}"),
+           *of_second = load("{\"contact/friction\":null,\"drum/rotation_rate\":6}");
     assert_true(json_equal(first, of_first) && json_equal(second, of_second));
     json_t *request = study_job_request(&study, 0, 0), *label = load("{\"paper\":\"23\",\"study\":\"s\",\"case\":\"a\"}");
     assert_true(json_equal(json_object_get(request, "label"), label));
     assert_true(input_of(&study, 0, 0, "/inputs/threads") == 2.0); /* the daemon's own default */
-    json_decref(first), json_decref(second), json_decref(of_first), json_decref(of_second), json_decref(request), json_decref(label);
+    json_decref(first), json_decref(second), json_decref(of_first), json_decref(of_second), json_decref(request),
+        json_decref(label);
     study_spec_clear(&study);
 }
 
@@ -200,7 +215,8 @@ static void test_a_seed_that_is_missing_is_chosen_once_and_kept(void **state)
 {
     (void)state;
     study_spec study, again;
-    static const char text[] = "{\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},\"particles\":[{\"diameter\":0.005}]}},\"repeats\":2}";
+    static const char text[] = "{\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},"
+                               "\"particles\":[{\"diameter\":0.005}]}},\"repeats\":2}";
     take(text, &study);
     assert_true(input_of(&study, 0, 0, "/inputs/seed") == 77.0 && input_of(&study, 0, 1, "/inputs/seed") == 78.0);
     char *kept = json_dumps(study.document, 0); /* posted again it gives the same jobs */
@@ -234,7 +250,8 @@ static void test_a_study_costs_what_its_jobs_cost(void **state)
         json_decref(request);
     }
     assert_true(estimate.jobs == 8.0 && estimate.steps == steps);
-    assert_true(estimate.wall_seconds > seconds * 0.999999 && estimate.wall_seconds < seconds * 1.000001); /* sums in another order */
+    assert_true(estimate.wall_seconds > seconds * 0.999999
+                && estimate.wall_seconds < seconds * 1.000001); /* sums in another order */
     problem_list_clear(&problems);
     study_spec_clear(&study);
 }
@@ -242,11 +259,13 @@ static void test_a_study_costs_what_its_jobs_cost(void **state)
 static void test_problems_point_into_the_study(void **state)
 {
     (void)state;
-    expect_problems("{" BASE ",\"cases\":[{\"name\":\"a\"},{\"name\":\"b\",\"inputs\":{\"contact\":{\"friction\":-1}}},{\"name\":\"c\",\"inputs\":{\"contakt\":{}}}]}",
+    expect_problems("{" BASE ",\"cases\":[{\"name\":\"a\"},{\"name\":\"b\",\"inputs\":{\"contact\":{\"friction\":-1}}},{\"name\":"
+                             "\"c\",\"inputs\":{\"contakt\":{}}}]}",
                     "/cases/1/inputs/contact/friction: is -1; must be in [0, 5]\n"
                     "/cases/2/inputs/contakt: is not an input; did you mean inputs/contact?\n");
     /* Of the base: once, however many cases. */
-    expect_problems("{\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},\"particles\":[{\"diameter\":0.005}],\"gravity\":-2}},"
+    expect_problems("{\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},\"particles\":[{"
+                    "\"diameter\":0.005}],\"gravity\":-2}},"
                     "\"cases\":[{\"name\":\"a\"},{\"name\":\"b\"}]}",
                     "/base/inputs/gravity: is -2 m/s2; must be in [0.01, 1000] m/s2\n");
     expect_problems("{" BASE ",\"vary\":{\"/inputs/contact/friction\":[0.1,7,\"x\"]}}",
@@ -255,35 +274,40 @@ static void test_problems_point_into_the_study(void **state)
     expect_problems("{" BASE ",\"vary\":{\"/inputs/contact/frction\":[0.1,0.2]}}",
                     "/vary/~1inputs~1contact~1frction: is not an input; did you mean inputs/contact/friction?\n");
     /* Good values that don't go together: the combination is named. */
-    expect_problems("{" BASE ",\"vary\":{\"/inputs/particles/0/diameter\":[0.005,0.04]}}",
-                    "/vary: with diameter 0.04: /inputs/drum/diameter is 0.05 m; must be at least 0.32 m, 8 of the largest particle diameter\n"
-                    "/vary: with diameter 0.04: /inputs/drum/length is 0.02 m; must be at least 0.12 m, 3 of the largest particle diameter\n"
-                    "/vary: with diameter 0.04: /inputs/fill_fraction is 0.5, which makes 0 particles; must make 8 to 5000000\n");
+    expect_problems(
+        "{" BASE ",\"vary\":{\"/inputs/particles/0/diameter\":[0.005,0.04]}}",
+        "/vary: with diameter 0.04: /inputs/drum/diameter is 0.05 m; must be at least 0.32 m, 8 of the largest particle diameter\n"
+        "/vary: with diameter 0.04: /inputs/drum/length is 0.02 m; must be at least 0.12 m, 3 of the largest particle diameter\n"
+        "/vary: with diameter 0.04: /inputs/fill_fraction is 0.5, which makes 0 particles; must make 8 to 5000000\n");
 }
 
 static void test_bad_shapes_and_bad_jobs_are_told_together(void **state)
 {
     (void)state;
-    expect_problems("{\"nam\":\"x\"," BASE ",\"repeats\":0,\"cases\":[{\"name\":\"a\",\"inputs\":{\"fill_fraction\":2}},{\"name\":\"a\"},3,{\"inputs\":{}}]}",
-                    "/nam: is not a known member\n"
-                    "/repeats: is 0; must be a whole number in [1, 1000]\n"
-                    "/cases/1/name: is the name of an earlier case, too; each must have its own\n"
-                    "/cases/2: is 3; must be an object with \"name\" and \"inputs\"\n"
-                    "/cases/3/name: is missing; must be a text\n"
-                    "/cases/0/inputs/fill_fraction: is 2; must be in (0, 0.95]\n");
+    expect_problems(
+        "{\"nam\":\"x\"," BASE
+        ",\"repeats\":0,\"cases\":[{\"name\":\"a\",\"inputs\":{\"fill_fraction\":2}},{\"name\":\"a\"},3,{\"inputs\":{}}]}",
+        "/nam: is not a known member\n"
+        "/repeats: is 0; must be a whole number in [1, 1000]\n"
+        "/cases/1/name: is the name of an earlier case, too; each must have its own\n"
+        "/cases/2: is 3; must be an object with \"name\" and \"inputs\"\n"
+        "/cases/3/name: is missing; must be a text\n"
+        "/cases/0/inputs/fill_fraction: is 2; must be in (0, 0.95]\n");
     expect_problems("[]", ": must be an object with \"base\" and, if wanted, \"name\", \"cases\" or \"vary\", and \"repeats\"\n");
     expect_problems("{}", "/base: is missing; must be an object with \"inputs\" and, if wanted, \"label\"\n");
     expect_problems("{" BASE ",\"cases\":[],\"vary\":{}}", "/vary: is given beside cases; give one of the two\n");
-    expect_problems("{" BASE ",\"vary\":{\"/label/x\":[1],\"/inputs/particles/1/diameter\":[1],\"/inputs/gravity\":[]}}",
-                    "/vary/~1label~1x: names no input; must be a JSON Pointer as /inputs/contact/friction\n"
-                    "/vary/~1inputs~1particles~11~1diameter: names no input: it leads through something in the base that has no such member\n"
-                    "/vary/~1inputs~1gravity: is a list; must be a list of at least one value\n");
+    expect_problems(
+        "{" BASE ",\"vary\":{\"/label/x\":[1],\"/inputs/particles/1/diameter\":[1],\"/inputs/gravity\":[]}}",
+        "/vary/~1label~1x: names no input; must be a JSON Pointer as /inputs/contact/friction\n"
+        "/vary/~1inputs~1particles~11~1diameter: names no input: it leads through something in the base that has no such member\n"
+        "/vary/~1inputs~1gravity: is a list; must be a list of at least one value\n");
 }
 
 static void test_no_study_is_larger_than_the_queue(void **state)
 {
     (void)state;
-    expect_problems("{" BASE ",\"vary\":{\"/inputs/gravity\":[1,2,3]},\"repeats\":334}", ": makes 1002 jobs, 3 cases of 334; at most 1000 may wait\n");
+    expect_problems("{" BASE ",\"vary\":{\"/inputs/gravity\":[1,2,3]},\"repeats\":334}",
+                    ": makes 1002 jobs, 3 cases of 334; at most 1000 may wait\n");
     /* A product beyond any integer. */
     char text[200000] = "{" BASE ",\"vary\":{", *end = text + strlen(text);
     for (int list = 0; list < 8; list++) {
@@ -304,7 +328,8 @@ static void test_no_study_is_larger_than_the_queue(void **state)
 static void test_the_largest_seed_leaves_no_room_for_repeats(void **state)
 {
     (void)state;
-    expect_problems("{\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},\"particles\":[{\"diameter\":0.005}],"
+    expect_problems("{\"base\":{\"inputs\":{\"drum\":{\"diameter\":0.05,\"length\":0.02,\"rotation_rate\":3},\"particles\":[{"
+                    "\"diameter\":0.005}],"
                     "\"seed\":9007199254740991}},\"repeats\":2}",
                     "/base/inputs/seed: is 9007199254740992; must be in [0, 9007199254740991]\n");
 }

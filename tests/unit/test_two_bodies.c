@@ -84,8 +84,8 @@ static void head_on_spheres_part_with_e_and_the_closed_forms(void **unused)
             dem_scene *scene = weightless_scene(&d);
             const double v = approaches[a], gap = 7.3 * v * d.time_step;
             place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-                .position = (double[]){ -0.002, 0.01, 0, 0.003 + gap, 0.01, 0 },
-                .velocity = (double[]){ 0.25 * v, 0, 0, -0.75 * v, 0, 0 } });
+                                               .position = (double[]){ -0.002, 0.01, 0, 0.003 + gap, 0.01, 0 },
+                                               .velocity = (double[]){ 0.25 * v, 0, 0, -0.75 * v, 0, 0 } });
             const collision c = collide(scene, 2, v, "pair_history");
             check_closed_forms(&c, m_eff, v, &d.contact);
             dem_scene_free(scene);
@@ -105,7 +105,8 @@ static void a_sphere_leaves_the_wall_with_e_and_the_closed_forms(void **unused)
             dem_scene *scene = weightless_scene(&d);
             const double v = approaches[a];
             place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-                .position = (double[]){ 0.098 - 7.3 * v * d.time_step, 0, 0 }, .velocity = (double[]){ v, 0, 0 } });
+                                               .position = (double[]){ 0.098 - 7.3 * v * d.time_step, 0, 0 },
+                                               .velocity = (double[]){ v, 0, 0 } });
             const collision c = collide(scene, 1, v, "wall_history");
             check_closed_forms(&c, m, v, &d.contact);
             dem_scene_free(scene);
@@ -125,7 +126,8 @@ static void at_the_runs_own_time_step_e_holds_to_half_a_percent(void **unused)
     for (int part = 0; part < 20; part++) {
         const double v = 0.4, gap = part / 20.0 * v * d.time_step;
         place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-            .position = (double[]){ -0.002, 0.01, 0, 0.002 + gap, 0.01, 0 }, .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
+                                           .position = (double[]){ -0.002, 0.01, 0, 0.002 + gap, 0.01, 0 },
+                                           .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
         const collision c = collide(scene, 2, v, "pair_history");
         CHECK_NEAR(c.speed_ratio, 0.8, 0.004);
     }
@@ -135,9 +137,9 @@ static void at_the_runs_own_time_step_e_holds_to_half_a_percent(void **unused)
 /* ---- oblique ---- */
 
 typedef struct oblique {
-    double v_n, v_t;    /* m/s after: away from the wall, along it */
-    double spin;        /* rad/s after, about the axis that friction turns */
-    double e;           /* seen in this very collision */
+    double v_n, v_t; /* m/s after: away from the wall, along it */
+    double spin;     /* rad/s after, about the axis that friction turns */
+    double e;        /* seen in this very collision */
 } oblique;
 
 /* Against the wall at +x, sliding along the drum's axis, in which the wall is flat. */
@@ -145,7 +147,8 @@ static oblique strike_wall(double v_n, double v_t, const dem_drum_definition *d)
 {
     dem_scene *scene = weightless_scene(d);
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
-        .position = (double[]){ 0.098 - 2.5 * v_n * d->time_step, 0, 0 }, .velocity = (double[]){ v_n, 0, v_t } });
+                                       .position = (double[]){ 0.098 - 2.5 * v_n * d->time_step, 0, 0 },
+                                       .velocity = (double[]){ v_n, 0, v_t } });
     advance(scene, 2 * STEPS_A_CONTACT);
     double v[3], w[3];
     look_at(scene, NULL, v, w);
@@ -183,8 +186,10 @@ static void a_sphere_that_rolls_along_the_wall_is_not_slowed_by_an_impact(void *
     d.time_step = contact_time(species_mass(&d.species[0]), &d.contact) / STEPS_A_CONTACT;
     dem_scene *scene = weightless_scene(&d);
     const double v_t = 0.5, v_n = 0.05;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.098 - 2.5 * v_n * d.time_step, 0, 0 },
-        .velocity = (double[]){ v_n, 0, v_t }, .spin = (double[]){ 0, v_t / 0.002, 0 } });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                       .position = (double[]){ 0.098 - 2.5 * v_n * d.time_step, 0, 0 },
+                                       .velocity = (double[]){ v_n, 0, v_t },
+                                       .spin = (double[]){ 0, v_t / 0.002, 0 } });
     advance(scene, 2 * STEPS_A_CONTACT);
     double v[3];
     look_at(scene, NULL, v, NULL);
@@ -206,8 +211,9 @@ static void a_sphere_set_sliding_ends_rolling_at_five_sevenths(void **unused)
     d.time_step = dem_time_step(d.contact.stiffness, species_mass(&d.species[0]), d.contact.restitution);
     dem_scene *scene = hand_scene(&d);
     const double r = 0.002, v_0 = 0.4, alpha = species_mass(&d.species[0]) * 9.81 / d.contact.stiffness;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0, -0.098 - alpha, 0 },
-        .velocity = (double[]){ 0, 0, v_0 } });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                       .position = (double[]){ 0, -0.098 - alpha, 0 },
+                                       .velocity = (double[]){ 0, 0, v_0 } });
     /* slip ends after 2 v_0/(7 mu g) */
     const double slip_time = 2 * v_0 / (7 * d.contact.wall_friction * 9.81);
     double v[3], w[3];
@@ -304,8 +310,10 @@ static void across_the_period_is_as_inside(void **unused)
         /* the pair lies along z: about z = 0, or about z = length/2 */
         const double middle = across ? d.length / 2 : 0;
         double x[6] = { 0.01, 0.01, middle - 0.0021, 0.0105, 0.01, middle + 0.0021 - (across ? d.length : 0) };
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x,
-            .velocity = (double[]){ 0, 0, 0.2, 0.05, 0, -0.2 }, .spin = (double[]){ 10, 20, 30, 0, -40, 0 } });
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                           .position = x,
+                                           .velocity = (double[]){ 0, 0, 0.2, 0.05, 0, -0.2 },
+                                           .spin = (double[]){ 10, 20, 30, 0, -40, 0 } });
         advance(scene, 400);
         look_at(scene, NULL, end[across], end[across] + 6);
         dem_scene_free(scene);
