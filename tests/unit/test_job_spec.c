@@ -218,8 +218,9 @@ static void what_is_not_available_yet_is_refused_with_what_is(void **state)
                    "\"dumbbell\", \"tetrahedron\", \"cube\", or an object\n");
     expect_problem("contact/law", "\"hertz\"",
                    "/inputs/contact/law: is \"hertz\"; available: \"walton-braun\", \"spring-dashpot\", \"hertz-mindlin\"\n");
-    char *problems =
-        problems_of(json_pack("{s:s, s:o}", "process", "heap", "inputs", json_incref(json_object_get(load(minimal), "inputs"))));
+    json_t *request = load(minimal);
+    json_object_set_new(request, "process", json_string("heap"));
+    char *problems = problems_of(request);
     assert_string_equal(problems, "/process: is \"heap\"; was sent to the process \"drum\"\n");
     free(problems);
 }
