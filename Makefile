@@ -3,7 +3,6 @@
 PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core
-PEER_PACKAGES := lammps liggghts
 LINT_PACKAGES := clang-format clang-tidy cppcheck bear
 
 PYTHON := /usr/bin/python3
@@ -128,9 +127,7 @@ test-packages: packages
 	$(call install,$(TEST_PACKAGES))
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES))
-peer-packages: packages
-	$(call install,$(PEER_PACKAGES))
 
-.PHONY: all programs demo serve test physics check bench asan asan-run tsan format lint clean help packages test-packages lint-packages peer-packages
+.PHONY: all programs demo serve test physics check bench asan asan-run tsan format lint clean help packages test-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

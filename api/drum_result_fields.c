@@ -40,7 +40,7 @@ static const result_field fields[] = {
     { "regime", "evidence", "flow_fluctuation", RESULT_REAL, REGIME(flow_fluctuation), "",
       "standard deviation over mean of the surface flow's speed" },
     { "regime", "evidence", "airborne_fraction", RESULT_REAL, REGIME(airborne_fraction), "",
-      "share of particles without a contact" },
+      "share of particles in flight: no contact, 3 diameters above the chord of the fill" },
     { "regime", "evidence", "wall_coverage", RESULT_REAL, REGIME(wall_coverage), "",
       "share of the wall's circumference with particles against it" },
     { "regime", "evidence", "curvature_deg", RESULT_REAL, REGIME(curvature_deg), "degrees", "upper less lower half of the chord" },
