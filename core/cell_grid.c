@@ -79,7 +79,7 @@ dem_status cell_grid_fill(cell_grid *grid, const spheres *s, double radius, doub
     if (reserve_cells(grid, cells) != DEM_OK || reserve_spheres(grid, n) != DEM_OK) return DEM_NO_MEMORY;
     memset(grid->start, 0, (cells + 1) * sizeof *grid->start);
     for (size_t i = 0; i < n; i++) {
-        const double *x = s->row[i].x;
+        const double *x = sphere_place(s, i);
         const int cx = cell_along(grid, x[0], 0), cy = cell_along(grid, x[1], 1), cz = cell_along(grid, x[2], 2);
         grid->cell_of[i] = (int32_t)((cx * grid->cells[1] + cy) * grid->cells[2] + cz);
         grid->start[grid->cell_of[i] + 1]++;
@@ -89,7 +89,7 @@ dem_status cell_grid_fill(cell_grid *grid, const spheres *s, double radius, doub
     for (size_t i = 0; i < n; i++) {
         const int32_t at = grid->start[grid->cell_of[i]]++;
         grid->sphere[at] = (int32_t)i;
-        for (int c = 0; c < 3; c++) grid->x[c][at] = (real)s->row[i].x[c];
+        for (int c = 0; c < 3; c++) grid->x[c][at] = (real)sphere_place(s, i)[c];
         grid->radius[at] = (real)s->full_radius[i];
     }
     memmove(grid->start + 1, grid->start, cells * sizeof *grid->start);

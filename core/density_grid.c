@@ -141,7 +141,7 @@ void density_grid_deposit(density_grid *grid, const dem_scene *scene, double tur
     grid->turned = turned;
     memset(grid->value, 0, (size_t)grid->cells * (size_t)grid->cells * sizeof *grid->value);
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *x = s->row[i].x;
+        const double *x = sphere_place(s, i);
         const size_t of_body =
             i < s->single_count ? 0 : i - (size_t)s->clusters.body[particle_of_sphere(s, i) - s->single_count].first_sphere;
         const int32_t kernel = grid->kernel_of[(size_t)s->species[i] * DEM_MAXIMUM_CLUSTER + of_body];

@@ -7,7 +7,7 @@ static dem_status fail(dem_scene *scene, const dem_failure *what)
     scene->failure.step = scene->step_count;
     scene->failure.time = dem_scene_time(scene);
     if (what->particle >= 0) {
-        memcpy(scene->failure.position, scene->spheres.row[what->particle].x, 3 * sizeof(double));
+        memcpy(scene->failure.position, sphere_place(&scene->spheres, (size_t)what->particle), 3 * sizeof(double));
         scene->failure.particle = (int64_t)particle_of_sphere(&scene->spheres, (size_t)what->particle);
     }
     if (what->other >= 0) scene->failure.other = (int64_t)particle_of_sphere(&scene->spheres, (size_t)what->other);
@@ -18,7 +18,7 @@ dem_status failure_check_places(dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *x = s->row[i].x;
+        const double *x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
         const double rho = sqrt(x[0] * x[0] + x[1] * x[1]);
         /* Written so that a NaN fails each of them. */

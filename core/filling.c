@@ -123,7 +123,7 @@ static bool place_one(placing *p, spheres *s, size_t i, double room, double leve
                               (random_uniform(&random->place) - 0.5) * p->length };
         if (x[0] * x[0] + x[1] * x[1] > outer * outer || !is_free(p, s, x, radius, scale)) continue;
         if (i < s->single_count) {
-            memcpy(s->row[i].x, x, sizeof x);
+            sphere_set_place(s, i, x);
         } else {
             cluster_body *body = &s->clusters.body[i - s->single_count];
             memcpy(body->x, x, sizeof x);

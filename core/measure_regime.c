@@ -52,7 +52,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     mean wall_spin = { 0 }, surface_spin = { 0 }, flow = { 0 }, airborne = { 0 };
     bool bins[WALL_BINS] = { false };
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *x = s->row[i].x;
+        const double *x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
         const double rho2 = x[0] * x[0] + x[1] * x[1], rho = sqrt(rho2);
         const double spin = (x[0] * v[1] - x[1] * v[0]) / fmax(rho2, 1e-300);

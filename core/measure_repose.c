@@ -77,7 +77,7 @@ static double theil_sen_angle(const dem_scene *scene, const int32_t *contacts, d
     if (place && top) {
         for (int a = 0; a < columns; a++) top[a] = -INFINITY;
         for (size_t i = 0; i < s->mobile_count; i++) {
-            const double *x = s->row[i].x;
+            const double *x = sphere_place(s, i);
             const int a = (int)floor((c * x[0] + sine * x[1] + half_length) / width);
             if (contacts[i] < 2 || a < 0 || a >= columns) continue;
             top[a] = fmax(top[a], c * x[1] - sine * x[0] + s->full_radius[i]);
@@ -115,7 +115,7 @@ static bool is_ring(const dem_scene *scene)
     const double outer = scene->drum.inner_radius - mean_diameter(scene);
     bool covered[SECTORS] = { false };
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
-        const double *x = scene->spheres.row[i].x;
+        const double *x = sphere_place(&scene->spheres, i);
         if (x[0] * x[0] + x[1] * x[1] > outer * outer)
             covered[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (SECTORS - 1e-9))] = true;
     }

@@ -78,11 +78,11 @@ void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arra
     const spheres *s = &scene->spheres;
     for (size_t i = 0; i < s->mobile_count; i++) {
         for (size_t c = 0; c < 3; c++) {
-            if (arrays->position) arrays->position[3 * i + c] = s->row[i].x[c];
+            if (arrays->position) arrays->position[3 * i + c] = sphere_place(s, i)[c];
             if (arrays->velocity) arrays->velocity[3 * i + c] = s->velocity[i][c];
             if (arrays->angular_velocity) arrays->angular_velocity[3 * i + c] = s->angular_velocity[i][c];
         }
-        if (arrays->radius) arrays->radius[i] = (double)s->row[i].radius;
+        if (arrays->radius) arrays->radius[i] = sphere_radius(s, i);
         if (arrays->species) arrays->species[i] = s->species[i];
         if (arrays->cluster) arrays->cluster[i] = (int32_t)particle_of_sphere(s, i);
         if (arrays->orientation) sphere_orientation(s, i, arrays->orientation + 4 * i);

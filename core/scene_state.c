@@ -104,7 +104,7 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     integers[2] = scene->phase_start;
     integers[3] = scene->rotation_start;
     numbers[0] = scene->maximum_overlap;
-    for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, s->row[i].x, 3 * sizeof *position);
+    for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, sphere_place(s, i), 3 * sizeof *position);
     memcpy(fallen, s->fallen_time, n * sizeof *fallen);
     return DEM_OK;
 }

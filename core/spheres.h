@@ -50,13 +50,17 @@ typedef struct spheres {
 dem_status spheres_init(spheres *spheres, const dem_drum_definition *definition, size_t lining_count);
 void spheres_clear(spheres *spheres);
 size_t spheres_count(const spheres *spheres); /* mobile and lining */
+/* How rows are laid out is the business of the step's own files; all others ask here. */
+static inline const double *sphere_place(const spheres *s, size_t i) { return s->row[i].x; } /* (3) m */
+static inline void sphere_set_place(spheres *s, size_t i, const double x[3]) { memcpy(s->row[i].x, x, 3 * sizeof *x); }
+static inline double sphere_radius(const spheres *s, size_t i) { return (double)s->row[i].radius; } /* m, now */
 static inline int32_t sphere_of_zeros(const spheres *s) { return (int32_t)(s->mobile_count + s->lining_count); }
 static inline int32_t sphere_far_away(const spheres *s) { return sphere_of_zeros(s) + 1; }
 /* Particles: spheres by themselves, then clusters. */
 static inline size_t particles_count(const spheres *s) { return s->single_count + s->clusters.count; }
 static inline const double *particle_place(const spheres *s, size_t p) /* (3) m, centre of mass */
 {
-    return p < s->single_count ? s->row[p].x : s->clusters.body[p - s->single_count].x;
+    return p < s->single_count ? sphere_place(s, p) : s->clusters.body[p - s->single_count].x;
 }
 static inline int32_t particle_species(const spheres *s, size_t p)
 {
