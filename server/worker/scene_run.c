@@ -1,0 +1,300 @@
+/* The life of an attempt at a scene:
+ *     continue from the checkpoint of the job folder if there is one of this spec
+ *     until the end: take the frames and snapshots that are due, save a checkpoint now and then, advance
+ *     measure the results from the table of frames; result.json is the last thing written
+ * Frames and snapshots are due at steps counted from the start of the test (schedule.h), so that an attempt which
+ * goes on from a checkpoint takes the same ones as an attempt that was never interrupted. */
+#include "scene_run.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "checkpoint_file.h"
+#include "failure_report.h"
+#include "run_summary.h"
+#include "snapshot_file.h"
+#include "worker_log.h"
+
+#define SERIES_SECONDS 2.0       /* between rewrites of a long series */
+#define SERIES_ALWAYS_BELOW 1000 /* snapshots: a short series is rewritten after each */
+
+/* Takes over `members`, which follow the event's name, step and time. */
+static bool add_event(scene_run *r, const char *name, json_t *members)
+{
+    json_t *event = json_pack("{s:s, s:I, s:f}", "event", name, "step", (json_int_t)dem_scene_step_count(r->scene), "time",
+                              dem_scene_time(r->scene) + 0.0 /* no -0 at the start */);
+    if (!members || !event || json_object_update(event, members) != 0) {
+        json_decref(event);
+        event = NULL;
+    }
+    json_decref(members);
+    return event_log_add(r->events, event);
+}
+
+static enum worker_exit fail(scene_run *r, dem_status status)
+{
+    return failure_report(r->events, status, r->scene ? dem_scene_failure(r->scene) : NULL);
+}
+
+static enum worker_exit fail_for_disk(scene_run *r, const char *name) { return failure_report_disk(r->events, name); }
+
+/* Rotation's first step is not known before: in the phases before it the scene is looked at after every step. */
+static dem_status advance_towards_rotation(dem_scene *scene, int64_t steps)
+{
+    dem_status status = DEM_OK;
+    for (int64_t k = 0; k < steps && status == DEM_OK && dem_scene_phase(scene) != DEM_PHASE_ROTATING; k++)
+        status = dem_scene_advance(scene, 1);
+    return status;
+}
+
+/* Steps since rotation began. */
+static int64_t rotation_step(const scene_run *r) { return dem_scene_step_count(r->scene) - dem_scene_rotation_start(r->scene); }
+
+static bool is_rotating(const scene_run *r) { return dem_scene_phase(r->scene) == DEM_PHASE_ROTATING; }
+
+static dem_status advance(scene_run *r)
+{
+    int64_t steps = progress_short_run(&r->progress);
+    if (!is_rotating(r)) return advance_towards_rotation(r->scene, steps);
+    int64_t due = r->plan.rotation_steps;
+    if (r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) < due)
+        due = schedule_sample_step(&r->plan, r->next_sample);
+    if (r->next_snapshot < r->plan.snapshots && schedule_snapshot_step(&r->plan, r->next_snapshot) < due)
+        due = schedule_snapshot_step(&r->plan, r->next_snapshot);
+    const int64_t until_due = due - rotation_step(r);
+    assert(until_due > 0);
+    return dem_scene_advance(r->scene, steps < until_due ? steps : until_due);
+}
+
+static json_t *frame_values(const scene_test *test, const double *frame)
+{
+    json_t *values = json_object();
+    for (size_t s = 0; test->frame_name(s); s++) json_object_set_new(values, test->frame_name(s), json_real_or_null(frame[s]));
+    return values;
+}
+
+static enum worker_exit take_sample(scene_run *r)
+{
+    double *frame = r->frames + (size_t)r->next_sample * r->frame_width;
+    const dem_status status = r->test->frame_measure(r->scene, frame);
+    if (status != DEM_OK) return fail(r, status);
+    json_t *event = json_pack("{s:I, s:o}", "number", (json_int_t)r->next_sample, "values", frame_values(r->test, frame));
+    r->next_sample++;
+    return add_event(r, "sample", event) ? WORKER_DONE : WORKER_DISK;
+}
+
+/* Whether the test is over before its time, told from the frames so far: so a run that was interrupted ends at the same
+ * one. */
+static enum worker_exit end_when_over(scene_run *r)
+{
+    if (!r->test->look) return WORKER_DONE;
+    const dem_status status = r->test->look(r, &r->ended_by);
+    if (status != DEM_OK) return fail(r, status);
+    if (r->ended_by) schedule_end_at(&r->plan, rotation_step(r), r->next_sample, r->next_snapshot);
+    return WORKER_DONE;
+}
+
+static bool write_series(scene_run *r, bool now)
+{
+    if (!now && r->next_snapshot >= SERIES_ALWAYS_BELOW && monotonic_seconds() - r->last_series < SERIES_SECONDS) return true;
+    r->last_series = monotonic_seconds();
+    return snapshot_series_write(&r->plan, r->spec->drum.time_step, r->next_snapshot);
+}
+
+static enum worker_exit take_snapshot(scene_run *r)
+{
+    int64_t bytes;
+    if (!snapshot_file_write(r->scene, r->next_snapshot, r->params, &bytes)) return fail_for_disk(r, "a snapshot");
+    const long long number = r->next_snapshot++;
+    json_t *event =
+        json_pack("{s:I, s:o, s:I, s:I}", "number", (json_int_t)number, "file", json_sprintf(JOB_SNAPSHOT_FILE_FORMAT, number),
+                  "bytes", (json_int_t)bytes, "particles", (json_int_t)dem_scene_particle_count(r->scene));
+    if (!write_series(r, false)) return fail_for_disk(r, JOB_SERIES_FILE);
+    return add_event(r, "snapshot", event) ? WORKER_DONE : WORKER_DISK;
+}
+
+static enum worker_exit take_what_is_due(scene_run *r)
+{
+    if (!is_rotating(r)) return WORKER_DONE;
+    const int64_t step = rotation_step(r);
+    enum worker_exit exit = WORKER_DONE;
+    const bool sampled = r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) == step;
+    if (sampled) exit = take_sample(r);
+    if (exit == WORKER_DONE && sampled) exit = end_when_over(r);
+    if (exit == WORKER_DONE && r->next_snapshot < r->plan.snapshots && schedule_snapshot_step(&r->plan, r->next_snapshot) == step)
+        exit = take_snapshot(r);
+    return exit;
+}
+
+static enum worker_exit save_checkpoint(scene_run *r)
+{
+    checkpoint saved = {
+        .next_sample = r->next_sample,
+        .next_snapshot = r->next_snapshot,
+        .wall_seconds = progress_wall_seconds(&r->progress),
+        .time_step = r->spec->drum.time_step,
+        .stiffness = r->spec->drum.contact.stiffness,
+        .frames = r->frames,
+        .frame_width = r->frame_width,
+    };
+    const dem_status status = dem_scene_save(r->scene, &saved.state);
+    if (status != DEM_OK) return fail(r, status);
+    /* First the events: a checkpoint must not count samples that the log could still lose. */
+    const bool written = event_log_sync(r->events) && checkpoint_write(&saved, r->params);
+    dem_state_clear(&saved.state);
+    r->last_checkpoint = monotonic_seconds();
+    if (!written) return fail_for_disk(r, JOB_CHECKPOINT_FILE);
+    return add_event(r, "checkpoint", json_object()) ? WORKER_DONE : WORKER_DISK;
+}
+
+static enum worker_exit report_progress(scene_run *r)
+{
+    if (dem_scene_phase(r->scene) != r->phase) {
+        r->phase = dem_scene_phase(r->scene);
+        worker_log("%s since step %lld", dem_phase_name(r->phase), (long long)dem_scene_step_count(r->scene));
+    }
+    progress_report report;
+    if (!progress_is_due(&r->progress, r->scene, &report)) return WORKER_DONE;
+    if (r->options->on_terminal) terminal_progress(&report, r->phase, dem_scene_time(r->scene));
+    json_t *event = json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_phase_name(r->phase), "progress", report.percent, "eta_seconds",
+                              json_real_or_null(report.eta_seconds), "particle_steps_per_second", report.particle_steps_per_second);
+    return add_event(r, "progress", event) ? WORKER_DONE : WORKER_DISK;
+}
+
+/* Advances until the end of the run, a stop or a failure. */
+static enum worker_exit run_to_the_end(scene_run *r)
+{
+    for (;;) {
+        enum worker_exit exit = take_what_is_due(r);
+        if (exit != WORKER_DONE) return exit;
+        if (is_rotating(r) && rotation_step(r) >= r->plan.rotation_steps) return WORKER_DONE;
+        if (job_run_is_asked_to_stop()) {
+            exit = save_checkpoint(r);
+            worker_log("stopped at step %lld", (long long)dem_scene_step_count(r->scene));
+            return exit == WORKER_DONE ? WORKER_STOPPED : exit;
+        }
+        if (monotonic_seconds() - r->last_checkpoint >= r->options->checkpoint_seconds) exit = save_checkpoint(r);
+        if (exit != WORKER_DONE) return exit;
+        const dem_status status = advance(r);
+        if (status != DEM_OK) return fail(r, status);
+        exit = report_progress(r);
+        if (exit != WORKER_DONE) return exit;
+    }
+}
+
+run_facts scene_run_facts(const scene_run *r)
+{
+    const dem_drum_definition *drum = &r->spec->drum;
+    const double spheres = (double)dem_scene_sphere_count(r->scene);
+    const double steps = (double)dem_scene_step_count(r->scene), wall = progress_wall_seconds(&r->progress);
+    return (run_facts){
+        .particles = (double)dem_scene_particle_count(r->scene),
+        .spheres = spheres,
+        .steps = steps,
+        .time_step = drum->time_step,
+        .simulated_seconds = dem_scene_time(r->scene),
+        .settling_seconds = (double)dem_scene_rotation_start(r->scene) * drum->time_step,
+        .wall_seconds = wall,
+        .particle_steps_per_second = spheres * steps / wall,
+        .maximum_overlap = dem_scene_maximum_overlap(r->scene),
+        .stiffness = drum->contact.stiffness,
+        .fill_fraction = drum->fill_fraction,
+        .samples = (double)r->next_sample,
+        .snapshots = (double)r->next_snapshot,
+        .threads = drum->threads,
+        .seed = (double)drum->seed,
+        .attempt = r->options->attempt,
+        .ended_by = r->ended_by ? r->ended_by : r->test->ended_by_time(r->spec),
+    };
+}
+
+static enum worker_exit write_result(scene_run *r)
+{
+    json_t *document = NULL;
+    const dem_status status = r->test->results(r, &document);
+    if (status != DEM_OK) return fail(r, status);
+    /* The series must be safe before the file that says all is done. */
+    if (!write_series(r, true)) {
+        json_decref(document);
+        return fail_for_disk(r, JOB_SERIES_FILE);
+    }
+    return job_run_write_result(r->events, document);
+}
+
+/* Takes up where the checkpoint of an earlier attempt left off; false: there is none that can be used, and the scene
+ * may be half restored. */
+static bool resume(scene_run *r, double *earlier_seconds)
+{
+    checkpoint saved;
+    if (!checkpoint_read(&saved, r->params)) return false;
+    /* Another version of the program may derive other numbers from the same inputs. */
+    const bool fits = saved.time_step == r->spec->drum.time_step && saved.stiffness == r->spec->drum.contact.stiffness
+                      && saved.frame_width == r->frame_width && saved.next_sample <= r->plan.samples && saved.next_snapshot >= 0
+                      && saved.next_snapshot <= r->plan.snapshots;
+    const dem_status status = fits ? dem_scene_restore(r->scene, &saved.state) : DEM_STATE_MISMATCH;
+    if (status == DEM_OK) {
+        memcpy(r->frames, saved.frames, (size_t)saved.next_sample * saved.frame_width * sizeof *saved.frames);
+        r->next_sample = saved.next_sample;
+        r->next_snapshot = saved.next_snapshot;
+        *earlier_seconds = saved.wall_seconds;
+    } else {
+        worker_warn("the checkpoint can't be used (%s): starting anew", dem_status_text(status));
+    }
+    checkpoint_clear(&saved);
+    return status == DEM_OK;
+}
+
+/* A new scene, in place of the one there may be. */
+static dem_status prepare_scene(scene_run *r)
+{
+    dem_scene_free(r->scene);
+    free(r->frames);
+    r->frames = NULL;
+    const dem_status status = dem_scene_create(&r->spec->drum, &r->scene);
+    if (status != DEM_OK) return status;
+    r->frame_width = r->test->frame_width(r->scene);
+    r->frames = calloc((size_t)r->plan.samples, r->frame_width * sizeof *r->frames);
+    return r->frames ? DEM_OK : DEM_NO_MEMORY;
+}
+
+static enum worker_exit begin(scene_run *r)
+{
+    dem_status status = prepare_scene(r);
+    if (status != DEM_OK) return fail(r, status);
+    double earlier_seconds = 0.0;
+    const bool has_checkpoint = access(JOB_CHECKPOINT_FILE, F_OK) == 0;
+    const bool resumed = has_checkpoint && resume(r, &earlier_seconds);
+    if (has_checkpoint && !resumed) status = prepare_scene(r);
+    if (status != DEM_OK) return fail(r, status);
+    progress_init(&r->progress, r->spec, &r->plan, r->scene, earlier_seconds);
+    r->last_checkpoint = monotonic_seconds();
+    r->phase = dem_scene_phase(r->scene);
+    const job_estimate estimate = job_spec_estimate(r->spec, 0.0);
+    worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d", r->options->attempt,
+               resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene), dem_phase_name(r->phase),
+               dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps, r->spec->drum.threads);
+    json_t *event = json_pack("{s:i, s:b, s:I, s:f, s:I}", "attempt", r->options->attempt, "resumed", resumed, "particles",
+                              (json_int_t)dem_scene_particle_count(r->scene), "time_step", r->spec->drum.time_step, "total_steps",
+                              (json_int_t)estimate.steps);
+    return add_event(r, "start", event) ? WORKER_DONE : WORKER_DISK;
+}
+
+enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
+{
+    scene_run r = { .spec = job->spec,
+                    .test = test,
+                    .options = job->options,
+                    .params = job->params,
+                    .events = job->events,
+                    .plan = schedule_of(job->spec) };
+    enum worker_exit exit = begin(&r);
+    if (exit == WORKER_DONE) exit = run_to_the_end(&r);
+    if (exit == WORKER_DONE) exit = write_result(&r);
+    if (exit == WORKER_DONE) worker_log("done in %.1f s", progress_wall_seconds(&r.progress));
+    dem_scene_free(r.scene);
+    free(r.frames);
+    return exit;
+}

@@ -1,0 +1,47 @@
+/* One attempt at a test that advances a scene through time: what drums, fills and heaps have in common. The test says what
+ * a frame of measurement is, whether it is over before its time, and what comes out of it. */
+#ifndef SCENE_RUN_H
+#define SCENE_RUN_H
+
+#include "dem.h"
+#include "job_run.h"
+#include "progress.h"
+#include "run_facts.h"
+#include "schedule.h"
+
+typedef struct scene_run scene_run;
+
+typedef struct scene_test {
+    size_t (*frame_width)(const dem_scene *scene); /* numbers of a frame */
+    const char *(*frame_name)(size_t index);       /* of the numbers that become a sample; NULL beyond the last */
+    dem_status (*frame_measure)(dem_scene *scene, double *frame);
+    /* After every frame: *ended_by becomes the reason why the run ends here, or stays. NULL: it always runs its time. */
+    dem_status (*look)(const scene_run *run, const char **ended_by);
+    const char *(*ended_by_time)(const job_spec *spec); /* what is said of a run that ran its whole time */
+    /* The results document, a new reference; NULL: no memory. */
+    dem_status (*results)(const scene_run *run, json_t **document);
+} scene_test;
+
+struct scene_run {
+    const job_spec *spec;
+    const scene_test *test;
+    const run_options *options;
+    const char *params; /* canonical spec */
+    dem_scene *scene;
+    event_log *events;
+    schedule plan;
+    double *frames; /* (plan.samples, frame_width), those before next_sample taken */
+    size_t frame_width;
+    int64_t next_sample, next_snapshot;
+    const char *ended_by;                /* NULL: not yet, or by its time */
+    double last_checkpoint, last_series; /* s, monotonic */
+    dem_phase phase;                     /* the last one logged */
+    progress progress;
+};
+
+enum worker_exit scene_run_job(const job_context *job, const scene_test *test);
+
+/* The output "run" of a run that is over. */
+run_facts scene_run_facts(const scene_run *run);
+
+#endif
