@@ -1,0 +1,193 @@
+/* From particles and contacts as asked for to what a scene is made of: the same for every container.
+ *
+ * Inputs that were refused are NaN. Every check here is a comparison that is false for NaN, so that one mistake
+ * is reported once. */
+#include "scene_rules.h"
+
+#include <math.h>
+
+#include "dem_cluster.h"
+#include "dem_rules.h"
+#include "drum_process.h"
+
+#define MOST_STEPS 1e10
+#define MOST_SNAPSHOTS 1e5
+#define MOST_SNAPSHOT_BYTES 1e12
+#define MOST_SAMPLES 2e5
+#define MOST_OVERLAP 0.25 /* of the smallest diameter: beyond half a radius a run is stopped */
+
+double scene_of_species(const dem_drum_definition *scene, double (*number)(const dem_species *), bool largest)
+{
+    double found = NAN;
+    for (size_t s = 0; s < scene->species_count; s++) {
+        const double value = number(&scene->species[s]);
+        found = largest ? fmax(found, value) : fmin(found, value); /* fmax and fmin pass over NaN */
+    }
+    return found;
+}
+
+double scene_species_width(const dem_species *species) { return 2.0 * dem_species_reach(species); }
+
+void scene_share_out(drum_inputs *inputs, problem_list *problems)
+{
+    size_t given = 0;
+    double sum = 0.0;
+    for (size_t s = 0; s < inputs->species_count; s++) {
+        given += !isnan(inputs->species[s].share);
+        sum += isnan(inputs->species[s].share) ? 0.0 : inputs->species[s].share;
+    }
+    if (given == 0) {
+        for (size_t s = 0; s < inputs->species_count; s++) inputs->species[s].share = 1.0 / (double)inputs->species_count;
+    } else if (given < inputs->species_count) {
+        problem_list_add(problems, "/inputs/particles",
+                         "have a valid share in %zu of %zu entries; give it in all or "
+                         "in none",
+                         given, inputs->species_count);
+    } else if (fabs(sum - 1.0) > 1e-9) {
+        problem_list_add(problems, "/inputs/particles", "have shares that sum to %.12g; must sum to 1", sum);
+    }
+}
+
+void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+{
+    double sum = 0.0;
+    for (size_t s = 0; s < inputs->species_count; s++) sum += inputs->species[s].share;
+    scene->species_count = inputs->species_count;
+    for (size_t s = 0; s < inputs->species_count; s++) {
+        species_inputs *species = &inputs->species[s];
+        scene->species[s] =
+            (dem_species){ .diameter = species->diameter, .density = species->density, .share = species->share / sum };
+        if (isnan(species->shape)) scene->species[s].diameter = NAN; /* refused */
+        else if (species->shape != DEM_SPHERE) drum_cluster_derive(species, s, &scene->species[s].cluster, problems);
+        if (scene->species[s].cluster.sphere_count) scene->species[s].diameter = dem_species_largest_sphere(&scene->species[s]);
+    }
+    if (scene->species_count == 0) { /* a refused list: not a number, so that nothing is said of what follows from it */
+        scene->species_count = 1;
+        scene->species[0] = (dem_species){ .diameter = NAN, .density = NAN, .share = NAN };
+    }
+}
+
+void scene_check_size_ratio(const dem_drum_definition *scene, problem_list *problems)
+{
+    const double largest_sphere = scene_of_species(scene, dem_species_largest_sphere, true);
+    const double smallest_sphere = scene_of_species(scene, dem_species_smallest_sphere, false);
+    if (largest_sphere > SCENE_MOST_SIZE_RATIO * smallest_sphere)
+        problem_list_add(problems, "/inputs/particles",
+                         "have diameters from %g m to %g m; the largest must be at "
+                         "most %g of the smallest",
+                         smallest_sphere, largest_sphere, SCENE_MOST_SIZE_RATIO);
+}
+
+/* What stiffness is chosen for: the heaviest particle at the speed at which it meets the wall. */
+typedef struct collision {
+    double heaviest, lightest; /* kg; the lightest that a contact can move */
+    double smallest, largest;  /* m, diameters of spheres, also those of clusters */
+    double speed;              /* m/s */
+} collision;
+
+/* Loading stiffness K1, and from it the time step. */
+static void derive_linear(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+{
+    const double least = dem_stiffness_for_overlap(worst->speed, worst->heaviest, MOST_OVERLAP * worst->smallest);
+    if (inputs->stiffness < least)
+        problem_list_add(problems, "/inputs/contact/stiffness",
+                         "is %g N/m, too soft: overlaps would pass %g of the "
+                         "smallest diameter; must be at least %.3g N/m here",
+                         inputs->stiffness, MOST_OVERLAP, least);
+    scene->contact.stiffness =
+        isnan(inputs->maximum_overlap)
+            ? inputs->stiffness
+            : dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest);
+    scene->time_step = dem_time_step(scene->contact.stiffness, worst->lightest, inputs->restitution);
+}
+
+/* Young's modulus E, the same for particles and wall, hence E* = E/(2 (1 - nu^2)); and from it the time step. What is
+ * reported as stiffness is the chord of the Hertzian curve up to the largest overlap expected. */
+static void derive_hertzian(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+{
+    const double radius = 0.5 * worst->largest, plane_strain = 2 * (1 - inputs->poissons_ratio * inputs->poissons_ratio);
+    const double least =
+        plane_strain * dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, MOST_OVERLAP * worst->smallest);
+    if (inputs->youngs_modulus < least)
+        problem_list_add(problems, "/inputs/contact/youngs_modulus",
+                         "is %g Pa, too soft: overlaps would pass %g of the "
+                         "smallest diameter; must be at least %.3g Pa here",
+                         inputs->youngs_modulus, MOST_OVERLAP, least);
+    const double effective =
+        isnan(inputs->youngs_modulus)
+            ? dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, inputs->maximum_overlap * worst->smallest)
+            : inputs->youngs_modulus / plane_strain;
+    const double overlap = worst->smallest * MOST_OVERLAP * pow(least / (effective * plane_strain), 0.4);
+    scene->contact.particle = scene->contact.wall = (dem_elasticity){ effective * plane_strain, inputs->poissons_ratio };
+    scene->contact.stiffness = 4.0 / 3.0 * effective * sqrt(radius * overlap);
+    scene->time_step = dem_hertz_time_step(effective, worst->lightest, 0.25 * worst->smallest, worst->speed);
+}
+
+void scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems)
+{
+    const dem_contact_law law = (dem_contact_law)inputs->contact_law;
+    const collision worst = { scene_of_species(scene, dem_species_mass, true),
+                              scene_of_species(scene, dem_species_contact_mass, false),
+                              scene_of_species(scene, dem_species_smallest_sphere, false),
+                              scene_of_species(scene, dem_species_largest_sphere, true), impact_speed };
+    scene->contact = (dem_contact_parameters){
+        .law = law,
+        .restitution = inputs->restitution,
+        .friction = inputs->friction,
+        .wall_friction = inputs->wall_friction,
+        .tangential_stiffness_ratio = inputs->tangential_stiffness_ratio,
+    };
+    if (law == DEM_HERTZ_MINDLIN && !isnan(inputs->stiffness))
+        problem_list_add(problems, "/inputs/contact/stiffness",
+                         "is %g N/m, but hertz-mindlin takes youngs_modulus (Pa) or "
+                         "maximum_overlap",
+                         inputs->stiffness);
+    if (law != DEM_HERTZ_MINDLIN && !isnan(inputs->youngs_modulus))
+        problem_list_add(problems, "/inputs/contact/youngs_modulus",
+                         "is %g Pa, but this law takes stiffness (N/m) or "
+                         "maximum_overlap; youngs_modulus is for hertz-mindlin",
+                         inputs->youngs_modulus);
+    (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
+}
+
+void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems)
+{
+    const job_estimate estimate = job_spec_estimate(spec, 0);
+    if (estimate.steps > MOST_STEPS)
+        problem_list_add(problems, duration,
+                         "makes %.3g steps of %.3g s; must make at most %.3g: shorten the "
+                         "duration or allow a larger overlap",
+                         estimate.steps, spec->drum.time_step, MOST_STEPS);
+    if (spec->duration < SCENE_SAMPLES_PER_RUN * spec->drum.time_step)
+        problem_list_add(problems, duration, "is %.3g s; must be at least %.3g s, %g time steps", spec->duration,
+                         SCENE_SAMPLES_PER_RUN * spec->drum.time_step, SCENE_SAMPLES_PER_RUN);
+    else if (spec->sample_interval < spec->drum.time_step)
+        problem_list_add(problems, "/inputs/samples/interval", "is %g s; must be at least the time step, %.3g s",
+                         spec->sample_interval, spec->drum.time_step);
+    const double samples = spec->duration / spec->sample_interval;
+    if (samples > MOST_SAMPLES)
+        problem_list_add(problems, "/inputs/samples/interval", "is %g s, %.3g samples in all; must make at most %.0f",
+                         spec->sample_interval, samples, MOST_SAMPLES);
+    if (spec->snapshot_interval > 0.0 && spec->snapshot_interval < spec->drum.time_step)
+        problem_list_add(problems, "/inputs/snapshots/interval", "is %g s; must be 0 or at least the time step, %.3g s",
+                         spec->snapshot_interval, spec->drum.time_step);
+    if (estimate.snapshots > MOST_SNAPSHOTS)
+        problem_list_add(problems, "/inputs/snapshots/interval",
+                         "is %g s, %.3g snapshots in all; must make at most "
+                         "%.0f",
+                         spec->snapshot_interval, estimate.snapshots, MOST_SNAPSHOTS);
+    if (estimate.snapshot_bytes > MOST_SNAPSHOT_BYTES)
+        problem_list_add(problems, "/inputs/snapshots/interval",
+                         "is %g s, about %.3g bytes of snapshots; must make at "
+                         "most %.0f bytes",
+                         spec->snapshot_interval, estimate.snapshot_bytes, MOST_SNAPSHOT_BYTES);
+}
+
+void scene_set_common(job_spec *spec)
+{
+    const drum_inputs *inputs = &spec->inputs;
+    spec->maximum_overlap = isnan(inputs->maximum_overlap) ? 0.0 : inputs->maximum_overlap;
+    spec->sample_interval = inputs->sample_interval;
+    spec->snapshot_interval = inputs->snapshot_interval;
+    spec->threads = spec->drum.threads;
+}
