@@ -4,10 +4,6 @@
 #include "dem_rules.h"
 #include "drum_process.h"
 
-/* Cautious, for one thread of a machine on which nothing has been measured yet. */
-#define PARTICLE_STEPS_PER_SECOND 1.5e7
-/* A thread more does not bring all of its speed. */
-#define THREAD_GAIN 0.7
 /* A snapshot: so much for the file's structure, and for each sphere after compression. */
 #define SNAPSHOT_FILE_BYTES 30e3
 #define SNAPSHOT_PARTICLE_BYTES 60.0
@@ -36,10 +32,9 @@ double drum_spheres_a_particle(const dem_drum_definition *drum)
     return mean;
 }
 
-job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_second)
+job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
 {
     const dem_drum_definition *drum = &spec->drum;
-    const double speed = particle_steps_per_second > 0.0 ? particle_steps_per_second : PARTICLE_STEPS_PER_SECOND;
     const double particles = (double)drum->particle_count, spheres = particles * drum_spheres_a_particle(drum);
     const double frame_bytes =
         sizeof(double) * (FRAME_NUMBERS + FRAME_NUMBERS_PER_DIAMETER * drum->diameter / smallest_diameter(drum));
@@ -52,7 +47,12 @@ job_estimate drum_estimate(const job_spec *spec, double particle_steps_per_secon
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
-    estimate.wall_seconds = spheres * estimate.steps / (speed * (1.0 + THREAD_GAIN * (drum->threads - 1)));
+    const calibration_load load = { .spheres = spheres + lining_spheres(drum),
+                                    .clusters = spheres > particles,
+                                    .law = drum->contact.law,
+                                    .friction = drum->contact.friction,
+                                    .threads = drum->threads };
+    estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &load);
     estimate.memory_bytes =
         dem_memory_estimate(spheres + lining_spheres(drum)) + frame_bytes * spec->duration / spec->sample_interval;
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);

@@ -22,9 +22,9 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
     };
 }
 
-static job_estimate estimate(const job_spec *spec, double particle_steps_per_second)
+static job_estimate estimate(const job_spec *spec, const calibration *machine)
 {
-    (void)spec, (void)particle_steps_per_second;
+    (void)spec, (void)machine;
     return (job_estimate){
         .particles = 1,
         .wall_seconds = WALL_SECONDS,

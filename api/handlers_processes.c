@@ -95,7 +95,9 @@ static void respond_created(api_service *service, const http_request *request, h
             json_pack("{s:s, s:s, s:s, s:s}", "jobID", id, "processID", spec->process, "type", "process", "status", "accepted"));
     } else {
         json_t *info = status_info(&job);
-        const job_estimate estimate = job_spec_estimate(spec, store_measured_speed(service->store));
+        calibration machine;
+        store_read_calibration(service->store, &machine);
+        const job_estimate estimate = job_spec_estimate(spec, &machine);
         json_object_set_new(info, "estimate", job_estimate_to_json(&estimate));
         http_respond_json(response, 201, info);
         job_record_clear(&job);

@@ -66,7 +66,9 @@ void create_study(api_service *service, const http_request *request, http_respon
     }
     study_spec_parse(document, &options, &study, &problems);
     json_decref(document);
-    if (study_check(&study, store_measured_speed(service->store), &estimate, &problems))
+    calibration machine;
+    store_read_calibration(service->store, &machine);
+    if (study_check(&study, &machine, &estimate, &problems))
         add_study(service, response, &study, &estimate);
     else
         http_respond_json(response, 400,

@@ -3,9 +3,9 @@
 
 #include "process_type.h"
 
-job_estimate job_spec_estimate(const job_spec *spec, double particle_steps_per_second)
+job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine)
 {
-    return spec->type->estimate(spec, particle_steps_per_second);
+    return spec->type->estimate(spec, machine);
 }
 
 json_t *job_estimate_to_json(const job_estimate *estimate)

@@ -10,6 +10,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
+#include "calibration.h"
 #include "dem_granule.h"
 #include "dem_types.h"
 #include "problem.h"
@@ -82,8 +83,8 @@ json_t *job_spec_to_json(const job_spec *spec);
 /* The canonical text, as spec.json holds it. To be freed; NULL: no memory. */
 char *job_spec_to_text(const job_spec *spec);
 
-/* particle_steps_per_second: of this machine on one thread; <= 0 takes a cautious built-in figure. */
-job_estimate job_spec_estimate(const job_spec *spec, double particle_steps_per_second);
+/* machine: how fast this one is; NULL takes cautious built-in figures. */
+job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine);
 json_t *job_estimate_to_json(const job_estimate *estimate);
 
 /* OGC process description with every input's JSON Schema, unit, range and default, made from the same table

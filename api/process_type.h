@@ -19,8 +19,8 @@ struct process_type {
     /* Sets the defaults that depend on other inputs, checks combinations, and derives what is run. Inputs that were
      * refused are NaN. Nothing derived is of use when there are problems. */
     void (*apply_rules)(job_spec *spec, uint64_t seed_if_missing, problem_list *problems);
-    /* particle_steps_per_second: of this machine on one thread; <= 0 takes a cautious built-in figure. */
-    job_estimate (*estimate)(const job_spec *spec, double particle_steps_per_second);
+    /* machine: how fast this one is; NULL takes cautious built-in figures. */
+    job_estimate (*estimate)(const job_spec *spec, const calibration *machine);
 
     const result_table *results;
 };

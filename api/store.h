@@ -129,8 +129,8 @@ store_status store_list_snapshots(job_store *store, const char *id, int64_t afte
 store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file);
 store_status store_open_log(job_store *store, const char *id, int *file);
 
-/* Particle steps a second on one thread, from the latest runs here; 0: none yet. */
-double store_measured_speed(job_store *store);
+/* How fast this machine is: as calibrated and as the latest runs corrected it, or the built-in figures. */
+void store_read_calibration(job_store *store, calibration *machine);
 
 /* Read-only SQL of a user. */
 typedef enum query_status { QUERY_OK, QUERY_REFUSED, QUERY_TOO_SLOW, QUERY_UNAVAILABLE } query_status;

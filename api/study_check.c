@@ -80,9 +80,9 @@ static void tell_all(const study_spec *study, size_t index, const problem_list *
     if (!found->errors) add_once(problems, "", "could not be checked: out of memory");
 }
 
-static void add_estimate(const study_spec *study, const job_spec *spec, double speed, study_estimate *estimate)
+static void add_estimate(const study_spec *study, const job_spec *spec, const calibration *machine, study_estimate *estimate)
 {
-    const job_estimate one = job_spec_estimate(spec, speed);
+    const job_estimate one = job_spec_estimate(spec, machine);
     estimate->jobs += study->repeats;
     /* NaN: the process has no such thing. */
     if (one.steps > 0.0) estimate->steps += one.steps * study->repeats;
@@ -92,7 +92,7 @@ static void add_estimate(const study_spec *study, const job_spec *spec, double s
 }
 
 /* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
-static void check_case(const study_spec *study, size_t index, double speed, const problem_list *of_base, study_estimate *estimate,
+static void check_case(const study_spec *study, size_t index, const calibration *machine, const problem_list *of_base, study_estimate *estimate,
                        problem_list *problems)
 {
     job_spec spec;
@@ -106,7 +106,7 @@ static void check_case(const study_spec *study, size_t index, double speed, cons
         return;
     }
     if (job_spec_parse(NULL, request, 0, &spec, &found)) {
-        add_estimate(study, &spec, speed, estimate);
+        add_estimate(study, &spec, machine, estimate);
         job_spec_clear(&spec);
     } else {
         tell_all(study, index, &found, of_base, problems);
@@ -115,7 +115,7 @@ static void check_case(const study_spec *study, size_t index, double speed, cons
     json_decref(request);
 }
 
-bool study_check(const study_spec *study, double particle_steps_per_second, study_estimate *estimate, problem_list *problems)
+bool study_check(const study_spec *study, const calibration *machine, study_estimate *estimate, problem_list *problems)
 {
     *estimate = (study_estimate){ .jobs = 0.0 };
     problem_list of_base;
@@ -126,7 +126,7 @@ bool study_check(const study_spec *study, double particle_steps_per_second, stud
     }
     if (job_spec_parse(NULL, json_object_get(study->document, "base"), 0, &spec, &of_base)) job_spec_clear(&spec);
     for (size_t i = 0; i < study->cases && json_array_size(problems->errors) < ENOUGH_PROBLEMS; i++)
-        check_case(study, i, particle_steps_per_second, &of_base, estimate, problems);
+        check_case(study, i, machine, &of_base, estimate, problems);
     problem_list_clear(&of_base);
     return problem_list_is_empty(problems);
 }

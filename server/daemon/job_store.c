@@ -107,11 +107,11 @@ store_status store_check_queue(job_store *store, int64_t jobs)
 }
 
 static store_status insert_row(job_store *store, const job_spec *spec, const char *id, const char *text, const char *label,
-                               const study_place *place, double speed)
+                               const study_place *place, const calibration *machine)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
-    const job_estimate estimate = job_spec_estimate(spec, speed);
+    const job_estimate estimate = job_spec_estimate(spec, machine);
     return sql_run(
         store->writer, NULL,
         "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
@@ -122,10 +122,10 @@ static store_status insert_row(job_store *store, const job_spec *spec, const cha
 }
 
 store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
-                              double speed)
+                              const calibration *machine)
 {
     char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
-    store_status status = label ? insert_row(store, spec, id, text, label, place, speed) : STORE_FAILED;
+    store_status status = label ? insert_row(store, spec, id, text, label, place, machine) : STORE_FAILED;
     if (status == STORE_OK) status = process_inputs_insert(store->writer, sqlite3_last_insert_rowid(store->writer), spec);
     free(label);
     return status;
@@ -143,11 +143,12 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
         job_folder_discard(store->data, id);
         return reason;
     }
-    const double speed = store_measured_speed(store);
+    calibration machine;
+    store_read_calibration(store, &machine);
     store_status status = store_begin(store);
     if (status == STORE_OK) {
         status = store_check_queue(store, 1);
-        if (status == STORE_OK) status = store_insert_job(store, spec, id, text, &of_no_study, speed);
+        if (status == STORE_OK) status = store_insert_job(store, spec, id, text, &of_no_study, &machine);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);
@@ -240,26 +241,6 @@ store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES])
     }
     store_return_reader(store, reader);
     return result;
-}
-
-/* Of one thread; the median of the latest runs, so that one odd job does not decide. */
-double store_measured_speed(job_store *store)
-{
-    sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(
-        reader,
-        "SELECT speed FROM (SELECT particle_steps_per_second/max(threads,1) AS speed FROM run_result"
-        " WHERE particle_steps_per_second>0 ORDER BY job DESC LIMIT 9) ORDER BY speed"
-        " LIMIT 1 OFFSET (SELECT min(count(*),9)/2 FROM (SELECT 1 FROM run_result WHERE particle_steps_per_second>0 LIMIT 9))",
-        "");
-    double speed = 0.0;
-    if (statement) {
-        const int code = sqlite3_step(statement);
-        if (code == SQLITE_ROW) speed = sqlite3_column_double(statement, 0);
-        sql_finish(statement, code);
-    }
-    store_return_reader(store, reader);
-    return speed;
 }
 
 store_status store_open_log(job_store *store, const char *id, int *file)

@@ -44,7 +44,7 @@ typedef struct study_place {
 } study_place;
 /* Between begin and end: one job's rows. text: its canonical specification. */
 store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
-                              double speed);
+                              const calibration *machine);
 /* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */
 store_status store_check_queue(job_store *store, int64_t jobs);
 store_status store_read_text(job_store *store, const char *sql, const char *id, char **text);

@@ -48,7 +48,7 @@ static store_status insert_case(job_store *store, const study_spec *study, int64
 }
 
 static store_status insert_job_of_study(job_store *store, const study_spec *study, const study_place *place, const char *id,
-                                        double speed)
+                                        const calibration *machine)
 {
     problem_list problems;
     if (!problem_list_init(&problems)) return STORE_FAILED;
@@ -57,7 +57,7 @@ static store_status insert_job_of_study(job_store *store, const study_spec *stud
     store_status status = STORE_FAILED; /* it was good when it was checked: only memory can be missing */
     if (request && job_spec_parse(NULL, request, 0, &spec, &problems)) {
         char *text = job_spec_to_text(&spec);
-        if (text) status = store_insert_job(store, &spec, id, text, place, speed);
+        if (text) status = store_insert_job(store, &spec, id, text, place, machine);
         free(text);
         job_spec_clear(&spec);
     }
@@ -69,7 +69,7 @@ static store_status insert_job_of_study(job_store *store, const study_spec *stud
 /* First each case once, then each case again: the whole table is seen early. Ids follow one another, because among
  * ten thousand random ones of the same second two would be equal once in a hundred studies. */
 static store_status insert_jobs(job_store *store, const study_spec *study, int64_t number, time_t second, uint32_t bits,
-                                double speed)
+                                const calibration *machine)
 {
     store_status status = STORE_OK;
     char id[JOB_ID_SIZE];
@@ -77,7 +77,7 @@ static store_status insert_jobs(job_store *store, const study_spec *study, int64
         for (size_t i = 0; i < study->cases && status == STORE_OK; i++) {
             const study_place place = { number, (int64_t)i, repeat };
             store_write_id(id, second, ++bits);
-            status = insert_job_of_study(store, study, &place, id, speed);
+            status = insert_job_of_study(store, study, &place, id, machine);
         }
     }
     return status;
@@ -85,7 +85,8 @@ static store_status insert_jobs(job_store *store, const study_spec *study, int64
 
 store_status store_add_study(job_store *store, const study_spec *study, const study_estimate *estimate, char id[JOB_ID_SIZE])
 {
-    const double speed = store_measured_speed(store);
+    calibration machine;
+    store_read_calibration(store, &machine);
     const time_t second = time(NULL);
     uint32_t bits;
     int64_t number;
@@ -96,7 +97,7 @@ store_status store_add_study(job_store *store, const study_spec *study, const st
     status = store_check_queue(store, (int64_t)study->cases * study->repeats);
     if (status == STORE_OK) status = insert_study(store, study, estimate, id, &number);
     for (size_t i = 0; i < study->cases && status == STORE_OK; i++) status = insert_case(store, study, number, i);
-    if (status == STORE_OK) status = insert_jobs(store, study, number, second, bits, speed);
+    if (status == STORE_OK) status = insert_jobs(store, study, number, second, bits, &machine);
     return store_end(store, status);
 }
 

@@ -142,12 +142,12 @@ static enum worker_exit load_spec(const char *name, const char *folder, job_spec
 }
 
 /* What a job's or a study's document would make. New reference; NULL: problems say why. */
-static json_t *check_document(const json_t *document, problem_list *problems)
+static json_t *check_document(const json_t *document, const calibration *machine, problem_list *problems)
 {
-    if (study_report_is_study(document)) return study_report(document, random_seed(), problems);
+    if (study_report_is_study(document)) return study_report(document, random_seed(), machine, problems);
     job_spec spec;
     if (!job_spec_parse(NULL, document, random_seed(), &spec, problems)) return NULL;
-    const job_estimate estimate = job_spec_estimate(&spec, 0.0);
+    const job_estimate estimate = job_spec_estimate(&spec, machine);
     json_t *report = json_pack("{s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate));
     job_spec_clear(&spec);
     return report;
@@ -161,7 +161,7 @@ static enum worker_exit check(int argc, char **argv)
     problem_list problems;
     problem_list_init(&problems);
     json_t *document = spec_file_read(path_of(line.spec), &problems);
-    json_t *report = document ? check_document(document, &problems) : NULL;
+    json_t *report = document ? check_document(document, NULL, &problems) : NULL;
     json_decref(document);
     if (report) print_json(report);
     else exit = refuse(&problems);

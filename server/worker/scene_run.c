@@ -272,7 +272,7 @@ static enum worker_exit begin(scene_run *r)
     progress_init(&r->progress, r->spec, &r->plan, r->scene, earlier_seconds);
     r->last_checkpoint = monotonic_seconds();
     r->phase = dem_scene_phase(r->scene);
-    const job_estimate estimate = job_spec_estimate(r->spec, 0.0);
+    const job_estimate estimate = job_spec_estimate(r->spec, NULL);
     worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d", r->options->attempt,
                resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene), dem_phase_name(r->phase),
                dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps, r->spec->drum.threads);

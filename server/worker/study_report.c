@@ -17,14 +17,14 @@ static json_t *cases_of(const study_spec *study)
     return cases;
 }
 
-json_t *study_report(const json_t *document, uint64_t seed_if_missing, problem_list *problems)
+json_t *study_report(const json_t *document, uint64_t seed_if_missing, const calibration *machine, problem_list *problems)
 {
     const study_options options = { .seed_if_missing = seed_if_missing, .default_threads = 1, .most_jobs = MOST_JOBS };
     study_spec study;
     study_estimate estimate;
     json_t *report = NULL;
     study_spec_parse(document, &options, &study, problems);
-    if (study_check(&study, 0.0, &estimate, problems))
+    if (study_check(&study, machine, &estimate, problems))
         report = json_pack("{s:s, s:o, s:i, s:o}", "name", study.name, "cases", cases_of(&study), "repeats", study.repeats,
                            "estimate", study_estimate_to_json(&estimate));
     study_spec_clear(&study);

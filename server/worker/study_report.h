@@ -5,10 +5,11 @@
 #include <jansson.h>
 #include <stdint.h>
 
+#include "calibration.h"
 #include "problem.h"
 
 bool study_report_is_study(const json_t *document); /* it has a base, as no job has */
-/* {"name", "cases": [{"case", "inputs"}], "repeats", "estimate"}. New reference; NULL: problems say why. */
-json_t *study_report(const json_t *document, uint64_t seed_if_missing, problem_list *problems);
+/* machine: NULL: built-in figures. {"name", "cases": [{"case", "inputs"}], "repeats", "estimate"}. New reference; NULL: problems say why. */
+json_t *study_report(const json_t *document, uint64_t seed_if_missing, const calibration *machine, problem_list *problems);
 
 #endif

@@ -444,7 +444,7 @@ static void the_estimate_grows_with_what_is_asked(void **state)
 {
     (void)state;
     job_spec small = parse_or_fail(load(minimal)), large = parse_or_fail(minimal_with("duration/revolutions", "100"));
-    const job_estimate a = job_spec_estimate(&small, 1e7), b = job_spec_estimate(&large, 1e7);
+    const job_estimate a = job_spec_estimate(&small, NULL), b = job_spec_estimate(&large, NULL);
     /* 80 times the revolutions, beside the settling that both have */
     assert_true(b.steps > 40 * a.steps && b.steps < 80 * a.steps);
     assert_true(fabs(b.wall_seconds - b.steps * b.particles / 1e7) < 1e-9 * b.wall_seconds);

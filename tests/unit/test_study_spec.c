@@ -105,7 +105,7 @@ static bool parse(const char *text, int64_t most_jobs, study_spec *study, study_
     assert_true(problem_list_init(problems));
     study_spec_parse(document, &options, study, problems);
     json_decref(document);
-    return study_check(study, 1e6, estimate, problems);
+    return study_check(study, NULL, estimate, problems);
 }
 
 static void take(const char *text, study_spec *study)
@@ -242,7 +242,7 @@ static void test_a_study_costs_what_its_jobs_cost(void **state)
         problem_list none;
         job_spec spec;
         assert_true(problem_list_init(&none) && job_spec_parse(NULL, request, 0, &spec, &none));
-        const job_estimate one = job_spec_estimate(&spec, 1e6);
+        const job_estimate one = job_spec_estimate(&spec, NULL);
         steps += 4 * one.steps;
         seconds += 4 * one.wall_seconds;
         job_spec_clear(&spec);

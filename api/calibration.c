@@ -1,0 +1,129 @@
+#include "calibration.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+/* A thread more does not bring all of its speed. */
+#define THREAD_GAIN 0.7
+/* Particles that hold one another by friction touch fewer others: cost falls with the logarithm of friction. */
+#define COST_A_DECADE_OF_FRICTION (-0.1)
+#define REFERENCE_FRICTION 0.1
+
+#define FORMAT 1
+
+static const char *const law_names[CALIBRATION_LAWS] = { "walton-braun", "spring-dashpot", "hertz-mindlin" };
+
+static int cores_here(void)
+{
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+    return cores < 1 ? 1 : (int)cores;
+}
+
+calibration calibration_built_in(void)
+{
+    return (calibration){ .program = "built-in figures",
+                          .cores = cores_here(),
+                          .sphere = { 60.0, 60.0, 60.0 },
+                          .cluster = { 60.0, 60.0, 60.0 },
+                          .size = { 1e2, 2.5e3, 2.5e4 },
+                          .size_factor = { 1.0, 1.0, 1.0 },
+                          .correction = 1.0 };
+}
+
+/* Between the sizes measured by the logarithm, beyond them as at the last. */
+static double factor_of_size(const calibration *machine, double spheres)
+{
+    const double *size = machine->size, *factor = machine->size_factor;
+    if (spheres <= size[0]) return factor[0];
+    for (size_t k = 1; k < CALIBRATION_SIZES; k++) {
+        if (spheres > size[k]) continue;
+        const double share = log(spheres / size[k - 1]) / log(size[k] / size[k - 1]);
+        return factor[k - 1] + share * (factor[k] - factor[k - 1]);
+    }
+    return factor[CALIBRATION_SIZES - 1];
+}
+
+static double factor_of_friction(double friction)
+{
+    return 1.0 + COST_A_DECADE_OF_FRICTION * log10(fmin(fmax(friction, 0.01), 1.0) / REFERENCE_FRICTION);
+}
+
+double calibration_seconds_a_step(const calibration *machine, const calibration_load *load)
+{
+    const calibration built_in = calibration_built_in();
+    if (!machine) machine = &built_in;
+    const double one = load->clusters ? machine->cluster[load->law] : machine->sphere[load->law];
+    const int threads = load->threads < machine->cores ? load->threads : machine->cores;
+    return 1e-9 * one * load->spheres * factor_of_size(machine, load->spheres) * factor_of_friction(load->friction)
+           * machine->correction / (1.0 + THREAD_GAIN * (threads - 1));
+}
+
+/* --- the file --- */
+
+static bool read_text(const json_t *document, const char *name, char *text, size_t size)
+{
+    const char *value = json_string_value(json_object_get(document, name));
+    if (value) snprintf(text, size, "%s", value);
+    return value;
+}
+
+/* A cost or size is of use only when it is a positive number. */
+static bool read_positive(const json_t *value, double *number)
+{
+    *number = json_number_value(value);
+    return *number > 0.0 && isfinite(*number);
+}
+
+static bool read_costs(const json_t *costs, double cost[CALIBRATION_LAWS])
+{
+    bool good = true;
+    for (size_t law = 0; law < CALIBRATION_LAWS; law++)
+        good = good && read_positive(json_object_get(costs, law_names[law]), &cost[law]);
+    return good;
+}
+
+static bool read_sizes(const json_t *sizes, calibration *machine)
+{
+    bool good = json_array_size(sizes) == CALIBRATION_SIZES;
+    for (size_t k = 0; good && k < CALIBRATION_SIZES; k++) {
+        const json_t *one = json_array_get(sizes, k);
+        good = read_positive(json_object_get(one, "spheres"), &machine->size[k])
+               && read_positive(json_object_get(one, "factor"), &machine->size_factor[k])
+               && (k == 0 || machine->size[k] > machine->size[k - 1]);
+    }
+    return good;
+}
+
+bool calibration_from_json(const json_t *document, calibration *machine)
+{
+    const json_t *costs = json_object_get(document, "nanoseconds_a_sphere_step");
+    *machine = calibration_built_in();
+    const bool good = json_integer_value(json_object_get(document, "format")) == FORMAT
+                      && read_text(document, "processor", machine->processor, CALIBRATION_TEXT)
+                      && read_text(document, "program", machine->program, CALIBRATION_TEXT)
+                      && read_text(document, "made", machine->made, sizeof machine->made)
+                      && read_costs(json_object_get(costs, "spheres"), machine->sphere)
+                      && read_costs(json_object_get(costs, "clusters"), machine->cluster)
+                      && read_sizes(json_object_get(document, "sizes"), machine);
+    if (!good) *machine = calibration_built_in();
+    return good;
+}
+
+static json_t *costs_to_json(const double cost[CALIBRATION_LAWS])
+{
+    json_t *costs = json_object();
+    for (size_t law = 0; law < CALIBRATION_LAWS; law++) json_object_set_new(costs, law_names[law], json_real(cost[law]));
+    return costs;
+}
+
+json_t *calibration_to_json(const calibration *machine)
+{
+    json_t *sizes = json_array();
+    for (size_t k = 0; k < CALIBRATION_SIZES; k++)
+        json_array_append_new(sizes, json_pack("{s:f, s:f}", "spheres", machine->size[k], "factor", machine->size_factor[k]));
+    return json_pack("{s:i, s:s, s:s, s:s, s:{s:o, s:o}, s:o}", "format", FORMAT, "processor", machine->processor, "program",
+                     machine->program, "made", machine->made, "nanoseconds_a_sphere_step", "spheres",
+                     costs_to_json(machine->sphere), "clusters", costs_to_json(machine->cluster), "sizes", sizes);
+}
