@@ -1,10 +1,9 @@
 #include "statistics.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { LEAST_BLOCKS = 8 };
 
 double statistics_mean(const double *x, size_t count)
 {
@@ -53,40 +52,75 @@ double statistics_median(double *x, size_t count)
     return n % 2 ? x[n / 2] : 0.5 * (x[n / 2 - 1] + x[n / 2]);
 }
 
-/* Standard error of the mean from blocks of `length` samples; a tail shorter than a block is left out. */
-static double block_error(const double *x, size_t count, size_t length, size_t *blocks)
+/* Pairs of neighbors are averaged until no more than this many values are left: it changes nothing of the mean's error, and
+ * the sums below stay short however long the series. */
+enum { LEAST_VALUES = 8, MOST_VALUES = 4096 };
+
+static size_t average_pairs(double *x, size_t count)
 {
-    double sum = 0.0, squares = 0.0;
-    size_t n = 0;
-    for (size_t start = 0; start + length <= count; start += length) {
-        const double mean = statistics_mean(x + start, length);
-        if (isnan(mean)) continue;
-        sum += mean;
-        squares += mean * mean;
-        n++;
+    for (size_t k = 0; k < count / 2; k++) x[k] = statistics_mean(x + 2 * k, 2);
+    if (count % 2) x[count / 2] = x[count - 1];
+    return count / 2 + count % 2;
+}
+
+/* Covariance of x, about its mean, with itself `lag` later. */
+static double autocovariance(const double *x, size_t count, double mean, size_t lag)
+{
+    double sum = 0.0, n = 0.0;
+    for (size_t k = 0; k + lag < count; k++)
+        if (!isnan(x[k]) && !isnan(x[k + lag])) {
+            sum += (x[k] - mean) * (x[k + lag] - mean);
+            n += 1;
+        }
+    return n > 0 ? sum / n : 0.0;
+}
+
+/* Wolff's window: where the lags that are left out matter as little as the noise of those taken in. tau: so far, in values;
+ * 1.5 is the ratio of exponential to integrated time that he takes for safe. */
+static bool is_window(double tau, size_t lag, double n)
+{
+    const double w = (double)lag, decay = tau > 0.5 ? 1.5 / log((2 * tau + 1) / (2 * tau - 1)) : 1e-9;
+    return exp(-w / decay) < decay / sqrt(w * n);
+}
+
+/* Variance of the mean of the n values that are there. */
+static double variance_of_mean(const double *x, size_t count, double n)
+{
+    const double mean = statistics_mean(x, count), naive = autocovariance(x, count, mean, 0);
+    if (!(naive > 0)) return 0.0;
+    double sum = naive, terms = 1;
+    for (size_t lag = 1; lag < count / 2; lag++) {
+        sum += 2 * autocovariance(x, count, mean, lag);
+        terms += 2;
+        if (is_window(0.5 * sum / naive, lag, n)) break;
     }
-    *blocks = n;
-    if (n < 2) return NAN;
-    const double variance = (squares - sum * sum / (double)n) / (double)(n - 1);
-    return sqrt(fmax(variance, 0.0) / (double)n);
+    /* Each covariance was taken about the mean of the series rather than the true one, which makes it too small by the
+     * variance of that mean. A series that swings back is not credited with it: no less than independent values. */
+    return fmax(sum * (1 + terms / n), naive * n / (n - 1)) / n;
 }
 
 double statistics_standard_error(const double *x, size_t count)
 {
-    double largest = NAN;
-    for (size_t length = 1; length <= count / LEAST_BLOCKS; length *= 2) {
-        size_t blocks;
-        const double error = block_error(x, count, length, &blocks);
-        if (blocks >= LEAST_BLOCKS) largest = fmax(largest, error);
-    }
-    return largest;
+    size_t n = 0;
+    for (size_t k = 0; k < count; k++) n += !isnan(x[k]);
+    if (n < LEAST_VALUES) return NAN;
+    double *values = malloc(count * sizeof *values);
+    if (!values) return NAN;
+    memcpy(values, x, count * sizeof *values);
+    while (count > MOST_VALUES) count = average_pairs(values, count);
+    n = 0;
+    for (size_t k = 0; k < count; k++) n += !isnan(values[k]);
+    const double variance = variance_of_mean(values, count, (double)n);
+    free(values);
+    return sqrt(variance);
 }
 
 double statistics_correlation_length(const double *x, size_t count)
 {
-    size_t blocks;
-    const double naive = block_error(x, count, 1, &blocks), error = statistics_standard_error(x, count);
-    return naive > 0 ? (error / naive) * (error / naive) : 1.0;
+    const double deviation = statistics_deviation(x, count), error = statistics_standard_error(x, count);
+    size_t n = 0;
+    for (size_t k = 0; k < count; k++) n += !isnan(x[k]);
+    return deviation > 0 ? (double)n * (error / deviation) * (error / deviation) : 1.0;
 }
 
 size_t statistics_transient(const double *x, size_t count)

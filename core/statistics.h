@@ -8,12 +8,13 @@ double statistics_mean(const double *x, size_t count);
 double statistics_deviation(const double *x, size_t count); /* standard deviation, n - 1 */
 double statistics_median(double *x, size_t count);          /* reorders x */
 
-/* Standard error of the mean of a correlated series, from block averages (Flyvbjerg & Petersen 1989): the
- * largest over block lengths 1, 2, 4, ... that leave at least 8 blocks, since the estimate rises with the
- * block length until blocks are independent. NaN for fewer than 8 values. */
+/* Standard error of the mean of a correlated series, from the sum of its autocovariances over a window that the series
+ * chooses itself (Wolff 2004, Eqns 31, 49, 52). Within 5 % of the truth for series of ten correlation lengths or more,
+ * too small for shorter ones (0.84 of it at five). NaN for fewer than 8 values. */
 double statistics_standard_error(const double *x, size_t count);
 
-/* Integrated correlation time in samples, (SE / naive SE)^2; 1 when uncorrelated. */
+/* How many values of the series tell as much of the mean as one independent value: n (SE / deviation)^2; about 1 when
+ * uncorrelated. */
 double statistics_correlation_length(const double *x, size_t count);
 
 /* Where the initial transient of a series ends: the cut that minimises the marginal standard error of what
