@@ -3,6 +3,7 @@
 #include "scene_fields.h"
 
 static const char *const ends_choices[] = { "periodic", NULL };
+
 static const spec_field fields[] = {
     { SPEC_INPUTS, "drum", FIELD_OBJECT, SPEC_DRUM, .required = true, .meaning = "the rotating drum" },
     { SPEC_DRUM, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(drum_diameter),
@@ -14,14 +15,14 @@ static const spec_field fields[] = {
     { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .unit = "rad/s", RANGE(0.001, 500.0), .fallback = NAN,
       AT(rotation_rate), .meaning = "rate of rotation" },
 
-    FIELDS_OF_PARTICLES
+    FIELDS_OF_PARTICLES,
 
     { SPEC_INPUTS, "fill_fraction", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 0.95), .fallback = 0.5, .excludes = "particle_count",
       AT(fill_fraction), .meaning = "share of the cross-section below the free surface, at a bed solid fraction of 0.6" },
     { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes = "fill_fraction",
       AT(particle_count), .meaning = "number of particles, instead of fill_fraction" },
 
-    FIELDS_OF_CONTACT
+    FIELDS_OF_CONTACT,
 
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "inner wall of the drum" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
@@ -46,7 +47,8 @@ static const spec_field fields[] = {
     { SPEC_DURATION, "at_most_revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = NAN,
       AT(at_most_revolutions), .meaning = "where until_standard_error_deg gives up. Default: 10" },
 
-    FIELDS_OF_OUTPUT_AND_RUN{ SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81,
-                              AT(gravity), .meaning = "acceleration of gravity, across the axis" },
+    FIELDS_OF_OUTPUT_AND_RUN,
+    { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity),
+      .meaning = "acceleration of gravity, across the axis" },
 };
 const spec_table drum_fields = { fields, sizeof fields / sizeof fields[0] };

@@ -17,146 +17,65 @@ static const char *const law_choices[] = { "walton-braun", "spring-dashpot", "he
 #define RANGE(low, high) .minimum = (low), .maximum = (high)
 #define OPEN_RANGE(low, high) .minimum = (low), .minimum_open = true, .maximum = (high)
 
-/* clang-format off: it would fill each line up to the backslash */
-#define FIELDS_OF_PARTICLES                                                                                                            \
-    { SPEC_INPUTS,                                                                                                                     \
-      "particles",                                                                                                                     \
-      FIELD_LIST,                                                                                                                      \
-      SPEC_PARTICLES,                                                                                                                  \
-      .required = true,                                                                                                                \
-      RANGE(1, DEM_MAXIMUM_SPECIES),                                                                                                   \
-      AT(species),                                                                                                                     \
-      .count_offset = offsetof(drum_inputs, species_count),                                                                            \
-      .entry_size = sizeof(species_inputs),                                                                                            \
-      .meaning = "the kinds of particles" },                                                                                           \
-        { SPEC_PARTICLES,                                                                                                              \
-          "shape",                                                                                                                     \
-          FIELD_CHOICE_OR_OBJECT,                                                                                                      \
-          SPEC_SHAPE,                                                                                                                  \
-          .unit = "",                                                                                                                  \
-          .choices = shape_choices,                                                                                                    \
-          AT_SPECIES(shape),                                                                                                           \
-          .meaning = "shape of a particle: a sphere, or a rigid cluster of 2, 4 or 8 touching spheres, or of spheres placed one "      \
-                     "by one, which must touch or overlap" },                                                                          \
-        { SPEC_SHAPE,                                                                                                                  \
-          "spheres",                                                                                                                   \
-          FIELD_LIST,                                                                                                                  \
-          SPEC_SPHERES,                                                                                                                \
-          .required = true,                                                                                                            \
-          RANGE(1, DEM_MAXIMUM_CLUSTER),                                                                                               \
-          AT_SPECIES(sphere),                                                                                                          \
-          .count_offset = offsetof(species_inputs, sphere_count),                                                                      \
-          .entry_size = sizeof(dem_cluster_sphere),                                                                                    \
-          .meaning = "the spheres of a cluster" },                                                                                     \
-        { SPEC_SPHERES,     "position",          FIELD_PLACE,                                                                          \
-          .required = true, .unit = "m",         RANGE(-1.0, 1.0),                                                                     \
-          .fallback = NAN,  AT_SPHERE(position), .meaning = "centre of the sphere, in any frame of the cluster's own" },               \
-        { SPEC_SPHERES,        "diameter",                                                                                             \
-          FIELD_REAL,          .unit = "m",                                                                                            \
-          RANGE(1e-5, 1.0),    .fallback = NAN,                                                                                        \
-          AT_SPHERE(diameter), .meaning = "diameter of this sphere. Default: the particle's diameter" },                               \
-        { SPEC_PARTICLES,                                                                                                              \
-          "diameter",                                                                                                                  \
-          FIELD_REAL,                                                                                                                  \
-          .required = true,                                                                                                            \
-          .spared_by = "shape",                                                                                                        \
-          .unit = "m",                                                                                                                 \
-          RANGE(1e-5, 1.0),                                                                                                            \
-          .fallback = NAN,                                                                                                             \
-          AT_SPECIES(diameter),                                                                                                        \
-          .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a "            \
-                     "cluster has its own" },                                                                                          \
-        { SPEC_PARTICLES,      "density",          FIELD_REAL,          .unit = "kg/m3",                                               \
-          RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), .meaning = "density of the particle itself, not of the bed" }, \
-        { SPEC_PARTICLES,       "share",                                                                                               \
-          FIELD_REAL,           .unit = "",                                                                                            \
-          OPEN_RANGE(0.0, 1.0), .fallback = NAN,                                                                                       \
-          AT_SPECIES(share),    .meaning = "share of the particles by number; all shares sum to 1. Default: equal shares" },
+/* As they would stand in a table, but for the backslashes. */
+/* clang-format off */
+#define FIELDS_OF_PARTICLES \
+    { SPEC_INPUTS, "particles", FIELD_LIST, SPEC_PARTICLES, .required = true, RANGE(1, DEM_MAXIMUM_SPECIES), AT(species), \
+      .count_offset = offsetof(drum_inputs, species_count), .entry_size = sizeof(species_inputs), \
+      .meaning = "the kinds of particles" }, \
+    { SPEC_PARTICLES, "shape", FIELD_CHOICE_OR_OBJECT, SPEC_SHAPE, .unit = "", .choices = shape_choices, AT_SPECIES(shape), \
+      .meaning = "shape of a particle: a sphere, or a rigid cluster of 2, 4 or 8 touching spheres, or of spheres placed one " \
+                 "by one, which must touch or overlap" }, \
+    { SPEC_SHAPE, "spheres", FIELD_LIST, SPEC_SPHERES, .required = true, RANGE(1, DEM_MAXIMUM_CLUSTER), AT_SPECIES(sphere), \
+      .count_offset = offsetof(species_inputs, sphere_count), .entry_size = sizeof(dem_cluster_sphere), \
+      .meaning = "the spheres of a cluster" }, \
+    { SPEC_SPHERES, "position", FIELD_PLACE, .required = true, .unit = "m", RANGE(-1.0, 1.0), .fallback = NAN, AT_SPHERE(position), \
+      .meaning = "centre of the sphere, in any frame of the cluster's own" }, \
+    { SPEC_SPHERES, "diameter", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SPHERE(diameter), \
+      .meaning = "diameter of this sphere. Default: the particle's diameter" }, \
+    { SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .spared_by = "shape", .unit = "m", RANGE(1e-5, 1.0), \
+      .fallback = NAN, AT_SPECIES(diameter), \
+      .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
+                 "cluster has its own" }, \
+    { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), \
+      .meaning = "density of the particle itself, not of the bed" }, \
+    { SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share), \
+      .meaning = "share of the particles by number; all shares sum to 1. Default: equal shares" }
 
-#define FIELDS_OF_CONTACT                                                                                                          \
-    { SPEC_INPUTS, "contact", FIELD_OBJECT, SPEC_CONTACT, .meaning = "contact between particles" },                                \
-        { SPEC_CONTACT,                                                                                                            \
-          "law",                                                                                                                   \
-          FIELD_CHOICE,                                                                                                            \
-          .unit = "",                                                                                                              \
-          .choices = law_choices,                                                                                                  \
-          AT(contact_law),                                                                                                         \
-          .meaning = "walton-braun: latching spring and incremental friction; spring-dashpot: linear springs and dashpots; "       \
-                     "hertz-mindlin: elastic, no-slip, damping set from restitution" },                                            \
-        { SPEC_CONTACT,    "friction",      FIELD_REAL,   .unit = "",                                                              \
-          RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), .meaning = "coefficient of friction between particles" },                \
-        { SPEC_CONTACT,    "restitution",   FIELD_REAL,      .unit = "",                                                           \
-          RANGE(0.3, 1.0), .fallback = 0.8, AT(restitution), .meaning = "coefficient of normal restitution" },                     \
-        { SPEC_CONTACT,                                                                                                            \
-          "tangential_stiffness_ratio",                                                                                            \
-          FIELD_REAL,                                                                                                              \
-          .unit = "",                                                                                                              \
-          RANGE(0.05, 1.5),                                                                                                        \
-          .fallback = 0.8,                                                                                                         \
-          AT(tangential_stiffness_ratio),                                                                                          \
-          .meaning = "initial tangential over normal loading stiffness" },                                                         \
-        { SPEC_CONTACT,                                                                                                            \
-          "maximum_overlap",                                                                                                       \
-          FIELD_REAL,                                                                                                              \
-          .unit = "",                                                                                                              \
-          RANGE(0.0005, 0.05),                                                                                                     \
-          .fallback = 0.01,                                                                                                        \
-          .excludes = "stiffness",                                                                                                 \
-          .excludes_too = "youngs_modulus",                                                                                        \
-          AT(maximum_overlap),                                                                                                     \
-          .meaning = "largest overlap wanted, as a share of the smallest diameter: the stiffness is chosen for it" },              \
-        { SPEC_CONTACT,                                                                                                            \
-          "stiffness",                                                                                                             \
-          FIELD_REAL,                                                                                                              \
-          .unit = "N/m",                                                                                                           \
-          RANGE(1e-3, 1e9),                                                                                                        \
-          .fallback = NAN,                                                                                                         \
-          .excludes = "maximum_overlap",                                                                                           \
-          .excludes_too = "youngs_modulus",                                                                                        \
-          AT(stiffness),                                                                                                           \
-          .meaning = "normal loading stiffness, instead of maximum_overlap; not for hertz-mindlin" },                              \
-        { SPEC_CONTACT,                                                                                                            \
-          "youngs_modulus",                                                                                                        \
-          FIELD_REAL,                                                                                                              \
-          .unit = "Pa",                                                                                                            \
-          RANGE(1e3, 1e13),                                                                                                        \
-          .fallback = NAN,                                                                                                         \
-          .excludes = "maximum_overlap",                                                                                           \
-          AT(youngs_modulus),                                                                                                      \
-          .meaning = "of particles and wall, instead of maximum_overlap; for hertz-mindlin alone" },                               \
-        { SPEC_CONTACT,    "poissons_ratio", FIELD_REAL,         .unit = "",                                                       \
-          RANGE(0.0, 0.5), .fallback = 0.3,  AT(poissons_ratio), .meaning = "of particles and wall; used by hertz-mindlin alone" },
+#define FIELDS_OF_CONTACT \
+    { SPEC_INPUTS, "contact", FIELD_OBJECT, SPEC_CONTACT, .meaning = "contact between particles" }, \
+    { SPEC_CONTACT, "law", FIELD_CHOICE, .unit = "", .choices = law_choices, AT(contact_law), \
+      .meaning = "walton-braun: latching spring and incremental friction; spring-dashpot: linear springs and dashpots; " \
+                 "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
+    { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
+      .meaning = "coefficient of friction between particles" }, \
+    { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.3, 1.0), .fallback = 0.8, AT(restitution), \
+      .meaning = "coefficient of normal restitution" }, \
+    { SPEC_CONTACT, "tangential_stiffness_ratio", FIELD_REAL, .unit = "", RANGE(0.05, 1.5), .fallback = 0.8, \
+      AT(tangential_stiffness_ratio), .meaning = "initial tangential over normal loading stiffness" }, \
+    { SPEC_CONTACT, "maximum_overlap", FIELD_REAL, .unit = "", RANGE(0.0005, 0.05), .fallback = 0.01, .excludes = "stiffness", \
+      .excludes_too = "youngs_modulus", AT(maximum_overlap), \
+      .meaning = "largest overlap wanted, as a share of the smallest diameter: the stiffness is chosen for it" }, \
+    { SPEC_CONTACT, "stiffness", FIELD_REAL, .unit = "N/m", RANGE(1e-3, 1e9), .fallback = NAN, .excludes = "maximum_overlap", \
+      .excludes_too = "youngs_modulus", AT(stiffness), \
+      .meaning = "normal loading stiffness, instead of maximum_overlap; not for hertz-mindlin" }, \
+    { SPEC_CONTACT, "youngs_modulus", FIELD_REAL, .unit = "Pa", RANGE(1e3, 1e13), .fallback = NAN, .excludes = "maximum_overlap", \
+      AT(youngs_modulus), .meaning = "of particles and wall, instead of maximum_overlap; for hertz-mindlin alone" }, \
+    { SPEC_CONTACT, "poissons_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = 0.3, AT(poissons_ratio), \
+      .meaning = "of particles and wall; used by hertz-mindlin alone" }
 
-#define FIELDS_OF_OUTPUT_AND_RUN                                                                                                   \
-    { SPEC_INPUTS, "snapshots", FIELD_OBJECT, SPEC_SNAPSHOTS, .meaning = "files of all particles, for ParaView" },                 \
-        { SPEC_SNAPSHOTS,                                                                                                          \
-          "interval",                                                                                                              \
-          FIELD_REAL,                                                                                                              \
-          .unit = "s",                                                                                                             \
-          RANGE(0.0, 1e6),                                                                                                         \
-          .fallback = 0.1,                                                                                                         \
-          AT(snapshot_interval),                                                                                                   \
-          .meaning = "simulated time between snapshots; 0: only the last one" },                                                   \
-        { SPEC_INPUTS, "samples", FIELD_OBJECT, SPEC_SAMPLES, .meaning = "the time series of measurements" },                      \
-        { SPEC_SAMPLES,                                                                                                            \
-          "interval",                                                                                                              \
-          FIELD_REAL,                                                                                                              \
-          .unit = "s",                                                                                                             \
-          OPEN_RANGE(0.0, 0.05),                                                                                                   \
-          .fallback = NAN,                                                                                                         \
-          AT(sample_interval),                                                                                                     \
-          .meaning = "simulated time between measurements. Default: 0.05 s, less for fast drums and short runs" },                 \
-                                                                                                                                   \
-        { SPEC_INPUTS,                                                                                                             \
-          "seed",                                                                                                                  \
-          FIELD_INTEGER,                                                                                                           \
-          .unit = "",                                                                                                              \
-          RANGE(0, 9007199254740991.0),                                                                                            \
-          .fallback = NAN,                                                                                                         \
-          AT(seed),                                                                                                                \
-          .meaning = "of the random initial positions: the same seed gives the same run. Default: chosen at random" },             \
-        { SPEC_INPUTS,   "threads",     FIELD_INTEGER, .unit = "",                                                                 \
-          RANGE(1, 256), .fallback = 1, AT(threads),   .meaning = "threads of the worker; results do not depend on it" },
+#define FIELDS_OF_OUTPUT_AND_RUN \
+    { SPEC_INPUTS, "snapshots", FIELD_OBJECT, SPEC_SNAPSHOTS, .meaning = "files of all particles, for ParaView" }, \
+    { SPEC_SNAPSHOTS, "interval", FIELD_REAL, .unit = "s", RANGE(0.0, 1e6), .fallback = 0.1, AT(snapshot_interval), \
+      .meaning = "simulated time between snapshots; 0: only the last one" }, \
+    { SPEC_INPUTS, "samples", FIELD_OBJECT, SPEC_SAMPLES, .meaning = "the time series of measurements" }, \
+    { SPEC_SAMPLES, "interval", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 0.05), .fallback = NAN, AT(sample_interval), \
+      .meaning = "simulated time between measurements. Default: 0.05 s, less for fast drums and short runs" }, \
+ \
+    { SPEC_INPUTS, "seed", FIELD_INTEGER, .unit = "", RANGE(0, 9007199254740991.0), .fallback = NAN, AT(seed), \
+      .meaning = "of the random initial positions: the same seed gives the same run. Default: chosen at random" }, \
+    { SPEC_INPUTS, "threads", FIELD_INTEGER, .unit = "", RANGE(1, 256), .fallback = 1, AT(threads), \
+      .meaning = "threads of the worker; results do not depend on it" }
 /* clang-format on */
 
 #endif
