@@ -58,24 +58,25 @@ static int cell_along(const cell_grid *grid, double x, int axis)
     return cell < grid->cells[axis] ? cell : grid->cells[axis] - 1;
 }
 
-static size_t set_cells(cell_grid *grid, double radius, double period, double reach)
+static size_t set_cells(cell_grid *grid, const double low[3], const double high[3], double period, double reach)
 {
-    const double side[3] = { 2 * radius, 2 * radius, period };
     size_t cells = 1;
     for (int a = 0; a < 3; a++) {
-        grid->cells[a] = (int)fmax(1.0, fmin(floor(side[a] / reach), MOST_CELLS_A_SIDE));
-        grid->origin[a] = -0.5 * side[a];
-        grid->inverse_size[a] = grid->cells[a] / side[a];
+        const double side = high[a] - low[a];
+        grid->cells[a] = (int)fmax(1.0, fmin(floor(side / reach), MOST_CELLS_A_SIDE));
+        grid->origin[a] = low[a];
+        grid->inverse_size[a] = grid->cells[a] / side;
         cells *= (size_t)grid->cells[a];
     }
     grid->period = (real)period;
-    grid->inverse_period = (real)(1 / period);
+    grid->inverse_period = (real)(period > 0 ? 1 / period : 0);
     return cells;
 }
 
-dem_status cell_grid_fill(cell_grid *grid, const spheres *s, double radius, double period, double reach)
+dem_status cell_grid_fill(cell_grid *grid, const spheres *s, const double low[3], const double high[3], double period,
+                          double reach)
 {
-    const size_t cells = set_cells(grid, radius, period, reach), n = spheres_count(s);
+    const size_t cells = set_cells(grid, low, high, period, reach), n = spheres_count(s);
     if (reserve_cells(grid, cells) != DEM_OK || reserve_spheres(grid, n) != DEM_OK) return DEM_NO_MEMORY;
     memset(grid->start, 0, (cells + 1) * sizeof *grid->start);
     for (size_t i = 0; i < n; i++) {
@@ -122,8 +123,8 @@ size_t cell_grid_neighbors(const cell_grid *grid, size_t i, double skin, int32_t
     int32_t at = grid->start[cell];
     while (grid->sphere[at] != (int32_t)i) at++;
     const real x[3] = { grid->x[0][at], grid->x[1][at], grid->x[2][at] };
-    /* rounding of three coordinates of the drum's size, twice over */
-    const double rounding = 1e-6 * (1 / grid->inverse_size[0] * grid->cells[0] + (double)grid->period);
+    /* rounding of three coordinates of the box's size, twice over */
+    const double rounding = 1e-6 * (grid->cells[0] / grid->inverse_size[0] + grid->cells[2] / grid->inverse_size[2]);
     const real reach = grid->radius[at] + (real)(skin + rounding);
     size_t count = 0;
     for (int a = cx > 0 ? cx - 1 : 0; a <= cx + 1 && a < grid->cells[0]; a++)

@@ -1,4 +1,4 @@
-/* A grid of cells over a box, periodic along z, in which spheres are found by place. */
+/* A grid of cells over a box, perhaps periodic along z, in which spheres are found by place. */
 #ifndef CELL_GRID_H
 #define CELL_GRID_H
 
@@ -19,8 +19,10 @@ typedef struct cell_grid {
 
 void cell_grid_init(cell_grid *grid);
 void cell_grid_clear(cell_grid *grid);
-/* Sort all spheres into cells no smaller than `reach`, over [-radius, radius]^2 x one period. */
-dem_status cell_grid_fill(cell_grid *grid, const spheres *spheres, double radius, double period, double reach);
+/* Sort all spheres into cells no smaller than `reach`, over the box from low to high; what lies outside goes to the cells
+ * at its border. period: m along z, which is then the box's height; 0: none. */
+dem_status cell_grid_fill(cell_grid *grid, const spheres *spheres, const double low[3], const double high[3], double period,
+                          double reach);
 
 /* Spheres of id above i whose surfaces are within `skin` of i's, in no order: written to found, which has room for
  * `room` and LANES more. Returns how many there are; where that exceeds room, not all were written. Never leaves

@@ -21,7 +21,9 @@ static void shape_init(cluster_shape *shape, const dem_species *species)
 
 dem_status clusters_init(clusters *c, const dem_drum_definition *definition, size_t count, size_t sphere_count)
 {
-    *c = (clusters){ .count = count, .sphere_count = sphere_count };
+    *c = (clusters){ .count = count,
+                     .sphere_count = sphere_count,
+                     .corrector_passes = definition->corrector_passes > 1 ? definition->corrector_passes : 1 };
     c->shape = array_create(definition->species_count, sizeof *c->shape);
     c->body = array_create(count, sizeof *c->body);
     c->of_sphere = array_create(sphere_count, sizeof *c->of_sphere);

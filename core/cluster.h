@@ -32,6 +32,7 @@ typedef struct clusters {
     cluster_body *body;   /* (count) */
     int32_t *of_sphere;   /* (sphere_count) the body of each sphere, counted from the clusters' first */
     cluster_shape *shape; /* (species) */
+    int corrector_passes; /* of Euler's equations, at least 1 */
 } clusters;
 
 dem_status clusters_init(clusters *clusters, const dem_drum_definition *definition, size_t count, size_t sphere_count);

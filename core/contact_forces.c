@@ -6,11 +6,11 @@
 enum { RADIUS = 0, VELOCITY = 1, R_OMEGA = 4, OMEGA = 7 };
 
 static void gather_spheres(contact_block *restrict block, const sphere_row *restrict row, const int32_t *restrict first,
-                           const int32_t *restrict second, double length)
+                           const int32_t *restrict second, const container *drum)
 {
     /* of two rows: sums, but for the velocity, of which the difference */
     static const float sign[16] = { [7] = -0.0f, -0.0f, -0.0f };
-    const wide_double period = wide_double_all(length), inverse_period = wide_double_all(1.0 / length);
+    const wide_double period = wide_double_all(drum->period), inverse_period = wide_double_all(drum->inverse_period);
     for (int k = 0; k < BLOCK; k += LANES) {
         wide sum[ROW_NUMBERS];
         wide_double dx[HALVES], dy[HALVES], dz[HALVES], d2[HALVES], gap2[HALVES], radii[HALVES];
@@ -31,40 +31,6 @@ static void gather_spheres(contact_block *restrict block, const sphere_row *rest
         store_vector(block->v, k, sum + VELOCITY);
         store_vector(block->r_omega, k, sum + R_OMEGA);
         store_vector(block->omega, k, sum + OMEGA);
-    }
-}
-
-static void gather_sphere_and_cylinder(contact_block *restrict block, const sphere_row *restrict row, const int32_t *restrict first,
-                                       int32_t origin, double radius, real rotation_rate)
-{
-    static const float as_it_is[16] = { 0 };
-    int32_t nothing[LANES];
-    for (int k = 0; k < LANES; k++) nothing[k] = origin;
-    for (int k = 0; k < BLOCK; k += LANES) {
-        wide own[ROW_NUMBERS];
-        wide_double x[HALVES], y[HALVES], z[HALVES], rho2[HALVES], beyond2[HALVES], r[HALVES];
-        wide_row_sums(row, sizeof *row, nothing, first + k, as_it_is, own);
-        wide_to_doubles(own[RADIUS], r);
-        for (int h = 0; h < HALVES; h++) {
-            wide_place_differences(row, sizeof *row, nothing, first + k + 8 * h, &x[h], &y[h], &z[h]);
-            const wide_double room = wide_double_all(radius) - r[h];
-            rho2[h] = x[h] * x[h] + y[h] * y[h];
-            beyond2[h] = rho2[h] - room * room; /* overlap = rho - (R - r) */
-        }
-        const wide outward[3] = { wide_from_doubles(x), wide_from_doubles(y), wide_all(0) };
-        const wide rate = wide_all(rotation_rate);
-        /* the wall's velocity at the place of the contact: omega x r, at the wall rather than at the centre */
-        const wide widen = wide_all((real)radius) * wide_inverse_root(wide_from_doubles(rho2));
-        const wide v[3] = { -rate * widen * outward[1] - own[VELOCITY], rate * widen * outward[0] - own[VELOCITY + 1],
-                            -own[VELOCITY + 2] };
-        store_vector(block->n, k, outward);
-        wide_store(block->distance2 + k, wide_from_doubles(rho2));
-        wide_store(block->gap2 + k, wide_from_doubles(beyond2));
-        wide_store(block->reach + k, wide_all((real)radius) - own[RADIUS]);
-        wide_store(block->radii + k, own[RADIUS]);
-        store_vector(block->v, k, v);
-        store_vector(block->r_omega, k, own + R_OMEGA);
-        store_vector(block->omega, k, own + OMEGA);
     }
 }
 
@@ -142,9 +108,8 @@ static double largest_lane(wide x)
     return largest;
 }
 
-/* Everything behind the gathering, the same for spheres and walls. Returns the largest overlap, m. */
-static double block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
-                           bool is_wall, double dt)
+double contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
+                            bool is_wall, double dt)
 {
     normals(block);
     displacements(block, (real)dt);
@@ -162,23 +127,8 @@ double contact_forces_between_spheres(contact_list *pairs, const spheres *s, con
 #pragma omp parallel for schedule(static) reduction(max : largest) num_threads(threads) if (threads > 1)
     for (size_t start = 0; start < count; start += BLOCK) {
         contact_block block;
-        gather_spheres(&block, s->row, pairs->first + start, pairs->second + start, drum->length);
-        largest = fmax(largest, block_forces(pairs, start, &block, contact, false, dt));
-    }
-    return largest;
-}
-
-double contact_forces_with_wall(contact_list *walls, const spheres *s, const container *drum, const dem_contact_parameters *contact,
-                                double dt, int threads)
-{
-    double largest = 0.0;
-    const size_t count = round_up_to_block(walls->count);
-#pragma omp parallel for schedule(static) reduction(max : largest) num_threads(threads) if (threads > 1)
-    for (size_t start = 0; start < count; start += BLOCK) {
-        contact_block block;
-        gather_sphere_and_cylinder(&block, s->row, walls->first + start, sphere_of_zeros(s), drum->radius,
-                                   (real)drum->rotation_rate);
-        largest = fmax(largest, block_forces(walls, start, &block, contact, true, dt));
+        gather_spheres(&block, s->row, pairs->first + start, pairs->second + start, drum);
+        largest = fmax(largest, contact_block_forces(pairs, start, &block, contact, false, dt));
     }
     return largest;
 }

@@ -8,8 +8,6 @@
  * remember. dt: s, the step since the last call. Returns the largest overlap, m. */
 double contact_forces_between_spheres(contact_list *pairs, const spheres *spheres, const container *drum,
                                       const dem_contact_parameters *contact, double dt, int threads);
-double contact_forces_with_wall(contact_list *walls, const spheres *spheres, const container *drum,
-                                const dem_contact_parameters *contact, double dt, int threads);
 /* spheres->force and ->torque from the rows. */
 void contact_forces_sum(const neighbor_list *list, spheres *spheres, int threads);
 #endif

@@ -14,6 +14,9 @@ typedef struct contact_history {
     real alpha_0; /* m: overlap at which the unloading branch reaches zero */
 } contact_history;
 
+/* N2: a stored friction force below its root has no direction; elsewhere: a square whose root counts as none. */
+#define TINY_SQUARE ((real)1e-30)
+
 /* Normal force, N, of the latching spring: K1 when loading beyond all before, K2 on unloading and reloading
  * below it; never attractive. An isolated collision has e = sqrt(K1/K2).
  * alpha: overlap, m (negative: apart); alpha_0: as in contact_history, updated; forgotten when they part. */
@@ -25,11 +28,23 @@ static inline real normal_force(real alpha, real k_1, real k_2, real *alpha_0)
     return greater(lesser(loading, unloading), 0);
 }
 
+/* The same where the unloading branch steepens with the load that the contact has borne: K2 = K1 + S N_max (Walton &
+ * Braun 1986), so that an isolated collision at speed v has e = sqrt(w/(S v + w)), w = sqrt(K1/m). From N_max = K1 alpha_max
+ * follows alpha_0 = S alpha_max^2/(1 + S alpha_max), and back from q = S alpha_0, K2/K1 = 1 + (q + sqrt(q^2 + 4 q))/2:
+ * alpha_0 alone remembers both. slope: S, 1/m. */
+static inline real normal_force_of_slope(real alpha, real k_1, real slope, real *alpha_0)
+{
+    const real pressed = greater(alpha, 0), s = slope * pressed;
+    const real latched = greater(*alpha_0, s * pressed * inverse(1 + s));
+    *alpha_0 = alpha > 0 ? latched : 0;
+    const real q = slope * latched, root2 = greater(q * (q + 4), TINY_SQUARE), steepness = q + root2 * inverse_root(root2);
+    const real loading = k_1 * alpha, unloading = fused(k_1 / 2, steepness, k_1) * (alpha - latched);
+    return greater(lesser(loading, unloading), 0);
+}
+
 /* Smallest 1 -+ t that a cube root sees: at full slip the stiffness falls to 1/100 of K_T0, not to zero. */
 #define SLIP_FLOOR ((real)1e-6)
 
-/* N2: a stored friction force below its root has no direction. */
-#define TINY_SQUARE ((real)1e-30)
 /* N: a limit of friction below this is none. */
 #define TINY_FORCE ((real)1e-20)
 

@@ -19,7 +19,7 @@ typedef struct contact_row {
 typedef struct contact_list {
     size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
     int32_t *first;         /* (capacity) sphere index */
-    int32_t *second;        /* (capacity) sphere index; unused for walls */
+    int32_t *second;        /* (capacity) sphere index, or that of the wall */
     real *friction;         /* (capacity) mu */
     real *first_radius;     /* (capacity) m, at full size */
     real *mass;             /* (capacity) kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */

@@ -2,10 +2,150 @@
 
 #include "dem_rules.h"
 
-void container_init(container *drum, const dem_drum_definition *definition)
+static container_wall *add_wall(container *c, wall_kind kind, double friction)
 {
-    *drum = (container){ .radius = 0.5 * definition->diameter, .length = definition->length };
-    drum->inner_radius = drum->radius - definition->lining.diameter;
+    container_wall *w = &c->wall[c->wall_count++];
+    *w = (container_wall){ .kind = kind, .friction = friction };
+    return w;
+}
+
+static void add_plane(container *c, double z, double facing)
+{
+    container_wall *w = add_wall(c, WALL_PLANE, 0);
+    w->low = w->high = z;
+    w->facing = facing;
+}
+
+static void add_shell(container *c, double radius, double height)
+{
+    container_wall *w = add_wall(c, WALL_SHELL, 0);
+    w->radius = radius;
+    w->high = height;
+}
+
+/* Walls of a drum: its own first, then the ends, then the bars. */
+static void drum_walls(container *c, const dem_drum_definition *definition)
+{
+    add_wall(c, WALL_CYLINDER, 0)->radius = c->radius;
+    if (definition->ends.are_walls) {
+        add_plane(c, -0.5 * c->length, 1);
+        add_plane(c, 0.5 * c->length, -1);
+    }
+    c->first_bar = c->wall_count;
+    c->bar_count = (int)definition->lifters.count;
+    c->bars_from = c->bar_count ? c->radius - definition->lifters.height : c->radius;
+    for (int k = 0; k < c->bar_count; k++) {
+        const double angle = 2 * DEM_PI * k / c->bar_count;
+        container_wall *bar = add_wall(c, WALL_BAR, 0);
+        bar->radius = c->bars_from;
+        bar->half_width = 0.5 * definition->lifters.width;
+        bar->middle[0] = bar->place[0] = cos(angle);
+        bar->middle[1] = bar->place[1] = sin(angle);
+    }
+}
+
+/* A tube first, then the plate, then its rim. */
+static void tube_walls(container *c, const dem_drum_definition *definition)
+{
+    add_shell(c, c->radius, c->length);
+    container_wall *plate = add_wall(c, WALL_DISC, 0);
+    plate->radius = 0.5 * definition->plate.diameter;
+    if (definition->plate.rim_height > 0) add_shell(c, 0.5 * definition->plate.diameter, definition->plate.rim_height);
+}
+
+static void set_box(container *c, double radius, double low, double high)
+{
+    for (int a = 0; a < 2; a++) c->high[a] = -(c->low[a] = -radius);
+    c->low[2] = low;
+    c->high[2] = high;
+}
+
+void container_init(container *c, const dem_drum_definition *definition)
+{
+    *c = (container){ .kind = definition->container, .radius = 0.5 * definition->diameter, .length = definition->length };
+    c->inner_radius = c->bars_from = c->radius;
+    c->up[c->kind == DEM_DRUM ? 1 : 2] = 1;
+    switch (c->kind) {
+    case DEM_DRUM:
+        c->inner_radius = c->radius - definition->lining.diameter;
+        if (!definition->ends.are_walls) {
+            c->period = c->length;
+            c->inverse_period = 1.0 / c->length;
+        }
+        set_box(c, c->radius, -0.5 * c->length, 0.5 * c->length);
+        drum_walls(c, definition);
+        break;
+    case DEM_CYLINDER:
+        set_box(c, c->radius, 0, c->length);
+        add_wall(c, WALL_CYLINDER, 0)->radius = c->radius;
+        add_plane(c, 0, 1);
+        break;
+    case DEM_TUBE_ON_PLATE:
+        set_box(c, fmax(c->radius, 0.5 * definition->plate.diameter), 0, c->length);
+        tube_walls(c, definition);
+        break;
+    }
+    container_set_friction(c, definition, true);
+}
+
+static double wall_friction(const container *c, const dem_drum_definition *definition, int k)
+{
+    switch (c->wall[k].kind) {
+    case WALL_PLANE: return definition->ends.friction;
+    case WALL_DISC: return definition->plate.friction;
+    case WALL_BAR: return definition->lifters.friction;
+    case WALL_SHELL: return k == 0 ? definition->contact.wall_friction : definition->plate.friction;
+    case WALL_CYLINDER: break;
+    }
+    return definition->contact.wall_friction;
+}
+
+void container_set_friction(container *c, const dem_drum_definition *definition, bool has_friction)
+{
+    for (int k = 0; k < c->wall_count; k++) c->wall[k].friction = has_friction ? wall_friction(c, definition, k) : 0.0;
+}
+
+static bool turn_drum(container *c, double rate, double time)
+{
+    const bool changes = rate != c->rotation_rate;
+    c->rotation_rate = rate;
+    c->angle = rate * time;
+    const double cosine = cos(c->angle), sine = sin(c->angle);
+    for (int k = 0; k < c->wall_count; k++) {
+        container_wall *w = &c->wall[k];
+        w->rotation_rate = rate;
+        w->middle[0] = cosine * w->place[0] - sine * w->place[1];
+        w->middle[1] = sine * w->place[0] + cosine * w->place[1];
+    }
+    return changes;
+}
+
+static bool raise_tube(container *c, const dem_lift *lift, bool has_begun, double time)
+{
+    container_wall *tube = &c->wall[0];
+    const bool rises = has_begun && time >= lift->start;
+    const bool changes = rises != (tube->rise != 0) && lift->speed != 0;
+    tube->rise = rises ? lift->speed : 0.0;
+    tube->low = rises ? lift->speed * (time - lift->start) : 0.0;
+    tube->high = tube->low + c->length;
+    return changes;
+}
+
+bool container_move(container *c, const dem_drum_definition *definition, bool has_begun, double time)
+{
+    switch (c->kind) {
+    case DEM_DRUM: return turn_drum(c, has_begun ? definition->rotation_rate : 0.0, has_begun ? time : 0.0);
+    case DEM_TUBE_ON_PLATE: return raise_tube(c, &definition->lift, has_begun, time);
+    case DEM_CYLINDER: break;
+    }
+    return false;
+}
+
+double container_overlap(const container *c, const double x[3], double radius)
+{
+    double nearest = INFINITY;
+    for (int k = 0; k < c->wall_count; k++) nearest = fmin(nearest, wall_seen_from(&c->wall[k], x).distance);
+    return radius - nearest;
 }
 
 /* Centres lie half a diameter inside the wall, so the lining touches it from within. */
@@ -40,7 +180,7 @@ void container_place_lining(const container *drum, const dem_drum_definition *de
         (*place)[1] = lining_radius(definition) * sin(angle);
         (*place)[2] = drum->length * (((double)(k % along) + 0.5) / (double)along - 0.5);
         s->row[s->mobile_count + k].radius = (real)(0.5 * definition->lining.diameter);
-        s->full_radius[s->mobile_count + k] = (double)s->row[s->mobile_count + k].radius;
+        s->full_radius[s->mobile_count + k] = sphere_radius(s, s->mobile_count + k);
     }
     container_turn_lining(drum, s);
 }

@@ -1,17 +1,37 @@
-/* The rotating drum: an analytic cylinder about z, periodic along z, with or without a lining of glued spheres. */
+/* What holds the particles: a few walls, each with its own geometry, friction and motion, and in a drum perhaps a
+ * lining of glued spheres. core/NUMERICS.md, "Containers". */
 #ifndef CONTAINER_H
 #define CONTAINER_H
 
 #include "spheres.h"
+#include "wall.h"
+
+enum { MOST_WALLS = 3 + DEM_MAXIMUM_LIFTERS };
 
 typedef struct container {
-    double radius, length; /* m */
-    double rotation_rate;  /* rad/s now: zero until rotation begins */
-    double angle;          /* rad turned since rotation began */
-    double inner_radius;   /* m, of the free room: radius less the lining's diameter */
+    dem_container_kind kind;
+    double radius, length;         /* m */
+    double period, inverse_period; /* m, 1/m along z; both 0 where the axis is not periodic, so that nothing is wrapped */
+    double up[3];                  /* unit vector against gravity */
+    double rotation_rate;          /* rad/s now: zero until rotation begins */
+    double angle;                  /* rad turned since rotation began */
+    double inner_radius;           /* m, of the free room: radius less the lining's diameter */
+    double low[3], high[3];        /* m: the box that particles are looked for in */
+    int wall_count;
+    int first_bar, bar_count;
+    double bars_from; /* m from the axis: no bar is nearer */
+    container_wall wall[MOST_WALLS];
 } container;
 
-void container_init(container *drum, const dem_drum_definition *definition);
+void container_init(container *container, const dem_drum_definition *definition);
+/* The walls as they are, at rest (has_begun false) or `time` after the container began to move: places, velocities.
+ * True when a wall's velocity is another than before, which lists of contacts in reach do not foresee. */
+bool container_move(container *container, const dem_drum_definition *definition, bool has_begun, double time);
+/* Friction of every wall; none while particles grow. */
+void container_set_friction(container *container, const dem_drum_definition *definition, bool has_friction);
+/* Nearest of all walls, as a sphere of that radius at x would overlap it, m; negative: apart. */
+double container_overlap(const container *container, const double x[3], double radius);
+
 /* Lining spheres that fit with the pitch asked for: whole numbers around and along. */
 size_t container_lining_count(const dem_drum_definition *definition);
 void container_place_lining(const container *drum, const dem_drum_definition *definition, spheres *spheres);

@@ -61,7 +61,7 @@ static void assign_species(spheres *s, const dem_drum_definition *definition)
 /* Particles placed so far, each as the sphere that holds it, in linked cells. */
 typedef struct placing {
     int cells[3];
-    double size[3], radius, length;
+    double size[3], radius, length, period, inverse_period;
     int32_t *head, *next;
 } placing;
 
@@ -86,7 +86,7 @@ static bool is_free(const placing *p, const spheres *s, const double x[3], doubl
                 const size_t cell = cell_of(p, cx + dx, cy + dy, (cz + dz + p->cells[2]) % p->cells[2]);
                 for (int32_t j = p->head[cell]; j >= 0; j = p->next[j]) {
                     const double *o = particle_place(s, (size_t)j);
-                    const double ex = o[0] - x[0], ey = o[1] - x[1], ez = wrap_axial(o[2] - x[2], p->length, 1 / p->length);
+                    const double ex = o[0] - x[0], ey = o[1] - x[1], ez = wrap_axial(o[2] - x[2], p->period, p->inverse_period);
                     const double reach = radius + scale * particle_reach(s, (size_t)j);
                     if (ex * ex + ey * ey + ez * ez < reach * reach) return false;
                 }
@@ -144,16 +144,17 @@ static void clusters_place_spheres(spheres *s, const container *drum)
         quaternion_matrix(body->orientation, a);
         for (size_t k = 0; k < shape->sphere_count; k++) {
             const vector4 r = cluster_offset(shape, k, a, s->scale);
-            double *x = s->row[(size_t)body->first_sphere + k].x;
-            for (int c = 0; c < 3; c++) x[c] = body->x[c] + r[c];
-            x[2] = wrap_axial(x[2], drum->length, 1 / drum->length);
+            double x[3] = { body->x[0] + r[0], body->x[1] + r[1], body->x[2] + r[2] };
+            x[2] = wrap_axial(x[2], drum->period, drum->inverse_period);
+            sphere_set_place(s, (size_t)body->first_sphere + k, x);
         }
     }
 }
 
 static dem_status placing_init(placing *p, const spheres *s, const container *drum)
 {
-    *p = (placing){ .radius = drum->radius, .length = drum->length };
+    *p =
+        (placing){ .radius = drum->radius, .length = drum->length, .period = drum->period, .inverse_period = drum->inverse_period };
     const double side[3] = { 2 * drum->radius, 2 * drum->radius, drum->length };
     size_t cells = 1;
     for (int a = 0; a < 3; a++) {

@@ -1,12 +1,10 @@
 #include "integrator.h"
 
-/* Corrector passes of Euler's equations: more do not raise the order. */
-enum { CORRECTIONS = 1 };
-
 /* What one step does to every particle alike. */
 typedef struct leap_frog {
     vector4 gravity_dt, period, inverse_period; /* the last two along z alone */
     double dt, keep;
+    int corrector_passes;
 } leap_frog;
 
 /* Eqns 3 and 4 for one sphere. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish
@@ -54,7 +52,7 @@ static void cluster_turn(const leap_frog *leap, const cluster_shape *shape, clus
     double n_p[3];
     to_body(a, n, n_p);
     for (int c = 0; c < 3; c++) body->spin[c] *= leap->keep;
-    euler_advance(body->spin, body->spin_change, n_p, shape->inertia, leap->dt, CORRECTIONS);
+    euler_advance(body->spin, body->spin_change, n_p, shape->inertia, leap->dt, leap->corrector_passes);
     memcpy(in_body, body->spin, sizeof body->spin);
     to_space(a, in_body, in_space);
 }
@@ -115,11 +113,13 @@ static double clusters_advance(spheres *s, const leap_frog *leap, double scale_n
 double integrator_advance(spheres *s, const container *drum, const body_forces *body, const vector4 *picked_velocity, double dt,
                           int threads)
 {
-    const leap_frog leap = { .gravity_dt = { 0.0, body->gravity * dt },
-                             .period = { 0.0, 0.0, drum->length },
-                             .inverse_period = { 0.0, 0.0, 1.0 / drum->length },
+    const double g_dt = body->gravity * dt, *up = drum->up;
+    const leap_frog leap = { .gravity_dt = { up[0] * g_dt, up[1] * g_dt, up[2] * g_dt },
+                             .period = { 0.0, 0.0, drum->period },
+                             .inverse_period = { 0.0, 0.0, drum->inverse_period },
                              .dt = dt,
-                             .keep = 1.0 - body->drag * dt };
+                             .keep = 1.0 - body->drag * dt,
+                             .corrector_passes = s->clusters.corrector_passes };
     const row8 *restrict load = s->load;
     const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
     vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity;

@@ -7,7 +7,7 @@
 #include "spheres.h"
 
 typedef struct body_forces {
-    double gravity; /* m/s2 along -y */
+    double gravity; /* m/s2, against the container's `up` */
     double drag;    /* 1/s: velocities and spins decay at this rate; only while a bed is being made */
     double scale;   /* share of full size that clusters have after the step */
 } body_forces;

@@ -14,6 +14,21 @@ static void normal_forces(contact_block *restrict block, real *restrict alpha_0,
     }
 }
 
+/* normal_force_of_slope of contact_law.h, LANES at a time. */
+static void normal_forces_of_slope(contact_block *restrict block, real *restrict alpha_0, real stiffness, real unloading_slope)
+{
+    const wide k_1 = wide_all(stiffness), half_k_1 = wide_all(stiffness / 2), slope = wide_all(unloading_slope);
+    const wide zero = wide_all(0), one = wide_all(1), four = wide_all(4), tiny = wide_all(TINY_SQUARE);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide alpha = wide_load(block->overlap + k), pressed = wide_greater(alpha, zero), s = slope * pressed;
+        const wide latched = wide_greater(wide_load(alpha_0 + k), s * pressed * wide_inverse(one + s));
+        wide_store(alpha_0 + k, wide_select(wide_exceeds(alpha, zero), latched, zero));
+        const wide q = slope * latched, root2 = wide_greater(q * (q + four), tiny);
+        const wide steepness = q + root2 * wide_inverse_root(root2), k_2 = wide_fused(half_k_1, steepness, k_1);
+        wide_store(block->f_n + k, wide_greater(wide_lesser(k_1 * alpha, k_2 * (alpha - latched)), zero));
+    }
+}
+
 /* friction_increment of contact_law.h, LANES at a time, in three passes: the stored force turned into the tangent
  * plane; the stiffness along it; the new force. */
 static void turn_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
@@ -82,7 +97,9 @@ void contact_block_walton_braun(contact_block *block, contact_list *list, size_t
     const double k_1 = contact->stiffness, k_2 = k_1 / (contact->restitution * contact->restitution);
     const real k_t0 = (real)(k_1 * contact->tangential_stiffness_ratio);
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
-    normal_forces(block, list->alpha_0 + start, (real)k_1, (real)k_2);
+    if (contact->unloading_slope > 0)
+        normal_forces_of_slope(block, list->alpha_0 + start, (real)k_1, (real)contact->unloading_slope);
+    else normal_forces(block, list->alpha_0 + start, (real)k_1, (real)k_2);
     turn_friction(block, t_x, t_y, t_z, list->friction + start);
     friction_stiffness(block, list->t_star + start, k_t0);
     friction_forces(block, t_x, t_y, t_z, k_t0);

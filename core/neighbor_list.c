@@ -2,6 +2,8 @@
 
 #include <stdbool.h>
 
+#include "wall_reach.h"
+
 /* Shares of the smallest diameter, chosen by measurement: core/NUMERICS.md, "Neighbor lists". */
 static const double SKIN = 0.4, MARGIN = 0.006;
 
@@ -153,7 +155,7 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
     const size_t n = s->mobile_count;
     const double largest = fmax(s->largest_diameter, 2 * s->full_radius[spheres_count(s) - 1]);
     const int parts = threads < MOST_PARTS ? threads : MOST_PARTS;
-    dem_status status = cell_grid_fill(&list->grid, s, drum->radius, drum->length, largest + list->skin), of_part[MOST_PARTS];
+    dem_status status = cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, largest + list->skin), of_part[MOST_PARTS];
     if (status != DEM_OK) return status;
 #pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
     for (int p = 0; p < parts; p++) of_part[p] = outer_part(list, s, p, parts);
@@ -195,10 +197,9 @@ typedef struct outlook {
 static outlook outlook_measure(const neighbor_list *list, const spheres *s, const container *drum)
 {
     double displacement2 = 0.0, speed2 = 0.0;
-    const double inverse_length = 1.0 / drum->length;
     for (size_t i = 0; i < s->mobile_count; i++) {
         const vector4 v = s->velocity[i];
-        const double moved2 = squared_distance((const double *)&list->built_at[i], s->row[i].x, drum->length, inverse_length);
+        const double moved2 = squared_distance((const double *)&list->built_at[i], s->row[i].x, drum->period, drum->inverse_period);
         const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         displacement2 = moved2 > displacement2 ? moved2 : displacement2;
         speed2 = v2 > speed2 ? v2 : speed2;
@@ -222,11 +223,12 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
 /* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths? Along the line
  * of centres now, the distance is never less than gap + duration * (parting speed): a bound from below. In contact
  * arithmetic, whose rounding `margin` is widened for. */
-static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, double length, real duration)
+static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, const container *drum,
+                               real duration)
 {
     static const float sign[16] = { [7] = -0.0f, -0.0f, -0.0f };
     const int32_t *first = list->first + pair, *second = list->second + pair;
-    const wide_double period = wide_double_all(length), inverse_period = wide_double_all(1.0 / length);
+    const wide_double period = wide_double_all(drum->period), inverse_period = wide_double_all(drum->inverse_period);
     wide sum[ROW_NUMBERS];
     wide_double x[HALVES], y[HALVES], z[HALVES];
     wide_row_sums(s->row, sizeof *s->row, first, second, sign, sum);
@@ -243,24 +245,16 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
     return wide_mask_bits(wide_exceeds(radii + wide_all((real)(2 * list->margin)), nearest));
 }
 
-/* A straight path's distance from the axis is largest at one of its ends. */
-static inline bool wall_in_reach(const sphere_row *a, double radius, double duration, double margin, double wall)
-{
-    const double x = a->x[0] + duration * (double)a->v[0], y = a->x[1] + duration * (double)a->v[1];
-    const double rho2 = fmax(x * x + y * y, a->x[0] * a->x[0] + a->x[1] * a->x[1]);
-    const double limit = wall - radius - margin;
-    return limit < 0 || rho2 > limit * limit;
-}
-
 static void mark_in_reach(neighbor_list *list, const spheres *s, const container *drum, double duration, int threads)
 {
     const size_t groups = (list->pair_count + LANES - 1) / LANES;
+    const wall_outlook ahead = { duration, list->margin };
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t g = 0; g < groups; g++)
-        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, drum->length, (real)duration);
+        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, drum, (real)duration);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t i = 0; i < s->mobile_count; i++) {
-        list->walls.start[i + 1] = wall_in_reach(&s->row[i], s->full_radius[i], duration, list->margin, drum->radius);
+        list->walls.start[i + 1] = wall_reach_count(s, drum, ahead, i);
         list->picked_velocity[i] = s->velocity[i];
     }
 }
@@ -357,9 +351,11 @@ static dem_status pairs_pick(neighbor_list *list, size_t n)
     return DEM_OK;
 }
 
-static void fill_slots_of(neighbor_list *list, const spheres *s, const dem_contact_parameters *contact, size_t i)
+static void fill_slots_of(neighbor_list *list, const spheres *s, const container *drum, const dem_contact_parameters *contact,
+                          double duration, size_t i)
 {
     contact_list *pairs = &list->pairs, *walls = &list->walls;
+    const wall_outlook ahead = { duration, list->margin };
     const double own = s->inverse_mass[i];
     for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
         const bool between_mobile = (size_t)pairs->second[k] < s->mobile_count;
@@ -368,12 +364,7 @@ static void fill_slots_of(neighbor_list *list, const spheres *s, const dem_conta
         pairs->first_radius[k] = (real)s->full_radius[i];
     }
     contact_list_carry(pairs, &list->pairs_before, i);
-    for (size_t w = walls->start[i]; w < walls->start[i + 1]; w++) {
-        walls->first[w] = (int32_t)i;
-        walls->friction[w] = (real)contact->wall_friction;
-        walls->first_radius[w] = (real)s->full_radius[i];
-        walls->mass[w] = (real)(1 / own);
-    }
+    wall_reach_fill(walls, s, drum, ahead, i);
     contact_list_carry(walls, &list->walls_before, i);
 }
 
@@ -388,7 +379,7 @@ static dem_status inner_pick(neighbor_list *list, const spheres *s, const contai
     starts_from_counts(&list->walls, n);
     if (status != DEM_OK || contact_list_reserve(&list->walls, list->walls.count) != DEM_OK) return DEM_NO_MEMORY;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < n; i++) fill_slots_of(list, s, contact, i);
+    for (size_t i = 0; i < n; i++) fill_slots_of(list, s, drum, contact, duration, i);
     contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s));
     contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
@@ -426,12 +417,13 @@ void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, c
     for (size_t k = 0; k < list->pairs.count; k++) {
         const int32_t i = list->pairs.first[k], j = list->pairs.second[k];
         const double radii = (double)s->row[i].radius + (double)s->row[j].radius;
-        if (squared_distance(s->row[i].x, s->row[j].x, drum->length, 1.0 / drum->length) >= radii * radii) continue;
+        if (squared_distance(s->row[i].x, s->row[j].x, drum->period, drum->inverse_period) >= radii * radii) continue;
         contacts[i]++;
         if ((size_t)j < s->mobile_count) contacts[j]++;
     }
     for (size_t k = 0; k < list->walls.count; k++) {
-        const sphere_row *row = &s->row[list->walls.first[k]];
-        contacts[list->walls.first[k]] += hypot(row->x[0], row->x[1]) + (double)row->radius > drum->radius;
+        const int32_t i = list->walls.first[k];
+        const container_wall *w = &drum->wall[list->walls.second[k]];
+        contacts[i] += wall_seen_from(w, s->row[i].x).distance < (double)s->row[i].radius;
     }
 }

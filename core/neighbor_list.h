@@ -39,7 +39,7 @@ typedef struct neighbor_list {
     bool inner_valid;
     vector4 *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
-    contact_list walls, walls_before; /* sphere against the cylinder */
+    contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
     contact_row *rows;                /* of pairs, then of walls, then one of zeros */
     size_t row_capacity;
     /* the ends of contacts at each sphere, for its sum: indices into the rows' ends, by id of the other sphere, the

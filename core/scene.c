@@ -44,7 +44,8 @@ void scene_enter_phase(dem_scene *scene, dem_phase phase)
     scene->contact = definition->contact;
     /* Grown without friction, spheres slip into place instead of locking each other. */
     if (phase == DEM_PHASE_GROWING) scene->contact.friction = scene->contact.wall_friction = 0.0;
-    scene->drum.rotation_rate = phase == DEM_PHASE_ROTATING ? definition->rotation_rate : 0.0;
+    container_set_friction(&scene->drum, definition, phase != DEM_PHASE_GROWING);
+    container_move(&scene->drum, definition, phase == DEM_PHASE_ROTATING, dem_scene_time(scene));
     container_turn_lining(&scene->drum, &scene->spheres);
     neighbor_list_invalidate(&scene->neighbors);
 }

@@ -201,7 +201,8 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
 
     const size_t all = spheres_count(&scene->spheres);
     contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
-    if (!contacts_fit(state, "pair", "pair_history", n, all) || !contacts_fit(state, "wall_contact", "wall_history", n, all))
+    if (!contacts_fit(state, "pair", "pair_history", n, all)
+        || !contacts_fit(state, "wall_contact", "wall_history", n, (size_t)scene->drum.wall_count))
         return DEM_STATE_MISMATCH;
     if (contact_list_reserve(pairs, state_find(state, "pair", DEM_INT32, 2)->rows) != DEM_OK
         || contact_list_reserve(walls, state_find(state, "wall_contact", DEM_INT32, 2)->rows) != DEM_OK) {
@@ -216,7 +217,6 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     scene->rotation_start = counter[3];
     scene->maximum_overlap = *(const double *)numbers->data;
     scene->phase = (dem_phase)counter[0];
-    scene->drum.angle = scene->phase == DEM_PHASE_ROTATING ? scene->definition.rotation_rate * dem_scene_time(scene) : 0.0;
     scene_enter_phase(scene, scene->phase);
     if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);
     restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);

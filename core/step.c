@@ -3,13 +3,14 @@
  *     forces of contacts between spheres, and with the container
  *     each sphere's sum over its contacts, and each cluster's over its spheres
  *     velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
- *     the container turns; the phase may change
+ *     the container moves; the phase may change
  */
 #include "step.h"
 
 #include "contact_forces.h"
 #include "failure.h"
 #include "filling.h"
+#include "wall_forces.h"
 
 dem_status scene_update_neighbors(dem_scene *scene)
 {
@@ -27,7 +28,7 @@ static dem_status step_contacts(dem_scene *scene)
     neighbor_list *list = &scene->neighbors;
     spheres *s = &scene->spheres;
     const double between = contact_forces_between_spheres(&list->pairs, s, &scene->drum, &scene->contact, dt, threads);
-    const double wall = contact_forces_with_wall(&list->walls, s, &scene->drum, &scene->contact, dt, threads);
+    const double wall = contact_forces_with_walls(&list->walls, s, &scene->drum, &scene->contact, dt, threads);
     contact_forces_sum(list, s, threads);
     const double largest = fmax(between, wall);
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
@@ -47,11 +48,11 @@ static body_forces forces_of_phase(const dem_scene *scene)
     return (body_forces){ .gravity = scene->definition.gravity, .scale = 1 };
 }
 
-static void turn_container(dem_scene *scene)
+static void move_container(dem_scene *scene)
 {
     if (scene->phase != DEM_PHASE_ROTATING) return;
-    const double time = (double)(scene->step_count - scene->rotation_start) * scene->definition.time_step;
-    scene->drum.angle = scene->drum.rotation_rate * time;
+    const bool another_velocity = container_move(&scene->drum, &scene->definition, true, dem_scene_time(scene));
+    if (another_velocity) neighbor_list_invalidate(&scene->neighbors);
     container_turn_lining(&scene->drum, &scene->spheres);
 }
 
@@ -104,7 +105,7 @@ dem_status scene_step(dem_scene *scene)
         integrator_advance(&scene->spheres, &scene->drum, &body, scene->neighbors.picked_velocity, dt, scene->definition.threads);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);
     scene->step_count++;
-    turn_container(scene);
+    move_container(scene);
     return continue_phase(scene);
 }
 

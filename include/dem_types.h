@@ -1,8 +1,9 @@
 /* Plain structs of the granular core: what a scene is made of, and what is measured in it.
  *
  * SI throughout (m, s, kg, N, rad); fields that end in _deg are degrees, because the measures are asked for
- * in degrees. The drum's axis is z, gravity points along -y, and a positive rotation rate turns the drum
- * counter-clockwise in the x-y plane, so that the free surface rises towards +x. */
+ * in degrees. A container's axis is z. The drum lies: gravity points along -y, and a positive rotation rate turns it
+ * counter-clockwise in the x-y plane, so that the free surface rises towards +x; z is 0 at half its length. The other
+ * containers stand: gravity points along -z, and the floor or plate is at z = 0. */
 #ifndef DEM_TYPES_H
 #define DEM_TYPES_H
 
@@ -65,8 +66,9 @@ typedef struct dem_contact_parameters {
     double stiffness;                  /* K1, N/m, loading branch (Walton-Braun, spring-dashpot) */
     dem_elasticity particle, wall;     /* Hertz-Mindlin; a lining is of the wall's material */
     double restitution;                /* e = sqrt(K1/K2) */
+    double unloading_slope;            /* S, 1/m, Walton-Braun: K2 = K1 + S N_max; 0: K2 = K1/e^2, the same for all loads */
     double friction;                   /* mu between particles */
-    double wall_friction;              /* mu_w, particle against wall or lining */
+    double wall_friction;              /* mu_w, particle against the cylinder (drum, tube) or its lining */
     double tangential_stiffness_ratio; /* K_T0/K1 */
 } dem_contact_parameters;
 
@@ -76,10 +78,50 @@ typedef struct dem_lining {
     double pitch;    /* m between neighboring centres, around the wall and along the axis */
 } dem_lining;
 
+typedef enum dem_container_kind {
+    DEM_DRUM,         /* lies, and turns about its axis */
+    DEM_CYLINDER,     /* stands on its floor, open at the top */
+    DEM_TUBE_ON_PLATE /* stands on a plate, open at both ends, and is raised; its wall is thin */
+} dem_container_kind;
+
+/* What closes a drum, and turns with it. */
+typedef struct dem_drum_ends {
+    bool are_walls; /* else the axis is periodic */
+    double friction;
+} dem_drum_ends;
+
+/* Straight bars of rectangular section along the whole drum, evenly spaced about it, turning with it. */
+typedef struct dem_lifters {
+    size_t count;  /* 0: none */
+    double height; /* m, from the wall towards the axis */
+    double width;  /* m, across */
+    double friction;
+} dem_lifters;
+
+/* How the tube is raised, from when the bed in it is at rest (DEM_PHASE_ROTATING) on. */
+typedef struct dem_lift {
+    double speed; /* m/s */
+    double start; /* s after the bed came to rest */
+} dem_lift;
+
+/* A level disc, whose middle is on the axis. What falls off it is lost: it takes no further part. */
+typedef struct dem_plate {
+    double diameter;   /* m */
+    double rim_height; /* m; 0: no rim */
+    double friction;
+} dem_plate;
+
+enum { DEM_MAXIMUM_LIFTERS = 64 };
+
 typedef struct dem_drum_definition {
-    double diameter;      /* m, inner diameter of the smooth wall */
-    double length;        /* m along the axis: the period */
-    double rotation_rate; /* rad/s */
+    dem_container_kind container;
+    double diameter;    /* m, inner diameter of the smooth wall */
+    double length;      /* m along the axis: of a periodic drum the period; a cylinder's or tube's height */
+    dem_drum_ends ends; /* of the drum alone, as are lifters and lining */
+    dem_lifters lifters;
+    dem_lift lift;        /* of the tube alone */
+    dem_plate plate;      /* of the tube alone; a cylinder's floor has ends.friction */
+    double rotation_rate; /* rad/s; the drum's */
     double gravity;       /* m/s2 */
     double fill_fraction; /* share of the cross-section below the free surface at a bed solid fraction of 0.6 */
     size_t particle_count;
@@ -87,7 +129,8 @@ typedef struct dem_drum_definition {
     dem_species species[DEM_MAXIMUM_SPECIES];
     dem_contact_parameters contact;
     dem_lining lining;
-    double time_step; /* s */
+    double time_step;     /* s */
+    int corrector_passes; /* of Euler's equations for clusters, Eqns 9-10; 0: one */
     uint64_t seed;
     int threads;
 } dem_drum_definition;
@@ -95,7 +138,7 @@ typedef struct dem_drum_definition {
 typedef enum dem_phase {
     DEM_PHASE_GROWING,  /* spheres placed at random grow to full size, without gravity */
     DEM_PHASE_SETTLING, /* the bed falls and comes to rest in the standing drum */
-    DEM_PHASE_ROTATING
+    DEM_PHASE_ROTATING  /* the drum turns; the tube is raised */
 } dem_phase;
 
 /* Where and why a run went wrong; filled when dem_scene_advance does not return DEM_OK. */
@@ -115,7 +158,7 @@ typedef struct dem_failure {
 /* The state of all n spheres, for snapshots: spheres that are particles by themselves, then those of clusters, cluster
  * after cluster. Arrays belong to the caller. */
 typedef struct dem_particle_arrays {
-    double *position;         /* (n,3) m, z within [-length/2, length/2) */
+    double *position;         /* (n,3) m; z within [-length/2, length/2) in a drum */
     double *velocity;         /* (n,3) m/s, half a step before the positions */
     double *angular_velocity; /* (n,3) rad/s, likewise */
     double *radius;           /* (n) m */

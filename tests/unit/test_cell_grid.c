@@ -2,6 +2,13 @@
 #include "cell_grid.h"
 #include "claims.h"
 
+/* Over a drum's box. */
+static dem_status fill(cell_grid *grid, const spheres *s, double radius, double period, double reach)
+{
+    const double low[3] = { -radius, -radius, -period / 2 }, high[3] = { radius, radius, period / 2 };
+    return cell_grid_fill(grid, s, low, high, period, reach);
+}
+
 /* Spheres of two sizes at random places of a box; `spheres` is filled as far as the grid looks at it. */
 static void scatter(spheres *s, size_t count, double radius, double period, double largest, dice *d)
 {
@@ -53,7 +60,7 @@ static void check_box(double radius, double period, double largest, double skin)
     cell_grid grid;
     cell_grid_init(&grid);
     scatter(&s, COUNT, radius, period, largest, &d);
-    assert_int_equal(cell_grid_fill(&grid, &s, radius, period, 2 * largest + skin), DEM_OK);
+    assert_int_equal(fill(&grid, &s, radius, period, 2 * largest + skin), DEM_OK);
     size_t near = 0;
     /* rounding may let in, but never leave out */
     const double rounding = 1e-5 * (2 * radius + period);
@@ -89,7 +96,7 @@ static void with_too_little_room_the_count_is_still_right(void **unused)
     cell_grid grid;
     cell_grid_init(&grid);
     scatter(&s, COUNT, 0.5, 0.9, 0.2, &d);
-    assert_int_equal(cell_grid_fill(&grid, &s, 0.5, 0.9, 0.5), DEM_OK);
+    assert_int_equal(fill(&grid, &s, 0.5, 0.9, 0.5), DEM_OK);
     for (size_t i = 0; i < COUNT; i++) {
         int32_t all[COUNT + SPARE], few[10 + LANES + 1];
         for (int k = 0; k <= 10 + LANES; k++) few[k] = -7;
@@ -108,7 +115,7 @@ static void every_sphere_is_in_its_cell_once_and_in_order(void **unused)
     cell_grid_init(&grid);
     scatter(&s, COUNT, 0.5, 0.7, 0.01, &d);
     for (double reach = 0.3; reach > 0.04; reach *= 0.6) { /* a grid that is used again grows */
-        assert_int_equal(cell_grid_fill(&grid, &s, 0.5, 0.7, reach), DEM_OK);
+        assert_int_equal(fill(&grid, &s, 0.5, 0.7, reach), DEM_OK);
         const int cells = grid.cells[0] * grid.cells[1] * grid.cells[2];
         bool seen[COUNT] = { false };
         assert_int_equal(grid.start[0], 0);
@@ -137,7 +144,7 @@ static void a_place_outside_or_not_a_number_gets_a_cell_of_the_grid(void **unuse
     s.row[2].x[0] = NAN;
     s.row[3].x[1] = 1e300;
     s.row[4].x[2] = -INFINITY;
-    assert_int_equal(cell_grid_fill(&grid, &s, 0.5, 0.7, 0.1), DEM_OK);
+    assert_int_equal(fill(&grid, &s, 0.5, 0.7, 0.1), DEM_OK);
     for (int i = 0; i < 5; i++) CHECK_BETWEEN(grid.cell_of[i], 0, grid.cells[0] * grid.cells[1] * grid.cells[2] - 1);
     discard(&grid, &s);
 }

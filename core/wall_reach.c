@@ -1,0 +1,66 @@
+#include "wall_reach.h"
+
+/* A straight path's distance from the axis is largest at one of its ends. */
+static bool cylinder_in_reach(const spheres *s, size_t i, double wall, wall_outlook outlook)
+{
+    const double *a = sphere_place(s, i), t = outlook.duration;
+    /* as contact arithmetic has the velocity */
+    const double x = a[0] + t * (double)(real)s->velocity[i][0], y = a[1] + t * (double)(real)s->velocity[i][1];
+    const double rho2 = fmax(x * x + y * y, a[0] * a[0] + a[1] * a[1]);
+    const double limit = wall - s->full_radius[i] - outlook.margin;
+    return limit < 0 || rho2 > limit * limit;
+}
+
+/* The distance from a body changes no faster than one moves in the frame of that body. There the sphere starts with
+ * u = v - (velocity of the wall at x), and a turning frame adds at most omega |v| t to that: after t it has come closer
+ * by at most |u| t + omega |v| t^2/2. */
+static bool body_in_reach(const spheres *s, size_t i, const container_wall *w, wall_outlook outlook)
+{
+    const double *x = sphere_place(s, i), t = outlook.duration;
+    const vector4 v = s->velocity[i];
+    double at_wall[3];
+    wall_velocity(w, x, at_wall);
+    const double u[3] = { v[0] - at_wall[0], v[1] - at_wall[1], v[2] - at_wall[2] };
+    const double closer =
+        sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]) * t + 0.5 * fabs(w->rotation_rate) * sqrt(v[0] * v[0] + v[1] * v[1]) * t * t;
+    /* a little for the rounding of places and distances */
+    return wall_seen_from(w, x).distance - closer < (1 + 1e-6) * s->full_radius[i] + outlook.margin;
+}
+
+static bool in_reach(const spheres *s, const container *c, wall_outlook outlook, size_t i, int k)
+{
+    const container_wall *w = &c->wall[k];
+    return w->kind == WALL_CYLINDER ? cylinder_in_reach(s, i, w->radius, outlook) : body_in_reach(s, i, w, outlook);
+}
+
+/* Bars are many, and most spheres are too near the axis for any of them. */
+static bool bars_are_far(const spheres *s, const container *c, wall_outlook outlook, size_t i)
+{
+    const double *x = sphere_place(s, i);
+    const vector4 v = s->velocity[i];
+    const double outermost = sqrt(x[0] * x[0] + x[1] * x[1]) + sqrt(v[0] * v[0] + v[1] * v[1]) * outlook.duration;
+    return outermost + (1 + 1e-6) * s->full_radius[i] + outlook.margin < c->bars_from;
+}
+
+size_t wall_reach_count(const spheres *s, const container *c, wall_outlook outlook, size_t i)
+{
+    const int end = c->bar_count && bars_are_far(s, c, outlook, i) ? c->first_bar : c->wall_count;
+    size_t count = 0;
+    for (int k = 0; k < end; k++) count += in_reach(s, c, outlook, i, k);
+    return count;
+}
+
+void wall_reach_fill(contact_list *walls, const spheres *s, const container *c, wall_outlook outlook, size_t i)
+{
+    size_t slot = walls->start[i];
+    const size_t end = walls->start[i + 1];
+    for (int k = 0; slot < end; k++) {
+        if (!in_reach(s, c, outlook, i, k)) continue;
+        walls->first[slot] = (int32_t)i;
+        walls->second[slot] = k;
+        walls->friction[slot] = (real)c->wall[k].friction;
+        walls->first_radius[slot] = (real)s->full_radius[i];
+        walls->mass[slot] = (real)(1 / s->inverse_mass[i]);
+        slot++;
+    }
+}

@@ -1,0 +1,20 @@
+/* Which sphere may touch which wall before the next pick of contacts: never one too few. core/NUMERICS.md, "Neighbor
+ * lists". */
+#ifndef WALL_REACH_H
+#define WALL_REACH_H
+
+#include "contact_list.h"
+#include "container.h"
+
+/* For how long, and how far a sphere may stray from its straight path meanwhile. */
+typedef struct wall_outlook {
+    double duration; /* s */
+    double margin;   /* m */
+} wall_outlook;
+
+/* How many walls sphere i may touch. */
+size_t wall_reach_count(const spheres *spheres, const container *container, wall_outlook outlook, size_t i);
+/* The same walls into the slots that the list's starts have for sphere i, ascending, and what the contacts need. */
+void wall_reach_fill(contact_list *walls, const spheres *spheres, const container *container, wall_outlook outlook, size_t i);
+
+#endif
