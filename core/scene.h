@@ -4,6 +4,7 @@
 
 #include "container.h"
 #include "dem.h"
+#include "energy.h"
 #include "filling.h"
 #include "integrator.h"
 #include "neighbor_list.h"
@@ -19,6 +20,8 @@ struct dem_scene {
     dem_phase phase;
     int64_t step_count, phase_start, rotation_start; /* rotation_start: -1 before */
     double maximum_overlap;                          /* m since rotation began */
+    torque_meter torque;
+    energy_audit audit;
     dem_failure failure;
 };
 

@@ -3,7 +3,7 @@
 #include "scene.h"
 #include "step.h"
 
-enum { STATE_INTEGERS = 4, STATE_NUMBERS = 1, HISTORY_NUMBERS = 5 };
+enum { STATE_INTEGERS = 4, STATE_NUMBERS = 3, HISTORY_NUMBERS = 5 };
 /* What a cluster's spheres don't tell of it. */
 enum {
     CLUSTER_PLACE = 0,
@@ -104,6 +104,8 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     integers[2] = scene->phase_start;
     integers[3] = scene->rotation_start;
     numbers[0] = scene->maximum_overlap;
+    numbers[1] = scene->torque.sum;
+    numbers[2] = scene->torque.count;
     for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, sphere_place(s, i), 3 * sizeof *position);
     memcpy(fallen, s->fallen_time, n * sizeof *fallen);
     return DEM_OK;
@@ -215,7 +217,9 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     scene->step_count = counter[1];
     scene->phase_start = counter[2];
     scene->rotation_start = counter[3];
-    scene->maximum_overlap = *(const double *)numbers->data;
+    const double *number = numbers->data;
+    scene->maximum_overlap = number[0];
+    scene->torque = (torque_meter){ .sum = number[1], .count = number[2] };
     scene->phase = (dem_phase)counter[0];
     scene_enter_phase(scene, scene->phase);
     if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);

@@ -2,6 +2,7 @@
  *     neighbor lists, made again when a displacement asks for it; contact history carried over
  *     forces of contacts between spheres, and with the container
  *     each sphere's sum over its contacts, and each cluster's over its spheres
+ *     a look at the drum's torque now and then
  *     velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
  *     the container moves; the phase may change
  */
@@ -33,6 +34,24 @@ static dem_status step_contacts(dem_scene *scene)
     const double largest = fmax(between, wall);
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
     return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene) : DEM_OK;
+}
+
+static void look_at_torque(dem_scene *scene)
+{
+    if (scene->phase != DEM_PHASE_ROTATING) return;
+    const bool is_due = (scene->step_count - scene->rotation_start) % STEPS_BETWEEN_TORQUES == 0;
+    if (!is_due && !scene->audit.is_on) return;
+    const double torque = energy_wall_torque(&scene->spheres);
+    if (scene->audit.is_on) scene->audit.wall_work += scene->definition.time_step * scene->drum.rotation_rate * torque;
+    if (!is_due) return;
+    scene->torque.sum += torque;
+    scene->torque.count += 1;
+}
+
+/* Half a step's work: once with the velocities before the forces act, once with those after. */
+static void audit_half_step(dem_scene *scene)
+{
+    if (scene->audit.is_on) scene->audit.contact_work += 0.5 * scene->definition.time_step * energy_contact_power(&scene->spheres);
 }
 
 static body_forces forces_of_phase(const dem_scene *scene)
@@ -100,9 +119,12 @@ dem_status scene_step(dem_scene *scene)
     if (status != DEM_OK) return status;
     status = step_contacts(scene);
     if (status != DEM_OK) return status;
+    look_at_torque(scene);
+    audit_half_step(scene);
     const body_forces body = forces_of_phase(scene);
     const double deviation =
         integrator_advance(&scene->spheres, &scene->drum, &body, scene->neighbors.picked_velocity, dt, scene->definition.threads);
+    audit_half_step(scene);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);
     scene->step_count++;
     move_container(scene);

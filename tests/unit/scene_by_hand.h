@@ -122,7 +122,7 @@ static inline void place_by_hand(dem_scene *scene, const placement *p)
     counters[0] = p->phase;
     counters[1] = counters[2] = 0;
     counters[3] = p->phase == DEM_PHASE_ROTATING ? 0 : -1;
-    *(double *)state_array(&state, "numbers")->data = 0.0; /* the largest overlap */
+    memset(state_array(&state, "numbers")->data, 0, state_array(&state, "numbers")->columns * sizeof(double));
     state_fill(&state, "position", p->position);
     park(&state, scene->drum.length);
     state_fill(&state, "velocity", p->velocity);

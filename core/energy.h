@@ -1,0 +1,35 @@
+/* What the drum gives to the bed, and what becomes of it.
+ *
+ * Contacts between spheres exchange momentum at one point, so their moments about the axis cancel in the sum over all
+ * spheres: what is left of the contacts' forces and moments is what the drum does, by its wall, ends, lifters or lining. */
+#ifndef ENERGY_H
+#define ENERGY_H
+
+#include "spheres.h"
+
+/* The drum's torque, looked at every STEPS_BETWEEN_TORQUES steps of rotation: a contact lasts as many, so that
+ * looking more often would tell no more. */
+enum { STEPS_BETWEEN_TORQUES = 20 };
+
+typedef struct torque_meter {
+    double sum;   /* N m */
+    double count; /* looks since the last frame of measurement */
+} torque_meter;
+
+/* Work of the contacts' forces, summed over every step while it is switched on. */
+typedef struct energy_audit {
+    bool is_on;
+    double contact_work; /* J, done on the particles by all contacts */
+    double wall_work;    /* J, done by the drum: its torque times what it turned */
+} energy_audit;
+
+/* N m about the axis, of the drum on the bed; positive turns counter-clockwise. The loads are those of the last forces. */
+double energy_wall_torque(const spheres *spheres);
+/* W, of the contacts' forces on the particles, with the velocities of now. */
+double energy_contact_power(const spheres *spheres);
+/* J: kinetic energy and that of height above the axis, half a step ago, where velocities are known. What changes it is the
+ * contacts' work: with forces at a step and the mean of the velocities half a step before and after, leap-frog keeps
+ * that balance to the last digit. */
+double energy_of_particles(const spheres *spheres, double gravity, double dt);
+
+#endif
