@@ -24,11 +24,25 @@ typedef struct species_inputs {
     dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
 } species_inputs;
 
+/* What a process has beside the drum's inputs, or in their place. */
+typedef struct fill_inputs {
+    double cylinder_diameter, cylinder_height;
+    double stream_diameter, rate, mass_rate, impact_speed; /* rate or mass_rate */
+    double settling_seconds;
+} fill_inputs;
+
+typedef struct heap_inputs {
+    double tube_diameter, tube_height, lift_speed;
+    double plate_diameter, rim_height, plate_friction;
+    double seconds;
+} heap_inputs;
+
+/* Of every process that advances a scene: drum, fill, heap. */
 typedef struct drum_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
     size_t species_count;
     species_inputs species[DEM_MAXIMUM_SPECIES];
-    double fill_fraction, particle_count; /* one of the two */
+    double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
     double contact_law, friction, restitution, tangential_stiffness_ratio;
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
     double poissons_ratio;
@@ -37,6 +51,8 @@ typedef struct drum_inputs {
     double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
     double seed, threads, gravity;
+    fill_inputs fill;
+    heap_inputs heap;
 } drum_inputs;
 
 typedef struct granule_inputs {
@@ -52,11 +68,11 @@ typedef struct job_spec {
     int threads;         /* of the worker */
     json_t *label;       /* object of strings and numbers, owned; never NULL */
 
-    /* Of a drum alone: */
+    /* Of all that advance a scene: */
     drum_inputs inputs;          /* as asked for */
-    dem_drum_definition drum;    /* complete: stiffness, time step and particle count derived */
+    dem_drum_definition drum;    /* the scene, complete: stiffness, time step and particle count derived */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
-    double duration;             /* s from the start of rotation; at most, where an error is asked for: */
+    double duration;             /* s from when rotation, filling or lifting starts; at most, where the run ends by itself */
     double until_standard_error; /* degrees; 0: none asked for */
     double sample_interval;      /* s between frames of measurement */
     double snapshot_interval;    /* s between snapshots; 0: only the last */

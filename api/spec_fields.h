@@ -18,7 +18,11 @@ typedef enum spec_group {
     SPEC_SNAPSHOTS,
     SPEC_SAMPLES,
     SPEC_SHAPE,
-    SPEC_SPHERES
+    SPEC_SPHERES,
+    SPEC_CYLINDER,
+    SPEC_STREAM,
+    SPEC_TUBE,
+    SPEC_PLATE
 } spec_group;
 
 typedef enum field_kind {

@@ -1,0 +1,47 @@
+/* The inputs of `heap`. Ranges are wider than what makes sense together; heap_rules.c looks at combinations. */
+#include "heap_process.h"
+#include "scene_fields.h"
+
+static const spec_field fields[] = {
+    { SPEC_INPUTS, "tube", FIELD_OBJECT, SPEC_TUBE, .required = true,
+      .meaning = "the tube, or straw, that stands on the plate full of particles and is raised" },
+    { SPEC_TUBE, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(heap.tube_diameter),
+      .meaning = "inner diameter; at least 5 of the largest particle diameters, or they jam" },
+    { SPEC_TUBE, "height", FIELD_REAL, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(heap.tube_height),
+      .meaning = "of the tube. Default: what the particles need" },
+    { SPEC_TUBE, "lift_speed", FIELD_REAL, .unit = "m/s", OPEN_RANGE(0.0, 10.0), .fallback = NAN, AT(heap.lift_speed),
+      .meaning = "at which it is raised. Default: slowly, a fiftieth of sqrt(gravity * diameter)" },
+
+    { SPEC_INPUTS, "plate", FIELD_OBJECT, SPEC_PLATE, .meaning = "the level disc below, whose middle is on the tube's axis" },
+    { SPEC_PLATE, "diameter", FIELD_REAL, .unit = "m", RANGE(0.001, 50.0), .fallback = NAN, AT(heap.plate_diameter),
+      .meaning = "of the disc: what rolls off it is lost. Default: 3 of the tube's diameters" },
+    { SPEC_PLATE, "rim_height", FIELD_REAL, .unit = "m", RANGE(0.0, 1.0), .fallback = NAN, AT(heap.rim_height),
+      .meaning = "of the rim around it; 0: none. Default: half the largest particle diameter, which keeps the lowest layer "
+                 "from rolling off" },
+    { SPEC_PLATE, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(heap.plate_friction),
+      .meaning = "coefficient of friction between a particle and the plate or its rim" },
+
+    FIELDS_OF_PARTICLES,
+
+    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes = "fill_height",
+      AT(particle_count), .meaning = "number of particles, instead of fill_height" },
+    { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, .excludes = "particle_count",
+      AT(fill_height), .meaning = "of the bed in the tube, at a solid fraction of 0.6. Default: twice the tube's diameter" },
+
+    FIELDS_OF_CONTACT,
+
+    { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall of the tube" },
+    { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
+      .meaning = "coefficient of friction between a particle and the tube" },
+
+    { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION,
+      .meaning = "how long the run goes on from when the tube starts to rise" },
+    { SPEC_DURATION, "at_most_seconds", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 1e6), .fallback = NAN, AT(heap.seconds),
+      .meaning = "it ends as soon as the tube is clear of the heap and the heap at rest. Default: the time to raise the tube by "
+                 "fill_height, and 3 s" },
+
+    FIELDS_OF_OUTPUT_AND_RUN,
+    { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity),
+      .meaning = "acceleration of gravity, down the axis" },
+};
+const spec_table heap_fields = { fields, sizeof fields / sizeof fields[0] };
