@@ -51,6 +51,7 @@ void scene_enter_phase(dem_scene *scene, dem_phase phase)
 }
 
 const dem_failure *dem_scene_failure(const dem_scene *scene) { return &scene->failure; }
+void dem_scene_set_profile(dem_scene *scene, dem_step_profile *profile) { scene->profile = profile; }
 dem_phase dem_scene_phase(const dem_scene *scene) { return scene->phase; }
 int64_t dem_scene_step_count(const dem_scene *scene) { return scene->step_count; }
 int64_t dem_scene_rotation_start(const dem_scene *scene) { return scene->rotation_start; }

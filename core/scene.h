@@ -23,6 +23,7 @@ struct dem_scene {
     torque_meter torque;
     energy_audit audit;
     dem_failure failure;
+    dem_step_profile *profile; /* the caller's; NULL: none wanted */
 };
 
 /* Everything that follows from the phase alone: friction, the drum's rate. */

@@ -23,6 +23,12 @@ const char *dem_phase_name(dem_phase phase)
     return name[phase];
 }
 
+const char *dem_step_part_name(dem_step_part part)
+{
+    static const char *const name[DEM_STEP_PARTS] = { "outer list", "inner list", "pairs", "walls", "sums", "motion", "container" };
+    return name[part];
+}
+
 const char *dem_regime_name(dem_regime regime)
 {
     static const char *const name[] = { "slipping",    "slumping", "avalanching", "rolling",     "cascading",

@@ -11,6 +11,7 @@
 #include "contact_forces.h"
 #include "failure.h"
 #include "filling.h"
+#include "step_profile.h"
 #include "wall_forces.h"
 
 dem_status scene_update_neighbors(dem_scene *scene)
@@ -22,6 +23,14 @@ dem_status scene_update_neighbors(dem_scene *scene)
     return made_new ? failure_check_places(scene) : DEM_OK;
 }
 
+static dem_status step_neighbors(dem_scene *scene)
+{
+    const int64_t outer_builds = scene->neighbors.outer_builds;
+    const dem_status status = scene_update_neighbors(scene);
+    step_profile_lap(scene->profile, scene->neighbors.outer_builds > outer_builds ? DEM_PART_OUTER_LIST : DEM_PART_INNER_LIST);
+    return status;
+}
+
 static dem_status step_contacts(dem_scene *scene)
 {
     const double dt = scene->definition.time_step;
@@ -29,8 +38,11 @@ static dem_status step_contacts(dem_scene *scene)
     neighbor_list *list = &scene->neighbors;
     spheres *s = &scene->spheres;
     const double between = contact_forces_between_spheres(&list->pairs, s, &scene->drum, &scene->contact, dt, threads);
+    step_profile_lap(scene->profile, DEM_PART_PAIRS);
     const double wall = contact_forces_with_walls(&list->walls, s, &scene->drum, &scene->contact, dt, threads);
+    step_profile_lap(scene->profile, DEM_PART_WALLS);
     contact_forces_sum(list, s, threads);
+    step_profile_lap(scene->profile, DEM_PART_SUMS);
     const double largest = fmax(between, wall);
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
     return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene) : DEM_OK;
@@ -115,20 +127,25 @@ static dem_status continue_phase(dem_scene *scene)
 dem_status scene_step(dem_scene *scene)
 {
     const double dt = scene->definition.time_step;
-    dem_status status = scene_update_neighbors(scene);
+    step_profile_begin(scene->profile);
+    dem_status status = step_neighbors(scene);
     if (status != DEM_OK) return status;
     status = step_contacts(scene);
     if (status != DEM_OK) return status;
     look_at_torque(scene);
     audit_half_step(scene);
+    step_profile_lap(scene->profile, DEM_PART_CONTAINER);
     const body_forces body = forces_of_phase(scene);
     const double deviation =
         integrator_advance(&scene->spheres, &scene->drum, &body, scene->neighbors.picked_velocity, dt, scene->definition.threads);
+    step_profile_lap(scene->profile, DEM_PART_MOTION);
     audit_half_step(scene);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);
     scene->step_count++;
     move_container(scene);
-    return continue_phase(scene);
+    status = continue_phase(scene);
+    step_profile_lap(scene->profile, DEM_PART_CONTAINER);
+    return status;
 }
 
 dem_status dem_scene_advance(dem_scene *scene, int64_t steps)
@@ -138,5 +155,6 @@ dem_status dem_scene_advance(dem_scene *scene, int64_t steps)
         if (status != DEM_OK) return status;
     }
     /* Whoever looks at the scene now finds lists that hold for the present places. */
-    return scene_update_neighbors(scene);
+    step_profile_begin(scene->profile);
+    return step_neighbors(scene);
 }

@@ -21,6 +21,9 @@ void dem_scene_free(dem_scene *scene);
 dem_status dem_scene_advance(dem_scene *scene, int64_t steps);
 const dem_failure *dem_scene_failure(const dem_scene *scene);
 
+/* From now on `profile` is filled, until it is set to NULL; it must live as long. Nothing computed depends on it. */
+void dem_scene_set_profile(dem_scene *scene, dem_step_profile *profile);
+
 dem_phase dem_scene_phase(const dem_scene *scene);
 int64_t dem_scene_step_count(const dem_scene *scene);     /* since creation */
 int64_t dem_scene_rotation_start(const dem_scene *scene); /* step at which rotation began; -1 before */
@@ -55,6 +58,7 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
 
 const char *dem_status_text(dem_status status);
 const char *dem_phase_name(dem_phase phase);                /* "growing", "settling", "rotating" */
+const char *dem_step_part_name(dem_step_part part);         /* "outer list", ... */
 const char *dem_regime_name(dem_regime regime);             /* "slipping", ... */
 const char *dem_angle_method_name(dem_angle_method method); /* "surface-fit", "center-of-mass", ... */
 

@@ -141,6 +141,25 @@ typedef enum dem_phase {
     DEM_PHASE_ROTATING  /* the drum turns; the tube is raised */
 } dem_phase;
 
+/* The parts of a step, for whoever wants to know what they cost. */
+typedef enum dem_step_part {
+    DEM_PART_OUTER_LIST, /* steps in which the list of pairs within the skin was made again */
+    DEM_PART_INNER_LIST, /* choosing from it the pairs that can touch, and looking whether that is due */
+    DEM_PART_PAIRS,      /* contacts between spheres */
+    DEM_PART_WALLS,      /* contacts with the container */
+    DEM_PART_SUMS,       /* of each sphere over its contacts */
+    DEM_PART_MOTION,     /* velocities and positions */
+    DEM_PART_CONTAINER,  /* its motion, the next phase, looks at torque and energy */
+    DEM_STEP_PARTS
+} dem_step_part;
+
+/* Filled while a scene advances; the caller's, who begins with zeros and a clock. */
+typedef struct dem_step_profile {
+    double (*clock)(void);          /* s, from any origin; read by the thread that advances */
+    double seconds[DEM_STEP_PARTS]; /* spent in each part */
+    double lap_begin;               /* s, the core's own */
+} dem_step_profile;
+
 /* Where and why a run went wrong; filled when dem_scene_advance does not return DEM_OK. */
 typedef struct dem_failure {
     dem_status status;
