@@ -56,9 +56,9 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
      * along its normal. */
     const real tn = dot(t, n);
     const real u[3] = { fused(-tn, n[0], t[0]), fused(-tn, n[1], t[1]), fused(-tn, n[2], t[2]) };
-    const real tt = dot(t, t), uu = dot(u, u);
-    const real turn = uu > TINY_SQUARE ? inverse_root(uu) : 0;
-    const real magnitude = uu > TINY_SQUARE ? tt * inverse_root(tt) : 0;
+    const real uu = dot(u, u), turn = uu > TINY_SQUARE ? inverse_root(uu) : 0;
+    /* |T| = sqrt(|u|^2 + tn^2); a contact turns by far less than a radian in a step, so two terms of the root do */
+    const real size = uu * turn, off = tn * turn, magnitude = fused((real)0.5 * size, off * off, size);
     const real h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
 
     const real stored = lesser(magnitude, mu_n);
@@ -74,7 +74,8 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
     const real s = fused(k_t, s_p, stored);
     const real star = sign * turning;
 
-    for (int c = 0; c < 3; c++) t[c] = fused(s, h[c], k_t0 * fused(-s_p, h[c], ds[c]));
+    const real along = fused(-k_t0, s_p, s);
+    for (int c = 0; c < 3; c++) t[c] = fused(along, h[c], k_t0 * ds[c]);
     const real size2 = dot(t, t);
     const real scale = size2 > mu_n * mu_n ? mu_n * inverse_root(size2) : 1;
     for (int c = 0; c < 3; c++) t[c] *= scale;

@@ -34,17 +34,16 @@ static void normal_forces_of_slope(contact_block *restrict block, real *restrict
 static void turn_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
                           const real *restrict t_z, const real *restrict friction)
 {
-    const wide zero = wide_all(0), tiny = wide_all(TINY_SQUARE);
+    const wide zero = wide_all(0), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
         const wide ds[3] = { wide_load(block->ds[0] + k), wide_load(block->ds[1] + k), wide_load(block->ds[2] + k) };
         const wide tn = -wide_dot(t, n);
         const wide u[3] = { wide_fused(tn, n[0], t[0]), wide_fused(tn, n[1], t[1]), wide_fused(tn, n[2], t[2]) };
-        const wide tt = wide_dot(t, t), uu = wide_dot(u, u);
-        const wide_mask has_direction = wide_exceeds(uu, tiny);
-        const wide turn = wide_select(has_direction, wide_inverse_root(uu), zero);
-        const wide magnitude = wide_select(has_direction, tt * wide_inverse_root(tt), zero);
+        const wide uu = wide_dot(u, u);
+        const wide turn = wide_select(wide_exceeds(uu, tiny), wide_inverse_root(uu), zero);
+        const wide size = uu * turn, off = tn * turn, magnitude = wide_fused(half * size, off * off, size);
         const wide h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
         const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k);
         store_vector(block->h, k, h);
@@ -77,11 +76,10 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
     const wide one = wide_all(1), k_t0 = wide_all(stiffness);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide s = wide_load(block->stored + k), s_p = wide_load(block->s_p + k), mu_n = wide_load(block->mu_n + k);
+        const wide along = wide_fused(-k_t0, s_p, s);
         wide f[3];
-        for (int c = 0; c < 3; c++) {
-            const wide h = wide_load(block->h[c] + k);
-            f[c] = wide_fused(s, h, k_t0 * wide_fused(-s_p, h, wide_load(block->ds[c] + k)));
-        }
+        for (int c = 0; c < 3; c++)
+            f[c] = wide_fused(along, wide_load(block->h[c] + k), k_t0 * wide_load(block->ds[c] + k));
         const wide size2 = wide_dot(f, f);
         const wide scale = wide_select(wide_exceeds(size2, mu_n * mu_n), mu_n * wide_inverse_root(size2), one);
         for (int c = 0; c < 3; c++) f[c] = f[c] * scale;

@@ -36,19 +36,20 @@ static inline real fused(real a, real b, real c)
 }
 static inline real dot(const real a[3], const real b[3]) { return fused(a[2], b[2], fused(a[1], b[1], a[0] * b[0])); }
 
-/* Powers without division or root, which are slow where there are many: a guess from the bits of a float, then
- * Newton steps, each of which squares the error: from 0.07 % (a first step is in the guess already) for 1/sqrt, 12 %
- * for 1/x, 3 % for x^(-1/3) to a rounding or two in single. wide.h does the same for many at once. x: 1e-37 to 1e37. */
+/* Powers without division or root, which are slow where there are many: a guess from the bits of a float, then steps
+ * that square its error (Newton) or cube it. 1/sqrt ends within a rounding or two and errs to both sides: an error that
+ * is always low makes friction at rest leak away. x^(-1/3), of which only a stiffness is made, ends within 1e-5 in
+ * single. wide.h does the same for many at once. x: 1e-37 to 1e37. */
 enum {
     INVERSE_ROOT_MAGIC = 0x5f1ffff9,
     INVERSE_MAGIC = 0x7ef311c3,
     INVERSE_CUBE_ROOT_MAGIC = 0x54a21d2a,
-    EXTRA_STEPS = sizeof(real) == sizeof(float) ? 0 : 2, /* in double */
-    INVERSE_ROOT_STEPS = 2 + EXTRA_STEPS, /* one fewer errs by 7e-7, and always low: friction at rest would leak away */
-    INVERSE_STEPS = 3 + EXTRA_STEPS,
-    INVERSE_CUBE_ROOT_STEPS = 3 + EXTRA_STEPS,
+    IN_DOUBLE = sizeof(real) == sizeof(double),
+    INVERSE_ROOT_STEPS = IN_DOUBLE ? 2 : 1,
+    INVERSE_STEPS = IN_DOUBLE ? 5 : 3,
+    INVERSE_CUBE_ROOT_STEPS = IN_DOUBLE ? 5 : 2,
 };
-/* A Newton step bent so that its error is even about zero (J. Kadlec): y *= factor (offset - x y^2). */
+/* A Newton step bent so that its error is even about zero, 0.07 % (J. Kadlec): y *= factor (offset - x y^2). */
 #define INVERSE_ROOT_FACTOR ((real)0.703952253)
 #define INVERSE_ROOT_OFFSET ((real)2.38924456)
 
@@ -83,7 +84,10 @@ static inline real inverse_root(real x)
 {
     real y = inverse_root_guess(x);
     y *= INVERSE_ROOT_FACTOR * fused(-(x * y), y, INVERSE_ROOT_OFFSET);
-    for (int k = 0; k < INVERSE_ROOT_STEPS; k++) y *= fused((real)-0.5 * x * y, y, (real)1.5);
+    for (int k = 0; k < INVERSE_ROOT_STEPS; k++) {
+        const real e = fused(-(x * y), y, 1); /* y (1 - e)^(-1/2) = y (1 + e/2 + 3/8 e^2 + ...) */
+        y = fused(y * e, fused((real)0.375, e, (real)0.5), y);
+    }
     return y;
 }
 

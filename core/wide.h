@@ -358,7 +358,10 @@ WIDE_INLINE wide wide_inverse_root(wide x)
 {
     wide y = wide_inverse_root_guess(x);
     y *= wide_all(INVERSE_ROOT_FACTOR) * wide_fused(-(x * y), y, wide_all(INVERSE_ROOT_OFFSET));
-    for (int k = 0; k < INVERSE_ROOT_STEPS; k++) y *= wide_fused(wide_all((real)-0.5) * x * y, y, wide_all((real)1.5));
+    for (int k = 0; k < INVERSE_ROOT_STEPS; k++) {
+        const wide e = wide_fused(-(x * y), y, wide_all(1));
+        y = wide_fused(y * e, wide_fused(wide_all((real)0.375), e, wide_all((real)0.5)), y);
+    }
     return y;
 }
 
