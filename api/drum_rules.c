@@ -103,6 +103,7 @@ static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition
                              "%.0f",
                              inputs->fill_fraction, count, SCENE_MOST_PARTICLES);
     }
+    scene_check_every_species(inputs, drum, count, problems);
     const double spheres = count * drum_spheres_a_particle(drum);
     if (count <= SCENE_MOST_PARTICLES && spheres > SCENE_MOST_PARTICLES)
         problem_list_add(problems, isnan(inputs->particle_count) ? "/inputs/fill_fraction" : "/inputs/particle_count",
@@ -123,6 +124,7 @@ static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_
         .length = inputs->drum_length,
         .rotation_rate = inputs->rotation_rate,
         .gravity = inputs->gravity,
+        .corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes,
         .seed = isnan(inputs->seed) ? 0 : (uint64_t)inputs->seed,
         .threads = isnan(inputs->threads) ? 1 : (int)inputs->threads,
     };

@@ -24,6 +24,9 @@ typedef struct species_inputs {
     dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
 } species_inputs;
 
+/* What a share counts: particles, volume or mass. */
+typedef enum share_basis { SHARE_BY_NUMBER, SHARE_BY_VOLUME, SHARE_BY_MASS } share_basis;
+
 /* What a process has beside the drum's inputs, or in their place. */
 typedef struct fill_inputs {
     double cylinder_diameter, cylinder_height;
@@ -42,15 +45,18 @@ typedef struct drum_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
     size_t species_count;
     species_inputs species[DEM_MAXIMUM_SPECIES];
+    double share_by;                                   /* a share_basis */
     double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
-    double contact_law, friction, restitution, tangential_stiffness_ratio;
+    double contact_law, friction, tangential_stiffness_ratio;
+    double restitution, unloading_slope;               /* one of the two */
+    double unloading;                                  /* 0: constant, 1: variable */
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
     double poissons_ratio;
     double wall_friction, lining_diameter, lining_pitch;
     double revolutions, seconds, until_standard_error; /* one of the three */
     double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
-    double seed, threads, gravity;
+    double seed, threads, gravity, corrector_passes;
     fill_inputs fill;
     heap_inputs heap;
 } drum_inputs;

@@ -11,6 +11,9 @@ static const char *const shape_choices[] = { "sphere", "dumbbell", "tetrahedron"
 /* in the order of dem_contact_law */
 static const char *const law_choices[] = { "walton-braun", "spring-dashpot", "hertz-mindlin", NULL };
 
+static const char *const unloading_choices[] = { "constant", "variable", NULL };
+static const char *const share_choices[] = { "number", "volume", "mass", NULL }; /* in the order of share_basis */
+
 #define AT(member) .offset = offsetof(drum_inputs, member)
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
 #define AT_SPHERE(member) .offset = offsetof(dem_cluster_sphere, member)
@@ -40,7 +43,9 @@ static const char *const law_choices[] = { "walton-braun", "spring-dashpot", "he
     { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), \
       .meaning = "density of the particle itself, not of the bed" }, \
     { SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share), \
-      .meaning = "share of the particles by number; all shares sum to 1. Default: equal shares" }
+      .meaning = "share of the particles, by what share_by says; all shares sum to 1. Default: equal shares" }, \
+    { SPEC_INPUTS, "share_by", FIELD_CHOICE, .unit = "", .choices = share_choices, AT(share_by), \
+      .meaning = "what a share counts: particles, their own volume (without the pores), or their mass" }
 
 #define FIELDS_OF_CONTACT \
     { SPEC_INPUTS, "contact", FIELD_OBJECT, SPEC_CONTACT, .meaning = "contact between particles" }, \
@@ -49,8 +54,16 @@ static const char *const law_choices[] = { "walton-braun", "spring-dashpot", "he
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
       .meaning = "coefficient of friction between particles" }, \
-    { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.3, 1.0), .fallback = 0.8, AT(restitution), \
-      .meaning = "coefficient of normal restitution" }, \
+    { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.3, 1.0), .fallback = 0.8, \
+      .excludes = "unloading_slope", AT(restitution), \
+      .meaning = "coefficient of normal restitution; with variable unloading: of the hardest impact expected" }, \
+    { SPEC_CONTACT, "unloading", FIELD_CHOICE, .unit = "", .choices = unloading_choices, AT(unloading), \
+      .meaning = "of walton-braun. constant: one unloading stiffness K2 for all loads, one restitution for all speeds; " \
+                 "variable: K2 = K1 + S N_max, so that restitution falls as impacts get faster" }, \
+    { SPEC_CONTACT, "unloading_slope", FIELD_REAL, .unit = "1/m", OPEN_RANGE(0.0, 1e9), .fallback = NAN, \
+      .excludes = "restitution", AT(unloading_slope), \
+      .meaning = "S of variable unloading, instead of restitution. Default: such that the hardest impact expected " \
+                 "has restitution" }, \
     { SPEC_CONTACT, "tangential_stiffness_ratio", FIELD_REAL, .unit = "", RANGE(0.05, 1.5), .fallback = 0.8, \
       AT(tangential_stiffness_ratio), .meaning = "initial tangential over normal loading stiffness" }, \
     { SPEC_CONTACT, "maximum_overlap", FIELD_REAL, .unit = "", RANGE(0.0005, 0.05), .fallback = 0.01, .excludes = "stiffness", \
@@ -75,7 +88,10 @@ static const char *const law_choices[] = { "walton-braun", "spring-dashpot", "he
     { SPEC_INPUTS, "seed", FIELD_INTEGER, .unit = "", RANGE(0, 9007199254740991.0), .fallback = NAN, AT(seed), \
       .meaning = "of the random initial positions: the same seed gives the same run. Default: chosen at random" }, \
     { SPEC_INPUTS, "threads", FIELD_INTEGER, .unit = "", RANGE(1, 256), .fallback = 1, AT(threads), \
-      .meaning = "threads of the worker; results do not depend on it" }
+      .meaning = "threads of the worker; results do not depend on it" }, \
+    { SPEC_INPUTS, "integration", FIELD_OBJECT, SPEC_INTEGRATION, .meaning = "how motion is stepped through time" }, \
+    { SPEC_INTEGRATION, "corrector_passes", FIELD_INTEGER, .unit = "", RANGE(1, 10), .fallback = 1, AT(corrector_passes), \
+      .meaning = "corrector passes of Euler's equations for the spin of clusters (Eqns 9-10); more do not raise the order" }
 /* clang-format on */
 
 #endif

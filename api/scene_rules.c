@@ -5,6 +5,7 @@
 #include "scene_rules.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "dem_cluster.h"
 #include "dem_rules.h"
@@ -14,7 +15,8 @@
 #define MOST_SNAPSHOTS 1e5
 #define MOST_SNAPSHOT_BYTES 1e12
 #define MOST_SAMPLES 2e5
-#define MOST_OVERLAP 0.25 /* of the smallest diameter: beyond half a radius a run is stopped */
+#define LEAST_RESTITUTION 0.3 /* as restitution's own range has it */
+#define MOST_OVERLAP 0.25     /* of the smallest diameter: beyond half a radius a run is stopped */
 
 double scene_of_species(const dem_drum_definition *scene, double (*number)(const dem_species *), bool largest)
 {
@@ -48,15 +50,37 @@ void scene_share_out(drum_inputs *inputs, problem_list *problems)
     }
 }
 
-void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+/* Shares by volume or mass into shares by number: a species of large particles has few of them. */
+static void shares_to_numbers(const drum_inputs *inputs, dem_drum_definition *scene)
 {
     double sum = 0.0;
-    for (size_t s = 0; s < inputs->species_count; s++) sum += inputs->species[s].share;
+    for (size_t s = 0; s < scene->species_count; s++) {
+        dem_species *species = &scene->species[s];
+        if (inputs->share_by > SHARE_BY_NUMBER) species->share /= dem_species_volume(species);
+        if (inputs->share_by == SHARE_BY_MASS) species->share /= species->density;
+        sum += species->share;
+    }
+    for (size_t s = 0; s < scene->species_count; s++) scene->species[s].share /= sum;
+}
+
+void scene_check_every_species(const drum_inputs *inputs, const dem_drum_definition *scene, double count, problem_list *problems)
+{
+    for (size_t s = 0; s < inputs->species_count; s++) {
+        if (!(count * scene->species[s].share < 0.5)) continue;
+        char pointer[60];
+        snprintf(pointer, sizeof pointer, "/inputs/particles/%zu/share", s);
+        problem_list_add(problems, pointer,
+                         "is %g, which makes %.3g of %.0f particles; must make at least one: give a larger share or more particles",
+                         inputs->species[s].share, count * scene->species[s].share, count);
+    }
+}
+
+void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+{
     scene->species_count = inputs->species_count;
     for (size_t s = 0; s < inputs->species_count; s++) {
         species_inputs *species = &inputs->species[s];
-        scene->species[s] =
-            (dem_species){ .diameter = species->diameter, .density = species->density, .share = species->share / sum };
+        scene->species[s] = (dem_species){ .diameter = species->diameter, .density = species->density, .share = species->share };
         if (isnan(species->shape)) scene->species[s].diameter = NAN; /* refused */
         else if (species->shape != DEM_SPHERE) drum_cluster_derive(species, s, &scene->species[s].cluster, problems);
         if (scene->species[s].cluster.sphere_count) scene->species[s].diameter = dem_species_largest_sphere(&scene->species[s]);
@@ -65,6 +89,7 @@ void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, probl
         scene->species_count = 1;
         scene->species[0] = (dem_species){ .diameter = NAN, .density = NAN, .share = NAN };
     }
+    shares_to_numbers(inputs, scene);
 }
 
 void scene_check_size_ratio(const dem_drum_definition *scene, problem_list *problems)
@@ -85,6 +110,37 @@ typedef struct collision {
     double speed;              /* m/s */
 } collision;
 
+static void check_unloading(const drum_inputs *inputs, problem_list *problems)
+{
+    if (!isnan(inputs->unloading_slope) && inputs->unloading == 0.0)
+        problem_list_add(problems, "/inputs/contact/unloading_slope",
+                         "is %g 1/m, but unloading is \"constant\"; give restitution, or unloading \"variable\"",
+                         inputs->unloading_slope);
+    if (inputs->unloading == 1.0 && inputs->contact_law > DEM_WALTON_BRAUN)
+        problem_list_add(
+            problems, "/inputs/contact/unloading",
+            "is \"variable\", but this law has no unloading branch; must be \"constant\", or the law \"walton-braun\"");
+}
+
+/* S of variable unloading and the restitution of the hardest impact, one from the other: e^2 = K1/K2 = 1/(1 + S alpha_max). */
+static void derive_unloading(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+{
+    const double overlap = worst->speed * sqrt(worst->heaviest / scene->contact.stiffness);
+    if (isnan(inputs->unloading_slope)) {
+        scene->contact.unloading_slope = (1.0 / (inputs->restitution * inputs->restitution) - 1.0) / overlap;
+        return;
+    }
+    scene->contact.unloading_slope = inputs->unloading_slope;
+    scene->contact.restitution = 1.0 / sqrt(1.0 + inputs->unloading_slope * overlap);
+    const double most = (1.0 / (LEAST_RESTITUTION * LEAST_RESTITUTION) - 1.0) / overlap;
+    if (inputs->unloading_slope > most)
+        problem_list_add(
+            problems, "/inputs/contact/unloading_slope",
+            "is %g 1/m, which leaves the hardest impact expected a restitution of %.3g; must be at most %.4g 1/m here, "
+            "for %g",
+            inputs->unloading_slope, scene->contact.restitution, most, LEAST_RESTITUTION);
+}
+
 /* Loading stiffness K1, and from it the time step. */
 static void derive_linear(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
 {
@@ -98,7 +154,8 @@ static void derive_linear(const drum_inputs *inputs, const collision *worst, dem
         isnan(inputs->maximum_overlap)
             ? inputs->stiffness
             : dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest);
-    scene->time_step = dem_time_step(scene->contact.stiffness, worst->lightest, inputs->restitution);
+    if (inputs->unloading == 1.0 && scene->contact.law == DEM_WALTON_BRAUN) derive_unloading(inputs, worst, scene, problems);
+    scene->time_step = dem_time_step(scene->contact.stiffness, worst->lightest, scene->contact.restitution);
 }
 
 /* Young's modulus E, the same for particles and wall, hence E* = E/(2 (1 - nu^2)); and from it the time step. What is
@@ -137,6 +194,7 @@ void scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_dr
         .wall_friction = inputs->wall_friction,
         .tangential_stiffness_ratio = inputs->tangential_stiffness_ratio,
     };
+    check_unloading(inputs, problems);
     if (law == DEM_HERTZ_MINDLIN && !isnan(inputs->stiffness))
         problem_list_add(problems, "/inputs/contact/stiffness",
                          "is %g N/m, but hertz-mindlin takes youngs_modulus (Pa) or "

@@ -19,6 +19,8 @@ double scene_species_width(const dem_species *species); /* m, diameter of the sp
 void scene_share_out(drum_inputs *inputs, problem_list *problems);
 /* Species, with their clusters; shares must be out. */
 void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems);
+/* A species asked for has at least one of so many particles. */
+void scene_check_every_species(const drum_inputs *inputs, const dem_drum_definition *scene, double count, problem_list *problems);
 void scene_check_size_ratio(const dem_drum_definition *scene, problem_list *problems);
 /* Stiffness and time step; species must be derived. impact_speed: m/s, the largest at which a particle meets what is
  * backed by others or by a wall. */

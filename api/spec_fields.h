@@ -22,7 +22,8 @@ typedef enum spec_group {
     SPEC_CYLINDER,
     SPEC_STREAM,
     SPEC_TUBE,
-    SPEC_PLATE
+    SPEC_PLATE,
+    SPEC_INTEGRATION
 } spec_group;
 
 typedef enum field_kind {

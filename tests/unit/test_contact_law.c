@@ -58,6 +58,46 @@ static void a_collision_integrated_with_the_law_alone_has_the_closed_forms(void 
     }
 }
 
+/* K2 = K1 + S N_max (Walton & Braun 1986): by hand, the unloading line through (alpha_max, K1 alpha_max) of that slope. */
+static void the_variable_unloading_branch_steepens_with_the_load_borne(void **unused)
+{
+    (void)unused;
+    const double slope = 2e4, tops[] = { 1e-5, 4e-5, 1e-4 };
+    real alpha_0 = 0;
+    for (int k = 0; k < 3; k++) {
+        const double top = tops[k], k_2 = K_1 + slope * K_1 * top, rest = top * (1 - K_1 / k_2),
+                     tolerance = 30 * ROUNDING * K_1 * top;
+        CHECK_NEAR(normal_force_of_slope((real)top, (real)K_1, (real)slope, &alpha_0), K_1 * top, tolerance);
+        CHECK_NEAR(alpha_0, rest, 8 * ROUNDING * top);
+        static const double down_and_up[] = { 0.95, 0.8, 0.9, 1.0 };
+        for (int m = 0; m < 4; m++) {
+            const double alpha = down_and_up[m] * top;
+            CHECK_NEAR(normal_force_of_slope((real)alpha, (real)K_1, (real)slope, &alpha_0), fmax(0, k_2 * (alpha - rest)),
+                       k_2 / K_1 * tolerance);
+        }
+    }
+    assert_true(normal_force_of_slope((real)-1e-9, (real)K_1, (real)slope, &alpha_0) == 0);
+    assert_true(alpha_0 == 0);
+}
+
+/* Loading takes m v^2/2 = K1 alpha^2/2, so alpha_max = v/w, w = sqrt(K1/m); unloading gives back K1/K2 of it, hence
+ * e = sqrt(K1/K2) = 1/sqrt(1 + S alpha_max) = sqrt(w/(S v + w)). Steps as above. */
+static void restitution_of_variable_unloading_falls_with_speed_as_published(void **unused)
+{
+    (void)unused;
+    const double m = 1e-4, w = sqrt(K_1 / m), slope = 1e4, dt = M_PI / w / 4000;
+    for (double v_0 = 0.01; v_0 < 4; v_0 *= 3) {
+        double alpha = 0, v = v_0;
+        real alpha_0 = 0, f;
+        do {
+            f = normal_force_of_slope((real)alpha, (real)K_1, (real)slope, &alpha_0);
+            v -= dt * (double)f / m;
+            alpha += dt * v;
+        } while (v > 0 || f > 0);
+        CHECK_NEAR(-v / v_0, sqrt(w / (slope * v_0 + w)), 1e-5 + 100 * ROUNDING);
+    }
+}
+
 /* Work done on a virgin contact along any path that ends where it began, by the trapezoid rule; wrong only in
  * increments that cross a kink, by at most K2 delta^2/8 each. */
 static void closed_normal_paths_never_give_energy(void **unused)
@@ -339,6 +379,8 @@ int main(void)
         cmocka_unit_test(the_normal_spring_loads_along_k1_and_unloads_along_k2),
         cmocka_unit_test(the_normal_force_never_pulls_and_is_forgotten_after_parting),
         cmocka_unit_test(a_collision_integrated_with_the_law_alone_has_the_closed_forms),
+        cmocka_unit_test(the_variable_unloading_branch_steepens_with_the_load_borne),
+        cmocka_unit_test(restitution_of_variable_unloading_falls_with_speed_as_published),
         cmocka_unit_test(closed_normal_paths_never_give_energy),
         cmocka_unit_test(the_first_slide_follows_mindlins_curve_to_slip),
         cmocka_unit_test(after_a_reversal_the_spring_starts_stiff_and_goes_over_to_the_opposite_slip),

@@ -127,6 +127,9 @@ static void a_canonical_spec_is_read_and_written_with_the_same_bytes(void **stat
         { "duration/seconds", "0.7" },
         { "snapshots/interval", "0" },
         { "contact/friction", "0.1" },
+        { "share_by", "\"mass\"" },
+        { "contact", "{\"unloading\": \"variable\", \"unloading_slope\": 1e4}" },
+        { "integration/corrector_passes", "2" },
         { "wall/lining", "{\"diameter\": 0.002}" },
         { "contact/friction", "-0.0" },
         { "particles", "[{\"diameter\":0.003,\"share\":0.1},{\"diameter\":0.004,\"share\":0.2},{\"diameter\":0.005,"
@@ -470,10 +473,80 @@ static void the_description_has_every_default_and_range_that_the_parser_has(void
     json_decref(description);
 }
 
+/* Spheres of 4 and 2 mm in equal volumes: 1 to 8 by number; with the small of half the density, 1 to 16 by mass. */
+static void shares_by_volume_and_mass_become_shares_by_number(void **state)
+{
+    (void)state;
+    static const char *const by[] = { "\"number\"", "\"volume\"", "\"mass\"" };
+    static const double few[] = { 1.0 / 2, 1.0 / 9, 1.0 / 17 };
+    for (int k = 0; k < 3; k++) {
+        json_t *request = minimal_with("particles", "[{\"diameter\": 0.004, \"density\": 2000, \"share\": 0.5},"
+                                                    " {\"diameter\": 0.002, \"density\": 1000, \"share\": 0.5}]");
+        json_object_set_new(json_object_get(request, "inputs"), "share_by", json_loads(by[k], JSON_DECODE_ANY, NULL));
+        job_spec spec = parse_or_fail(request);
+        assert_true(fabs(spec.drum.species[0].share - few[k]) < 1e-15);
+        assert_true(fabs(spec.drum.species[1].share - (1 - few[k])) < 1e-15);
+        job_spec_clear(&spec);
+    }
+    /* of the 180 particles of the minimal bed */
+    char *problems = problems_of(minimal_with("particles", "[{\"diameter\": 0.005, \"share\": 0.99999}, {\"diameter\": 0.0049, "
+                                                           "\"share\": 0.00001}]"));
+    assert_string_equal(problems,
+                        "/inputs/particles/1/share: is 1e-05, which makes 0.0018 of 180 particles; must make at least one: "
+                        "give a larger share or more particles\n");
+    free(problems);
+}
+
+/* e^2 = 1/(1 + S alpha_max), alpha_max = 1 % of 5 mm: for e = 0.8, S = 0.5625/5e-5 = 11250 1/m. */
+static void variable_unloading_takes_its_slope_from_the_restitution_or_the_other_way_round(void **state)
+{
+    (void)state;
+    job_spec constant = parse_or_fail(load(minimal));
+    assert_true(constant.drum.contact.unloading_slope == 0);
+    job_spec spec = parse_or_fail(minimal_with("contact/unloading", "\"variable\""));
+    assert_true(fabs(spec.drum.contact.unloading_slope - 11250) < 1e-6);
+    assert_true(spec.drum.contact.restitution == 0.8 && spec.drum.time_step == constant.drum.time_step);
+    job_spec_clear(&spec);
+    json_t *request = minimal_with("contact/unloading", "\"variable\"");
+    json_object_set_new(json_object_get(json_object_get(request, "inputs"), "contact"), "unloading_slope", json_real(11250));
+    spec = parse_or_fail(request);
+    assert_true(spec.drum.contact.unloading_slope == 11250 && fabs(spec.drum.contact.restitution - 0.8) < 1e-12);
+    job_spec_clear(&spec);
+    job_spec_clear(&constant);
+
+    expect_problem("contact/unloading_slope", "11250",
+                   "/inputs/contact/unloading_slope: is 11250 1/m, but unloading is \"constant\"; give restitution, or unloading "
+                   "\"variable\"\n");
+    expect_problem("contact", "{\"unloading\": \"variable\", \"unloading_slope\": 1e6}",
+                   "/inputs/contact/unloading_slope: is 1e+06 1/m, which leaves the hardest impact expected a restitution of 0.14; "
+                   "must be at most 2.022e+05 1/m here, for 0.3\n");
+    expect_problem("contact", "{\"unloading\": \"variable\", \"unloading_slope\": 1e4, \"restitution\": 0.8}",
+                   "/inputs/contact/unloading_slope: is given beside restitution; give one of the two\n");
+    expect_problem("contact", "{\"unloading\": \"variable\", \"law\": \"spring-dashpot\"}",
+                   "/inputs/contact/unloading: is \"variable\", but this law has no unloading branch; must be \"constant\", or the "
+                   "law \"walton-braun\"\n");
+}
+
+static void corrector_passes_are_one_unless_asked_for(void **state)
+{
+    (void)state;
+    job_spec spec = parse_or_fail(load(minimal));
+    assert_int_equal(spec.drum.corrector_passes, 1);
+    job_spec_clear(&spec);
+    spec = parse_or_fail(minimal_with("integration", "{\"corrector_passes\": 3}"));
+    assert_int_equal(spec.drum.corrector_passes, 3);
+    job_spec_clear(&spec);
+    expect_problem("integration", "{\"corrector_passes\": 0}",
+                   "/inputs/integration/corrector_passes: is 0; must be in [1, 10]\n");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_minimal_request_gets_every_default),
+        cmocka_unit_test(shares_by_volume_and_mass_become_shares_by_number),
+        cmocka_unit_test(variable_unloading_takes_its_slope_from_the_restitution_or_the_other_way_round),
+        cmocka_unit_test(corrector_passes_are_one_unless_asked_for),
         cmocka_unit_test(a_canonical_spec_is_read_and_written_with_the_same_bytes),
         cmocka_unit_test(a_number_out_of_range_is_named_with_value_unit_and_range),
         cmocka_unit_test(the_ends_of_a_range_are_inside_or_not_as_written),

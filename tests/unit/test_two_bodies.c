@@ -113,6 +113,36 @@ static void a_sphere_leaves_the_wall_with_e_and_the_closed_forms(void **unused)
         }
 }
 
+/* e = sqrt(w/(S v + w)), w = sqrt(K1/m_eff): test_contact_law.c derives it. Errors as check_closed_forms has them. */
+static void with_variable_unloading_spheres_part_slower_the_faster_they_met(void **unused)
+{
+    (void)unused;
+    for (int a = 0; a < APPROACHES; a++) {
+        dem_drum_definition d = hand_definition(2);
+        d.contact.stiffness = 4e4;
+        d.contact.unloading_slope = 2e4;
+        const double m_eff = species_mass(&d.species[0]) / 2, v = approaches[a], w = sqrt(d.contact.stiffness / m_eff);
+        const double e = sqrt(w / (d.contact.unloading_slope * v + w));
+        d.time_step = contact_time(m_eff, &d.contact) / STEPS_A_CONTACT;
+        dem_scene *scene = weightless_scene(&d);
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                           .position = (double[]){ -0.002, 0.01, 0, 0.002 + 7.3 * v * d.time_step, 0.01, 0 },
+                                           .velocity = (double[]){ 0.5 * v, 0, 0, -0.5 * v, 0, 0 } });
+        const collision c = collide(scene, 2, v, "pair_history");
+        CHECK_NEAR(c.speed_ratio, e, 3e-5 + 30 * ROUNDING);
+        CHECK_NEAR(c.residual, v / w * (1 - e * e), (2e-5 + 30 * ROUNDING) * v / w);
+        dem_scene_free(scene);
+        scene = weightless_scene(&d);
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                           .position = (double[]){ 0.098 - 7.3 * v * d.time_step, 0, 0, 0, 0.05, 0.03 },
+                                           .velocity = (double[]){ v, 0, 0, 0, 0, 0 } });
+        const double w_wall = sqrt(d.contact.stiffness / (2 * m_eff));
+        const collision wall = collide(scene, 1, v, "wall_history");
+        CHECK_NEAR(wall.speed_ratio, sqrt(w_wall / (d.contact.unloading_slope * v + w_wall)), 3e-5 + 30 * ROUNDING);
+        dem_scene_free(scene);
+    }
+}
+
 /* With the steps that a run takes: equations.md saw 0.7994 to 0.8007 for 0.8 at 25 steps a contact. The bound is
  * (omega dt)^2/8 of either branch, at 20 steps, whatever part of a step is left before the touch. */
 static void at_the_runs_own_time_step_e_holds_to_half_a_percent(void **unused)
@@ -329,6 +359,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(head_on_spheres_part_with_e_and_the_closed_forms),
         cmocka_unit_test(a_sphere_leaves_the_wall_with_e_and_the_closed_forms),
+        cmocka_unit_test(with_variable_unloading_spheres_part_slower_the_faster_they_met),
         cmocka_unit_test(at_the_runs_own_time_step_e_holds_to_half_a_percent),
         cmocka_unit_test(an_impact_that_slides_throughout_gives_the_impulse_of_coulomb),
         cmocka_unit_test(a_sphere_that_rolls_along_the_wall_is_not_slowed_by_an_impact),
