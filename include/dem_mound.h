@@ -1,0 +1,68 @@
+/* What stands under gravity down the z axis: a heap on a plate, and the bed in a standing cylinder. Their results, and
+ * the measures as functions of spheres alone, wherever these come from. Definitions: core/NUMERICS.md, "Mounds". */
+#ifndef DEM_MOUND_H
+#define DEM_MOUND_H
+
+#include "dem_types.h"
+
+enum { DEM_AZIMUTHS = 16, DEM_PROFILE_POINTS = 128 };
+
+/* The spheres that make the mound up, n of them. Those in flight are the caller's to leave out. */
+typedef struct dem_mound {
+    size_t count;
+    const double *position; /* (n,3) m; the axis is x = y = 0, the ground z = 0 */
+    const double *radius;   /* (n) m */
+    const double *volume;   /* (n) m3 of solid; of a cluster's sphere its share of the cluster */
+    double grain;           /* m: mean diameter of the particles */
+} dem_mound;
+
+/* Numbers over a coordinate; where one could not be told, NaN. */
+typedef struct dem_profile {
+    size_t count;
+    double place[DEM_PROFILE_POINTS], value[DEM_PROFILE_POINTS], standard_error[DEM_PROFILE_POINTS];
+} dem_profile;
+
+typedef enum dem_heap_method {
+    DEM_AZIMUTHAL_FIT, /* line through the surface between 80 and 20 % of its height, in each of 16 sectors */
+    DEM_APEX_TO_BASE,  /* cone of the height of the highest particle, and the base of each sector */
+    DEM_EQUAL_VOLUME,  /* cone of the volume and base of each sector */
+    DEM_SILHOUETTE,    /* triangle of the area and base of the outline, seen from 16 sides */
+    DEM_HEAP_METHODS
+} dem_heap_method;
+
+typedef struct dem_heap_results {
+    dem_angle angle[DEM_HEAP_METHODS]; /* over the azimuths */
+    double height;                     /* m, of the highest particle's top */
+    double base_diameter;              /* m, mean over the azimuths */
+    double volume;                     /* m3 below the surface */
+    double static_cohesive_index;      /* m: mean over the radius of the standard deviation over azimuths of the height */
+    double solid_fraction;             /* of that volume */
+    dem_profile surface;               /* m over m from the axis */
+} dem_heap_results;
+
+typedef enum dem_fill_method {
+    DEM_RADIAL_FIT,     /* line through the surface between 20 and 80 % of the radius, in each of 16 sectors */
+    DEM_CENTER_TO_WALL, /* from the mean height within 20 % of the radius to that beyond 80 % */
+    DEM_AREA_FIT,       /* line through the whole surface of each sector, but half a grain at the wall */
+    DEM_FILL_METHODS
+} dem_fill_method;
+
+typedef struct dem_fill_results {
+    dem_angle angle[DEM_FILL_METHODS]; /* over the azimuths; negative where the middle is lower */
+    double height;                     /* m, mean of the surface */
+    double center_height, wall_height; /* m, means within 20 and beyond 80 % of the radius */
+    double solid_fraction;             /* of the core: two grains off wall, floor and surface */
+    dem_profile surface;               /* m over m from the axis */
+    dem_profile packing;               /* solid fraction over m above the floor; its error is not told */
+} dem_fill_results;
+
+/* plate_radius: m; the heap ends there at the latest. Measures that fail (a heap of a few grains) are NaN.
+ * Errors: DEM_NO_MEMORY. */
+dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, dem_heap_results *results);
+/* cylinder_radius: m. Likewise. */
+dem_status dem_fill_measure(const dem_mound *mound, double cylinder_radius, dem_fill_results *results);
+
+const char *dem_heap_method_name(dem_heap_method method); /* "azimuthal-fit", ... */
+const char *dem_fill_method_name(dem_fill_method method); /* "radial-fit", ... */
+
+#endif
