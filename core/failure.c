@@ -14,25 +14,54 @@ static dem_status fail(dem_scene *scene, const dem_failure *what)
     return what->status;
 }
 
+/* What a place has to keep, by the wall that it would be beyond. NULL quantity: it is inside. */
+typedef struct bound {
+    double value, limit;
+    const char *quantity;
+} bound;
+
+static bound bound_broken(const dem_scene *scene, const double x[3])
+{
+    const container *c = &scene->drum;
+    const double rho = sqrt(x[0] * x[0] + x[1] * x[1]);
+    /* Written so that a NaN fails each of them. */
+    if (c->kind != DEM_TUBE_ON_PLATE && !(rho < c->radius)) return (bound){ rho, c->radius, "distance from the axis" };
+    if (c->period > 0 && !(fabs(x[2]) <= c->length)) return (bound){ fabs(x[2]), c->length, "distance along the axis" };
+    if (!(rho <= 1e9) || !(fabs(x[2]) <= 1e9)) return (bound){ rho, 1e9, "distance from the axis" };
+    for (int k = 0; k < c->wall_count; k++) {
+        const container_wall *w = &c->wall[k];
+        if (w->kind == WALL_PLANE && !(wall_seen_from(w, x).distance > 0))
+            return (bound){ wall_seen_from(w, x).distance, 0,
+                            c->kind == DEM_DRUM ? "distance before the end wall" : "height above the floor" };
+        /* what left the plate falls beside it */
+        if (w->kind == WALL_DISC && rho < w->radius && !(x[2] > w->low)) return (bound){ x[2], w->low, "height above the plate" };
+        if (w->kind == WALL_BAR && rho > c->bars_from && !(wall_seen_from(w, x).distance > 0))
+            return (bound){ wall_seen_from(w, x).distance, 0, "distance before a lifter" };
+    }
+    return (bound){ 0, 0, NULL };
+}
+
 dem_status failure_check_places(dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
-        const double rho = sqrt(x[0] * x[0] + x[1] * x[1]);
-        /* Written so that a NaN fails each of them. */
-        if (rho < scene->drum.radius && fabs(x[2]) <= scene->drum.length && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
-        const bool escaped = isfinite(rho) && isfinite(x[2]);
+        bound broken = bound_broken(scene, x);
+        if (!broken.quantity && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
+        if (particle_is_lost(scene, particle_of_sphere(s, i))) continue;
+        if (!broken.quantity) broken = (bound){ sqrt(x[0] * x[0] + x[1] * x[1]), scene->drum.radius, "distance from the axis" };
+        const bool escaped =
+            isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]) && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
         const dem_failure what = {
             .status = escaped ? DEM_PARTICLE_ESCAPED : DEM_NOT_A_NUMBER,
             .particle = (int64_t)i,
             .other = -1,
-            .value = rho,
-            .limit = scene->drum.radius,
-            .quantity = "distance from the axis",
+            .value = broken.value,
+            .limit = broken.limit,
+            .quantity = broken.quantity,
             .unit = "m",
-            .likely_cause = "the contacts are too soft for the speeds in this drum: a larger stiffness (or a smaller "
+            .likely_cause = "the contacts are too soft for the speeds in this container: a larger stiffness (or a smaller "
                             "maximum_overlap) keeps particles inside the wall",
         };
         return fail(scene, &what);

@@ -61,14 +61,13 @@ static void assign_species(spheres *s, const dem_drum_definition *definition)
 /* Particles placed so far, each as the sphere that holds it, in linked cells. */
 typedef struct placing {
     int cells[3];
-    double size[3], radius, length, period, inverse_period;
+    double low[3], size[3], period, inverse_period; /* m, 1/m */
     int32_t *head, *next;
 } placing;
 
 static int cell_index(const placing *p, const double x[3], int axis)
 {
-    const double origin = axis == 2 ? 0.5 * p->length : p->radius;
-    const int c = (int)((x[axis] + origin) / p->size[axis]);
+    const int c = (int)((x[axis] - p->low[axis]) / p->size[axis]);
     return c < 0 ? 0 : c >= p->cells[axis] ? p->cells[axis] - 1 : c;
 }
 
@@ -113,15 +112,47 @@ static quaternion random_orientation(random_stream *random)
     return (quaternion){ sqrt(1 - u) * sin(a), sqrt(1 - u) * cos(a), sqrt(u) * sin(b), sqrt(u) * cos(b) };
 }
 
-/* One particle at a random place of the region below `level`; false when many tries found none free. */
-static bool place_one(placing *p, spheres *s, size_t i, double room, double level, double scale, random_streams *random)
+/* Where centres may be: the lower part of a lying drum, or of an upright container. */
+typedef struct region {
+    const container *container;
+    double room;   /* m, free radius about the axis */
+    double level;  /* lying: height of the region's surface, as a share of the room; 1: all of it */
+    double height; /* m, upright: of the region */
+} region;
+
+/* A place in the box about the region, for the centre of a particle of that reach; level or height allowing. */
+static void random_place(const region *r, double reach, random_stream *random, double x[3])
 {
-    const double radius = scale * particle_reach(s, i), outer = room - particle_reach(s, i);
+    const double outer = r->room - reach, length = r->container->length;
+    const bool is_closed = r->container->period == 0;
+    x[0] = (2 * random_uniform(random) - 1) * outer;
+    if (r->container->kind == DEM_DRUM) {
+        x[1] = -outer + random_uniform(random) * (outer + fmin(r->level * r->room, outer));
+        x[2] = (random_uniform(random) - 0.5) * (is_closed ? length - 2 * reach : length);
+    } else {
+        x[1] = (2 * random_uniform(random) - 1) * outer;
+        x[2] = reach + random_uniform(random) * fmax(r->height - 2 * reach, 0);
+    }
+}
+
+/* With room for the particle at full size; the first wall is the one about the axis. */
+static bool is_inside(const region *r, const double x[3], double reach)
+{
+    const double outer = r->room - reach;
+    if (x[0] * x[0] + x[1] * x[1] > outer * outer) return false;
+    for (int k = 1; k < r->container->wall_count; k++)
+        if (wall_seen_from(&r->container->wall[k], x).distance < reach) return false;
+    return true;
+}
+
+/* One particle at a random place of the region; false when many tries found none free. */
+static bool place_one(placing *p, spheres *s, size_t i, const region *r, double scale, random_streams *random)
+{
+    const double radius = scale * particle_reach(s, i);
     for (int attempt = 0; attempt < 20000; attempt++) {
-        const double x[3] = { (2 * random_uniform(&random->place) - 1) * outer,
-                              -outer + random_uniform(&random->place) * (outer + fmin(level * room, outer)),
-                              (random_uniform(&random->place) - 0.5) * p->length };
-        if (x[0] * x[0] + x[1] * x[1] > outer * outer || !is_free(p, s, x, radius, scale)) continue;
+        double x[3];
+        random_place(r, particle_reach(s, i), &random->place, x);
+        if (!is_inside(r, x, particle_reach(s, i)) || !is_free(p, s, x, radius, scale)) continue;
         if (i < s->single_count) {
             sphere_set_place(s, i, x);
         } else {
@@ -153,13 +184,13 @@ static void clusters_place_spheres(spheres *s, const container *drum)
 
 static dem_status placing_init(placing *p, const spheres *s, const container *drum)
 {
-    *p =
-        (placing){ .radius = drum->radius, .length = drum->length, .period = drum->period, .inverse_period = drum->inverse_period };
-    const double side[3] = { 2 * drum->radius, 2 * drum->radius, drum->length };
+    *p = (placing){ .period = drum->period, .inverse_period = drum->inverse_period };
     size_t cells = 1;
     for (int a = 0; a < 3; a++) {
-        p->cells[a] = (int)fmax(1.0, fmin(512.0, floor(side[a] / (2 * s->largest_reach))));
-        p->size[a] = side[a] / p->cells[a];
+        const double side = drum->high[a] - drum->low[a];
+        p->low[a] = drum->low[a];
+        p->cells[a] = (int)fmax(1.0, fmin(512.0, floor(side / (2 * s->largest_reach))));
+        p->size[a] = side / p->cells[a];
         cells *= (size_t)p->cells[a];
     }
     p->head = array_create(cells, sizeof *p->head);
@@ -170,7 +201,7 @@ static dem_status placing_init(placing *p, const spheres *s, const container *dr
 }
 
 /* The large first, since they find room the hardest. */
-static bool place_all(placing *p, spheres *s, const dem_drum_definition *definition, double room, double level, double scale,
+static bool place_all(placing *p, spheres *s, const dem_drum_definition *definition, const region *region_of_centres, double scale,
                       random_streams *random)
 {
     bool placed[DEM_MAXIMUM_SPECIES] = { false };
@@ -182,7 +213,7 @@ static bool place_all(placing *p, spheres *s, const dem_drum_definition *definit
                 largest = k;
         placed[largest] = true;
         for (size_t i = 0; i < particles_count(s); i++)
-            if (particle_species(s, i) == (int32_t)largest && !place_one(p, s, i, room, level, scale, random)) return false;
+            if (particle_species(s, i) == (int32_t)largest && !place_one(p, s, i, region_of_centres, scale, random)) return false;
     }
     return true;
 }
@@ -200,11 +231,11 @@ static double total_volume(const spheres *s, const dem_drum_definition *definiti
     return volume;
 }
 
-/* Times and drags of growing and settling, from the time a particle takes to fall through the drum. */
-static void set_schedule(filling *f, const spheres *s, const dem_drum_definition *definition)
+/* Times and drags of growing and settling, from the time a particle takes to fall through a container of that size. */
+static void set_schedule(filling *f, const spheres *s, double size, const dem_drum_definition *definition)
 {
-    const double fall = sqrt(definition->diameter / definition->gravity);
-    const double speed = 0.1 * definition->diameter / fall;
+    const double fall = sqrt(size / definition->gravity);
+    const double speed = 0.1 * size / fall;
     const double growing = 4 * (1.001 - f->start_scale) * (2 * s->largest_reach) / speed;
     f->growing_steps = (int64_t)ceil(growing / definition->time_step);
     f->growing_drag = 10 / growing;
@@ -216,16 +247,34 @@ static void set_schedule(filling *f, const spheres *s, const dem_drum_definition
     f->rest_energy = 1e-4 * mass * definition->gravity * s->smallest_diameter;
 }
 
+/* m3 that particles can share: without the lining's layer and the bars. */
+static double free_volume(const container *c, const dem_drum_definition *definition)
+{
+    const double room = c->inner_radius,
+                 bars = (double)definition->lifters.count * definition->lifters.height * definition->lifters.width;
+    return (DEM_PI * room * room - bars) * c->length;
+}
+
+static region region_of_share(const container *c, const spheres *s, double share)
+{
+    region r = { .container = c, .room = c->inner_radius, .level = 1.0, .height = c->length };
+    /* at least as high as one sphere needs */
+    if (share < 1 && c->kind == DEM_DRUM) r.level = fmax(circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / r.room - 1));
+    if (share < 1 && c->kind != DEM_DRUM) r.height = fmin(c->length, fmax(share * c->length, 3 * s->largest_reach));
+    return r;
+}
+
 dem_status filling_place(filling *f, spheres *s, const container *drum, const dem_drum_definition *definition)
 {
+    /* An open top would let growing particles out of a fuller container. */
+    const double most = drum->kind == DEM_DRUM ? 0.62 : REGION_FRACTION;
     assign_species(s, definition);
-    const double room = drum->inner_radius;
     double held;
-    const double volume = total_volume(s, definition, &held), fraction = volume / (DEM_PI * room * room * drum->length);
-    if (room < 3 * s->largest_reach || fraction > 0.62) return DEM_DOES_NOT_FIT;
+    const double volume = total_volume(s, definition, &held), fraction = volume / free_volume(drum, definition);
+    if (drum->bars_from < 3 * s->largest_reach || drum->inner_radius < 3 * s->largest_reach || fraction > most)
+        return DEM_DOES_NOT_FIT;
     const double share = fmin(1.0, fraction / REGION_FRACTION), region_fraction = fmax(REGION_FRACTION, fraction);
-    /* at least as high as one sphere needs */
-    const double level = share < 1 ? fmax(circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / room - 1)) : 1.0;
+    const region region_of_centres = region_of_share(drum, s, share);
 
     random_streams random;
     random_seed(&random.place, definition->seed);
@@ -236,7 +285,7 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
     double target = PLACING_FRACTION;
     for (bool done = false; status == DEM_OK && !done; target *= 0.7) {
         f->start_scale = fmin(1.0, cbrt(target / (region_fraction * (held / volume))));
-        done = place_all(&p, s, definition, room, level, f->start_scale, &random);
+        done = place_all(&p, s, definition, &region_of_centres, f->start_scale, &random);
         if (!done && target < 0.05) status = DEM_DOES_NOT_FIT;
         if (!done) {
             const size_t cells = (size_t)p.cells[0] * (size_t)p.cells[1] * (size_t)p.cells[2];
@@ -248,7 +297,8 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
     if (status != DEM_OK) return status;
     spheres_set_scale(s, f->start_scale);
     clusters_place_spheres(s, drum);
-    set_schedule(f, s, definition);
+    set_schedule(f, s, drum->kind == DEM_DRUM ? definition->diameter : fmax(definition->diameter, region_of_centres.height),
+                 definition);
     return DEM_OK;
 }
 

@@ -1,4 +1,4 @@
-/* The random start of a bed: particles placed and turned at random in the lower part of the drum at a share of their
+/* The random start of a bed: particles placed and turned at random in the lower part of the container at a share of their
  * size, grown to full size without gravity or friction, then let fall and come to rest. */
 #ifndef FILLING_H
 #define FILLING_H

@@ -32,6 +32,35 @@ static bool is_cluster(const dem_cluster *c)
     return good && dem_cluster_loose_sphere(c) < 0 && dem_cluster_hidden_sphere(c, &in) < 0;
 }
 
+static bool is_not_negative(double x) { return x >= 0 && isfinite(x); }
+
+/* Bars whose corners lie within the drum, and which leave room between each other. */
+static bool are_lifters(const dem_lifters *l, double radius)
+{
+    const double top = radius - l->height, half = 0.5 * l->width;
+    if (l->count == 0) return true;
+    if (l->count > DEM_MAXIMUM_LIFTERS || !is_positive(l->height) || !is_positive(l->width) || !is_not_negative(l->friction))
+        return false;
+    return top > 0 && hypot(top, half) <= radius && (l->count < 3 || half < top * tan(DEM_PI / (double)l->count));
+}
+
+/* Beside the measures that every container has. */
+static bool is_container(const dem_drum_definition *d)
+{
+    const bool is_lined = d->lining.diameter != 0;
+    switch (d->container) {
+    case DEM_DRUM:
+        return (!d->ends.are_walls || is_not_negative(d->ends.friction)) && are_lifters(&d->lifters, 0.5 * d->diameter)
+               && !(is_lined && d->lifters.count > 0);
+    case DEM_CYLINDER: return is_not_negative(d->ends.friction) && !is_lined && d->lifters.count == 0;
+    case DEM_TUBE_ON_PLATE:
+        return d->plate.diameter > d->diameter && isfinite(d->plate.diameter) && is_not_negative(d->plate.rim_height)
+               && is_not_negative(d->plate.friction) && is_not_negative(d->lift.speed) && is_not_negative(d->lift.start)
+               && !is_lined && d->lifters.count == 0;
+    }
+    return false;
+}
+
 static dem_status parameters_check(const dem_drum_definition *d)
 {
     const dem_contact_parameters *c = &d->contact;
@@ -52,7 +81,7 @@ static dem_status parameters_check(const dem_drum_definition *d)
     if (good && d->lining.diameter != 0)
         good = is_positive(d->lining.diameter) && is_positive(d->lining.pitch) && d->lining.diameter < 0.25 * d->diameter
                && d->lining.pitch <= d->length;
-    return good ? DEM_OK : DEM_BAD_PARAMETER;
+    return good && is_container(d) ? DEM_OK : DEM_BAD_PARAMETER;
 }
 
 dem_status parameters_complete(dem_drum_definition *d)

@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include "lost.h"
 #include "parameters.h"
 
 dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
@@ -18,6 +19,7 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     container_init(&scene->drum, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
     if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
+    if (status == DEM_OK) status = lost_init(scene);
     if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres);
     if (status != DEM_OK) {
         dem_scene_free(scene);
@@ -33,6 +35,7 @@ void dem_scene_free(dem_scene *scene)
 {
     if (!scene) return;
     neighbor_list_clear(&scene->neighbors);
+    lost_clear(scene);
     spheres_clear(&scene->spheres);
     free(scene);
 }
@@ -57,6 +60,7 @@ int64_t dem_scene_step_count(const dem_scene *scene) { return scene->step_count;
 int64_t dem_scene_rotation_start(const dem_scene *scene) { return scene->rotation_start; }
 size_t dem_scene_particle_count(const dem_scene *scene) { return particles_count(&scene->spheres); }
 size_t dem_scene_sphere_count(const dem_scene *scene) { return scene->spheres.mobile_count; }
+size_t dem_scene_lost_count(const dem_scene *scene) { return scene->lost_count; }
 bool dem_scene_has_clusters(const dem_scene *scene) { return scene->spheres.clusters.count > 0; }
 double dem_scene_kinetic_energy(const dem_scene *scene) { return spheres_kinetic_energy(&scene->spheres); }
 

@@ -20,11 +20,16 @@ struct dem_scene {
     dem_phase phase;
     int64_t step_count, phase_start, rotation_start; /* rotation_start: -1 before */
     double maximum_overlap;                          /* m since rotation began */
+    size_t lost_count;                               /* particles that fell off the plate */
+    int32_t *lost;                                   /* (lost_count of particles) who; NULL where none can be lost */
+    bool *is_lost;                                   /* (particles) */
     torque_meter torque;
     energy_audit audit;
     dem_failure failure;
     dem_step_profile *profile; /* the caller's; NULL: none wanted */
 };
+
+static inline bool particle_is_lost(const dem_scene *scene, size_t p) { return scene->is_lost && scene->is_lost[p]; }
 
 /* Everything that follows from the phase alone: friction, the drum's rate. */
 void scene_enter_phase(dem_scene *scene, dem_phase phase);

@@ -1,5 +1,6 @@
 /* Saving and restoring: what a scene can't make again from its definition. Neighbor lists are made again, since
  * no result depends on when they were made (core/contact_list.h). */
+#include "lost.h"
 #include "scene.h"
 #include "step.h"
 
@@ -224,5 +225,6 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     scene_enter_phase(scene, scene->phase);
     if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);
     restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);
+    lost_recognize(scene);
     return scene_update_neighbors(scene);
 }

@@ -4,6 +4,7 @@
  *     each sphere's sum over its contacts, and each cluster's over its spheres
  *     a look at the drum's torque now and then
  *     velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
+ *     what fell off a plate is laid aside
  *     the container moves; the phase may change
  */
 #include "step.h"
@@ -11,6 +12,7 @@
 #include "contact_forces.h"
 #include "failure.h"
 #include "filling.h"
+#include "lost.h"
 #include "step_profile.h"
 #include "wall_forces.h"
 
@@ -141,7 +143,9 @@ dem_status scene_step(dem_scene *scene)
     step_profile_lap(scene->profile, DEM_PART_MOTION);
     audit_half_step(scene);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);
+    lost_hold(scene);
     scene->step_count++;
+    lost_look(scene);
     move_container(scene);
     status = continue_phase(scene);
     step_profile_lap(scene->profile, DEM_PART_CONTAINER);

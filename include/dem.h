@@ -30,6 +30,7 @@ int64_t dem_scene_rotation_start(const dem_scene *scene); /* step at which rotat
 double dem_scene_time(const dem_scene *scene);           /* s since rotation began; negative before: less the time since creation */
 size_t dem_scene_particle_count(const dem_scene *scene); /* mobile particles, each sphere or cluster one; without the lining */
 size_t dem_scene_sphere_count(const dem_scene *scene);   /* spheres that these are made of */
+size_t dem_scene_lost_count(const dem_scene *scene);   /* particles that fell off the plate: they lie on a tray below it */
 bool dem_scene_has_clusters(const dem_scene *scene);
 double dem_scene_maximum_overlap(const dem_scene *scene); /* since rotation began, as a share of the smallest diameter */
 double dem_scene_kinetic_energy(const dem_scene *scene);  /* J, translation and rotation */

@@ -1,0 +1,93 @@
+#include "lost.h"
+
+enum { STEPS_BETWEEN_LOOKS = 50 };
+
+/* Distance between places on the tray: nobody can reach a neighbor. */
+static double tray_pitch(const spheres *s) { return 2.5 * s->largest_reach; }
+
+/* Place of particle p on the tray: a lattice as wide as the plate, layer below layer. */
+static void tray_place(const dem_scene *scene, size_t p, double x[3])
+{
+    const container *c = &scene->drum;
+    const double pitch = tray_pitch(&scene->spheres), width = c->high[0] - c->low[0];
+    const size_t side = (size_t)fmax(1.0, floor(width / pitch));
+    x[0] = c->low[0] + ((double)(p % side) + 0.5) * pitch;
+    x[1] = c->low[1] + ((double)(p / side % side) + 0.5) * pitch;
+    x[2] = -fmax(0.5 * width, 20 * scene->spheres.largest_reach) - (double)(p / (side * side)) * pitch;
+}
+
+/* A cluster's spheres follow from it with the next step; until then they stand where they were, turned about it. */
+static void lay_down(dem_scene *scene, size_t p)
+{
+    spheres *s = &scene->spheres;
+    double x[3];
+    tray_place(scene, p, x);
+    if (p < s->single_count) {
+        sphere_set_place(s, p, x);
+        s->velocity[p] = s->angular_velocity[p] = (vector4){ 0 };
+        return;
+    }
+    cluster_body *body = &s->clusters.body[p - s->single_count];
+    const size_t first = (size_t)body->first_sphere, end = first + s->clusters.shape[body->species].sphere_count;
+    for (size_t i = first; i < end; i++) {
+        const double *now = sphere_place(s, i);
+        const double moved[3] = { now[0] - body->x[0] + x[0], now[1] - body->x[1] + x[1], now[2] - body->x[2] + x[2] };
+        sphere_set_place(s, i, moved);
+        s->velocity[i] = s->angular_velocity[i] = (vector4){ 0 };
+    }
+    memcpy(body->x, x, sizeof x);
+    body->velocity = (vector4){ 0 };
+    memset(body->spin, 0, sizeof body->spin);
+    memset(body->spin_change, 0, sizeof body->spin_change);
+}
+
+dem_status lost_init(dem_scene *scene)
+{
+    if (scene->drum.kind != DEM_TUBE_ON_PLATE) return DEM_OK;
+    const size_t n = particles_count(&scene->spheres);
+    scene->lost = array_create(n, sizeof *scene->lost);
+    scene->is_lost = array_create(n, sizeof *scene->is_lost);
+    return scene->lost && scene->is_lost ? DEM_OK : DEM_NO_MEMORY;
+}
+
+void lost_clear(dem_scene *scene)
+{
+    free(scene->lost);
+    free(scene->is_lost);
+}
+
+static void lose(dem_scene *scene, size_t p)
+{
+    scene->is_lost[p] = true;
+    scene->lost[scene->lost_count++] = (int32_t)p;
+}
+
+void lost_look(dem_scene *scene)
+{
+    if (!scene->is_lost || scene->step_count % STEPS_BETWEEN_LOOKS) return;
+    const spheres *s = &scene->spheres;
+    const size_t before = scene->lost_count, n = particles_count(s);
+    for (size_t p = 0; p < n; p++)
+        if (!scene->is_lost[p] && particle_place(s, p)[2] < -2 * particle_reach(s, p)) lose(scene, p);
+    for (size_t k = before; k < scene->lost_count; k++) lay_down(scene, (size_t)scene->lost[k]);
+    if (scene->lost_count > before) neighbor_list_invalidate(&scene->neighbors);
+}
+
+void lost_hold(dem_scene *scene)
+{
+    for (size_t k = 0; k < scene->lost_count; k++) lay_down(scene, (size_t)scene->lost[k]);
+}
+
+void lost_recognize(dem_scene *scene)
+{
+    if (!scene->is_lost) return;
+    const size_t n = particles_count(&scene->spheres);
+    scene->lost_count = 0;
+    for (size_t p = 0; p < n; p++) {
+        const double *place = particle_place(&scene->spheres, p);
+        double x[3];
+        tray_place(scene, p, x);
+        scene->is_lost[p] = false;
+        if (place[0] == x[0] && place[1] == x[1] && place[2] == x[2]) lose(scene, p);
+    }
+}
