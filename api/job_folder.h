@@ -23,6 +23,7 @@
  *   checkpoint.hdf             newest full state
  *   result.json                the document of GET /jobs/{id}/results; written last, by rename. A worker that finds
  *                              it, of the same spec, has nothing to do and ends with 0
+ *   profile.json               what the time went into, where `repose run --profile` was asked for it
  *   log.txt                    the worker's stderr
  */
 #ifndef JOB_FOLDER_H
@@ -35,6 +36,7 @@
 #define JOB_SERIES_FILE "snapshots.hdf.series"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
 #define JOB_RESULT_FILE "result.json"
+#define JOB_PROFILE_FILE "profile.json"
 #define JOB_LOG_FILE "log.txt"
 
 /* How `repose run` ends. */

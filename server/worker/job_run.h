@@ -12,6 +12,7 @@ typedef struct run_options {
     int attempt;
     double checkpoint_seconds; /* wall time between checkpoints */
     bool on_terminal;          /* show a progress line */
+    bool profile;              /* write what the time went into */
 } run_options;
 
 /* What a process's runner is given. The job folder is the working directory, and this worker's alone. */

@@ -13,6 +13,7 @@
 #include "hdf_file.h"
 #include "job_run.h"
 #include "json_text.h"
+#include "run_profile.h"
 #include "run_summary.h"
 #include "spec_file.h"
 #include "study_report.h"
@@ -27,6 +28,7 @@ static const char help[] =
     "    --attempt N               of a job that was begun before (default 1)\n"
     "    --checkpoint-seconds S    between checkpoints (default 30)\n"
     "    --json                    print the results as JSON\n"
+    "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"
     "                              memory; or every problem it has. Of a study: its cases and what it costs\n"
     "repose --help | --version\n"
@@ -73,9 +75,13 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
-        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
-        { "json", no_argument, NULL, 'j' },          { NULL, 0, NULL, 0 },
+        { "out", required_argument, NULL, 'o' },
+        { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' },
+        { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },
+        { "profile", no_argument, NULL, 'p' },
+        { NULL, 0, NULL, 0 },
     };
     *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
     bool good = true;
@@ -86,6 +92,7 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         case 'a': good = read_whole("attempt", optarg, INT_MAX, &line->run.attempt); break;
         case 'c': good = read_seconds("checkpoint-seconds", optarg, &line->run.checkpoint_seconds); break;
         case 'j': line->json = true; break;
+        case 'p': line->run.profile = true; break;
         default: return WORKER_BAD_SPEC; /* getopt has said why */
         }
         if (!good) return WORKER_BAD_SPEC;
@@ -185,6 +192,13 @@ static void print_result(const command_line *line, const job_spec *spec)
     free(text);
 }
 
+static void print_profile(void)
+{
+    json_t *report = json_load_file(JOB_PROFILE_FILE, 0, NULL); /* a granule has none */
+    if (report) run_profile_print(report);
+    json_decref(report);
+}
+
 static enum worker_exit run(int argc, char **argv)
 {
     command_line line;
@@ -201,6 +215,7 @@ static enum worker_exit run(int argc, char **argv)
     exit = job_run(&spec, line.out, &line.run);
     if (line.run.on_terminal) terminal_end_progress();
     if (exit == WORKER_DONE && (line.json || line.run.on_terminal)) print_result(&line, &spec);
+    if (exit == WORKER_DONE && line.run.profile && !line.json) print_profile();
     job_spec_clear(&spec);
     return exit;
 }

@@ -14,6 +14,8 @@
 
 #include "checkpoint_file.h"
 #include "failure_report.h"
+#include "file_publish.h"
+#include "json_text.h"
 #include "run_summary.h"
 #include "snapshot_file.h"
 #include "worker_log.h"
@@ -79,7 +81,10 @@ static json_t *frame_values(const scene_test *test, const double *frame)
 static enum worker_exit take_sample(scene_run *r)
 {
     double *frame = r->frames + (size_t)r->next_sample * r->frame_width;
+    run_profile_lap_begin(&r->profile);
     const dem_status status = r->test->frame_measure(r->scene, frame);
+    run_profile_lap(&r->profile, RUN_MEASURES);
+    run_profile_look(&r->profile, r->scene);
     if (status != DEM_OK) return fail(r, status);
     json_t *event = json_pack("{s:I, s:o}", "number", (json_int_t)r->next_sample, "values", frame_values(r->test, frame));
     r->next_sample++;
@@ -91,7 +96,9 @@ static enum worker_exit take_sample(scene_run *r)
 static enum worker_exit end_when_over(scene_run *r)
 {
     if (!r->test->look) return WORKER_DONE;
+    run_profile_lap_begin(&r->profile);
     const dem_status status = r->test->look(r, &r->ended_by);
+    run_profile_lap(&r->profile, RUN_MEASURES);
     if (status != DEM_OK) return fail(r, status);
     if (r->ended_by) schedule_end_at(&r->plan, rotation_step(r), r->next_sample, r->next_snapshot);
     return WORKER_DONE;
@@ -124,8 +131,10 @@ static enum worker_exit take_what_is_due(scene_run *r)
     const bool sampled = r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) == step;
     if (sampled) exit = take_sample(r);
     if (exit == WORKER_DONE && sampled) exit = end_when_over(r);
+    run_profile_lap_begin(&r->profile);
     if (exit == WORKER_DONE && r->next_snapshot < r->plan.snapshots && schedule_snapshot_step(&r->plan, r->next_snapshot) == step)
         exit = take_snapshot(r);
+    run_profile_lap(&r->profile, RUN_SNAPSHOTS);
     return exit;
 }
 
@@ -154,6 +163,7 @@ static enum worker_exit report_progress(scene_run *r)
 {
     if (dem_scene_phase(r->scene) != r->phase) {
         r->phase = dem_scene_phase(r->scene);
+        if (is_rotating(r)) run_profile_rotating(&r->profile, r->scene);
         worker_log("%s since step %lld", dem_phase_name(r->phase), (long long)dem_scene_step_count(r->scene));
     }
     progress_report report;
@@ -176,7 +186,9 @@ static enum worker_exit run_to_the_end(scene_run *r)
             worker_log("stopped at step %lld", (long long)dem_scene_step_count(r->scene));
             return exit == WORKER_DONE ? WORKER_STOPPED : exit;
         }
+        run_profile_lap_begin(&r->profile);
         if (monotonic_seconds() - r->last_checkpoint >= r->options->checkpoint_seconds) exit = save_checkpoint(r);
+        run_profile_lap(&r->profile, RUN_CHECKPOINTS);
         if (exit != WORKER_DONE) return exit;
         const dem_status status = advance(r);
         if (status != DEM_OK) return fail(r, status);
@@ -222,6 +234,17 @@ static enum worker_exit write_result(scene_run *r)
         return fail_for_disk(r, JOB_SERIES_FILE);
     }
     return job_run_write_result(r->events, document);
+}
+
+static bool write_profile(const scene_run *r)
+{
+    if (!r->profile.is_on) return true;
+    json_t *report = run_profile_report(&r->profile, r->scene);
+    char *text = report ? json_text_write(report) : NULL;
+    const bool written = text && file_write(JOB_PROFILE_FILE, text, strlen(text));
+    free(text);
+    json_decref(report);
+    return written;
 }
 
 /* Takes up where the checkpoint of an earlier attempt left off; false: there is none that can be used, and the scene
@@ -272,6 +295,7 @@ static enum worker_exit begin(scene_run *r)
     progress_init(&r->progress, r->spec, &r->plan, r->scene, earlier_seconds);
     r->last_checkpoint = monotonic_seconds();
     r->phase = dem_scene_phase(r->scene);
+    run_profile_begin(&r->profile, r->scene);
     const job_estimate estimate = job_spec_estimate(r->spec, NULL);
     worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d", r->options->attempt,
                resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene), dem_phase_name(r->phase),
@@ -289,9 +313,11 @@ enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
                     .options = job->options,
                     .params = job->params,
                     .events = job->events,
+                    .profile = { .is_on = job->options->profile },
                     .plan = schedule_of(job->spec) };
     enum worker_exit exit = begin(&r);
     if (exit == WORKER_DONE) exit = run_to_the_end(&r);
+    if (exit == WORKER_DONE && !write_profile(&r)) exit = fail_for_disk(&r, JOB_PROFILE_FILE);
     if (exit == WORKER_DONE) exit = write_result(&r);
     if (exit == WORKER_DONE) worker_log("done in %.1f s", progress_wall_seconds(&r.progress));
     dem_scene_free(r.scene);

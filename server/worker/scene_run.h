@@ -7,6 +7,7 @@
 #include "job_run.h"
 #include "progress.h"
 #include "run_facts.h"
+#include "run_profile.h"
 #include "schedule.h"
 
 typedef struct scene_run scene_run;
@@ -37,6 +38,7 @@ struct scene_run {
     double last_checkpoint, last_series; /* s, monotonic */
     dem_phase phase;                     /* the last one logged */
     progress progress;
+    run_profile profile;
 };
 
 enum worker_exit scene_run_job(const job_context *job, const scene_test *test);
