@@ -3,6 +3,7 @@
 PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core
+REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
 LINT_PACKAGES := clang-format clang-tidy cppcheck bear
 
 PYTHON := /usr/bin/python3
@@ -81,6 +82,10 @@ physics: test-packages ## long physics: the drum's angles against the paper's
 	@$(MAKE) --no-print-directory programs
 	@$(PYTHON) -m pytest -q -p no:cacheprovider tests/physics
 
+reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
+	@$(MAKE) --no-print-directory programs
+	@$(PYTHON) tests/reproduce $(STUDIES) --build $(BUILD) --data $(DATA)/reproduce
+
 check: programs ## the layers: the core needs nothing but libc, libm and OpenMP
 	@sh tests/check_layers.sh $(BUILD)
 
@@ -125,9 +130,11 @@ packages:
 	$(call install,$(PACKAGES))
 test-packages: packages
 	$(call install,$(TEST_PACKAGES))
+report-packages: packages
+	$(call install,$(REPORT_PACKAGES))
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES))
 
-.PHONY: all programs demo serve test physics check bench asan asan-run tsan format lint clean help packages test-packages lint-packages
+.PHONY: all programs demo serve test physics reproduce check bench asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

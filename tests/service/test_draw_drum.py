@@ -1,11 +1,14 @@
 """draw_drum.py on a made-up snapshot whose surface has a known place and slope."""
 import json
+import sys
+from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
 
-import draw_drum
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "reproduce"))
+import draw_drum  # noqa: E402
 
 DIAMETER, ANGLE = 0.126, np.radians(25.0)
 

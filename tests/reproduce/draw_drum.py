@@ -121,13 +121,15 @@ def draw_angle(axes, snapshot, results, ink):
     axes.set_title(f"angle of repose {text}" + (f", {regime}" if regime else ""), color=ink, fontsize=13)
 
 
-def draw(snapshot, results, picture, colour="speed", thickness=None, dark=False):
+def draw(snapshot, results, picture, colour="speed", thickness=None, dark=False, dpi=150):
+    """results: None for a drum of which no angle is wanted."""
     ink, paper = ("#e6e9ea", "#14191c") if dark else ("#1f2a30", "#ffffff")
     chosen = in_slice(snapshot, thickness)
     figure, axes = plt.subplots(figsize=(7.2, 6.4), facecolor=paper)
     draw_wall(axes, snapshot, ink)
     spheres = draw_particles(axes, snapshot, chosen, colour, ink)
-    draw_angle(axes, snapshot, results, ink)
+    if results:
+        draw_angle(axes, snapshot, results, ink)
     if colour == "speed":
         bar = figure.colorbar(spheres, ax=axes, fraction=0.04, pad=0.02)
         bar.set_label("speed, m/s", color=ink)
@@ -136,7 +138,7 @@ def draw(snapshot, results, picture, colour="speed", thickness=None, dark=False)
     axes.set(xlim=(-half, half), ylim=(-half, half), aspect="equal")
     axes.axis("off")
     axes.text(-half, -half, f"{snapshot['time']:.2f} s", color=ink, fontsize=10, va="bottom")
-    figure.savefig(picture, dpi=150, bbox_inches="tight", facecolor=paper)
+    figure.savefig(picture, dpi=dpi, bbox_inches="tight", facecolor=paper)
     plt.close(figure)
     return len(chosen)
 

@@ -1,0 +1,94 @@
+"""Means over runs with their errors, and how far they are from what the paper says.
+
+z = (here - paper)/sqrt(error here^2 + spread of the paper^2). The error here is the standard error over the runs, or
+what the runs themselves say of their angles where that is larger: a spread known from three numbers is often far too
+small by chance.
+"""
+import math
+
+AGREES = 3.0  # spreads
+
+
+class Mean:
+    def __init__(self, value, error, count):
+        self.value, self.error, self.count = value, error, count
+
+
+def find(run, path):
+    """run["results"]["repose"]["angle_deg"] for "results.repose.angle_deg"; None where it leads nowhere or is null."""
+    for name in path.split("."):
+        run = run.get(name) if isinstance(run, dict) else None
+    return run
+
+
+def error_path(path):
+    """Where a run says its own error of that number; None: nowhere."""
+    place, _, name = path.rpartition(".")
+    if name in ("angle_deg",):
+        return f"{place}.standard_error_deg"
+    if place.endswith("other_methods"):
+        return f"{place}_standard_error_deg.{name}"
+    if name == "minimum_omega2":
+        return f"{place}.error"
+    return f"{path}_standard_error"
+
+
+def mean(runs, path):
+    """None where no run has that number."""
+    values = [value for value in (find(run, path) for run in runs) if isinstance(value, (int, float)) and not isinstance(value, bool)]
+    if not values:
+        return None
+    own = [error for error in (find(run, error_path(path)) for run in runs) if isinstance(error, (int, float))]
+    n, middle = len(values), sum(values) / len(values)
+    among = math.sqrt(sum((value - middle) ** 2 for value in values) / (n - 1) / n) if n > 1 else None
+    told = math.sqrt(sum(error**2 for error in own)) / n if len(own) == n else None
+    errors = [error for error in (among, told) if error is not None]
+    return Mean(middle, max(errors) if errors else None, n)
+
+
+def z_of(here, value, spread=0.0):
+    """None where neither side has a spread."""
+    both = math.hypot(here.error or 0.0, spread or 0.0)
+    return (here.value - value) / both if both > 0.0 else None
+
+
+def difference(one, other):
+    return Mean(one.value - other.value, math.hypot(one.error or 0.0, other.error or 0.0), min(one.count, other.count))
+
+
+def furthest_apart(means):
+    """(z, name, name) of the two of {name: Mean} that differ most for their errors; None for fewer than two."""
+    names, worst = list(means), None
+    for i, one in enumerate(names):
+        for other in names[i + 1:]:
+            z = z_of(difference(means[one], means[other]), 0.0)
+            if z is not None and (worst is None or abs(z) > abs(worst[0])):
+                worst = (z, one, other)
+    return worst
+
+
+class Verdict:
+    """A row of the paper beside the runs: here is a Mean or a text, z may be None, agrees None where nothing was run."""
+
+    def __init__(self, row, here, z, agrees, runs=0):
+        self.row, self.here, self.z, self.agrees, self.runs = row, here, z, agrees, runs
+
+
+def judge(row, runs):
+    """row: an entry of paper.json."""
+    if not runs:
+        return Verdict(row, None, None, None)
+    if "words" in row:
+        said = [find(run, row["measure"]) for run in runs]
+        names = sorted({str(name) for name in said})
+        text = ", ".join(name if len(names) == 1 else f"{name} {said.count(name)}" for name in names)
+        return Verdict(row, text, None, all(name in row["words"] for name in said))
+    here = mean(runs, row["measure"])
+    if here is None:
+        return Verdict(row, None, None, None)
+    if "value" in row:
+        z = z_of(here, row["value"], row.get("spread"))
+        return Verdict(row, here, z, here.value == row["value"] if z is None else abs(z) <= AGREES, len(runs))
+    bound, sign = (row["above"], 1.0) if "above" in row else (row["below"], -1.0)
+    z = z_of(here, bound)
+    return Verdict(row, here, z, sign * (here.value - bound) > 0.0 if z is None else sign * z > AGREES, len(runs))

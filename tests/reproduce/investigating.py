@@ -1,0 +1,66 @@
+"""Where a row of the paper disagrees by more than three of its spreads: what the paper leaves unsaid is varied, one
+thing at a time, and the row is looked at again."""
+import copy
+
+from collecting import cases_of, runs_of
+from comparing import judge
+
+
+def merge_patch(target, patch):
+    """RFC 7396."""
+    if not isinstance(patch, dict):
+        return copy.deepcopy(patch)
+    merged = copy.deepcopy(target) if isinstance(target, dict) else {}
+    for name, value in patch.items():
+        if value is None:
+            merged.pop(name, None)
+        else:
+            merged[name] = merge_patch(merged.get(name), value)
+    return merged
+
+
+def request_of(document, case):
+    """The inputs of a case before defaults: base and patch, or base with its varied values."""
+    inputs = document["base"]["inputs"]
+    patch = next((entry.get("inputs", {}) for entry in document.get("cases", []) if entry["name"] == case), None)
+    return None if patch is None else merge_patch(inputs, patch)
+
+
+def variants(inputs):
+    """What is unsaid: how rough the wall is, how full the drum, how stiff and how elastic the particles."""
+    diameter = max(kind["diameter"] for kind in inputs["particles"])
+    friction, fill = inputs["wall"]["friction"], inputs["fill_fraction"]
+    overlap = inputs["contact"].get("maximum_overlap", 0.01)
+    lining = {"diameter": diameter, "pitch": diameter}
+    return [
+        {"name": "wall lined with glued spheres", "inputs": {"wall": {"lining": lining}}},
+        {"name": f"wall friction {friction / 2:g}", "inputs": {"wall": {"friction": friction / 2}}},
+        {"name": f"wall friction {friction * 2:g}", "inputs": {"wall": {"friction": friction * 2}}},
+        {"name": f"fill {fill - 0.1:g}", "inputs": {"fill_fraction": round(fill - 0.1, 4)}},
+        {"name": f"fill {fill + 0.1:g}", "inputs": {"fill_fraction": round(fill + 0.1, 4)}},
+        {"name": f"four times as stiff, overlap {overlap / 2:g}", "inputs": {"contact": {"maximum_overlap": overlap / 2}}},
+        {"name": "restitution 0.9", "inputs": {"contact": {"restitution": 0.9}}},
+    ]
+
+
+def can_vary(collected, row):
+    """Drums alone have all that is varied; a row without a number can't be nearer or further."""
+    process = collected["document"]["base"].get("process", "drum")
+    inputs = request_of(collected["document"], row["case"])
+    return process == "drum" and "value" in row and inputs is not None and "fill_fraction" in inputs \
+        and "friction" in inputs.get("wall", {}) and all("diameter" in kind for kind in inputs["particles"])
+
+
+def document_for(collected, case):
+    """The study that varies the unsaid about one case."""
+    inputs = request_of(collected["document"], case)
+    cases = [entry | {"label": {"paper": "unsaid"}} for entry in variants(inputs)]
+    name = f"investigate {collected['document']['name']}: {case}"
+    return {"name": name, "description": f"What the paper leaves unsaid about {case}, varied one thing at a time.",
+            "base": {"inputs": inputs}, "cases": cases, "repeats": 1}
+
+
+def disagreeing(collected, rows):
+    """Cases with a row that disagrees and can be varied, in order, each once."""
+    wrong = [row["case"] for row in rows if can_vary(collected, row) and judge(row, runs_of(collected, row["case"])).agrees is False]
+    return [case for case in cases_of(collected) if case in wrong]
