@@ -80,13 +80,13 @@ def run_all(service, files, collection, rows_of):
     posted = {name: posting.post(service, json.loads(path.read_text()), say) for name, path in files.items()}
     further = []
     for name, study in posted.items():
-        posting.wait(service, study, say)
+        posting.wait(service, study, posted.values(), say)
         collected = collecting.collect(service, name, study)
         collection.keep(collected)
         for case in investigating.disagreeing(collected, rows_of(name)):
             further.append((name, case, posting.post(service, investigating.document_for(collected, case), say)))
     for name, case, study in further:
-        posting.wait(service, study, say)
+        posting.wait(service, study, [entry[2] for entry in further], say)
         collection.keep(collecting.collect(service, name, study), case)
 
 

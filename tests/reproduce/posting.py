@@ -4,7 +4,7 @@ import json
 import subprocess
 import time
 
-from service import ENDED, ROOT
+from service import ENDED, ROOT, processors
 
 LINE_EVERY = 60.0  # seconds, where nothing has changed
 
@@ -58,14 +58,21 @@ def progress_line(info):
     return f"{info['name']}: {done} of {info['jobs']} runs, {info['progress']:.0f} %{failed}"
 
 
-def wait(service, study, tell=print):
-    """How the study ended."""
+def left(service, studies):
+    """Minutes until all of them have ended, as it was estimated when they were posted."""
+    infos = [service.get(f"/studies/{study}") for study in studies]
+    seconds = sum(info["estimated_seconds"] * (1.0 - info["progress"] / 100.0) for info in infos if info["status"] not in ENDED)
+    return seconds / (service.workers or processors()) / 60.0
+
+
+def wait(service, study, studies, tell=print):
+    """How the study ended. studies: all that are under way, for the time that is left."""
     said, when = None, 0.0
     while True:
         info = service.get(f"/studies/{study}?wait={0 if said is None else 5}")
         done = sum(info["counts"][status] for status in ENDED)
         if done != said or time.monotonic() - when > LINE_EVERY:
-            tell(time.strftime("%H:%M:%S ") + progress_line(info))
+            tell(f"{time.strftime('%H:%M:%S')} {progress_line(info)}; about {left(service, studies):.0f} min for all that is posted")
             said, when = done, time.monotonic()
         if info["status"] in ENDED:
             return info
