@@ -72,7 +72,7 @@ def wait(service, study, studies, tell=print):
         info = service.get(f"/studies/{study}?wait={0 if said is None else 5}")
         done = sum(info["counts"][status] for status in ENDED)
         if done != said or time.monotonic() - when > LINE_EVERY:
-            tell(f"{time.strftime('%H:%M:%S')} {progress_line(info)}; about {left(service, studies):.0f} min for all that is posted")
+            tell(f"{time.strftime('%H:%M:%S')} {progress_line(info)}; about {left(service, studies):.0f} min left in all")
             said, when = done, time.monotonic()
         if info["status"] in ENDED:
             return info
