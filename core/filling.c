@@ -1,7 +1,6 @@
 #include "filling.h"
 
 #include "dem_rules.h"
-#include "random.h"
 
 /* Solid fraction of the region that spheres grow into, and the one at which random placing one after the other
  * is still quick (it jams at 0.38). */
@@ -35,6 +34,16 @@ static void assign_clusters(spheres *s, const dem_species *species, size_t k, si
     }
 }
 
+static void set_extremes(spheres *s)
+{
+    s->smallest_diameter = INFINITY;
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        s->smallest_diameter = fmin(s->smallest_diameter, 2 * s->full_radius[i]);
+        s->largest_diameter = fmax(s->largest_diameter, 2 * s->full_radius[i]);
+    }
+    for (size_t p = 0; p < particles_count(s); p++) s->largest_reach = fmax(s->largest_reach, particle_reach(s, p));
+}
+
 static void assign_species(spheres *s, const dem_drum_definition *definition)
 {
     size_t single = 0, body = 0, joined = s->single_count;
@@ -50,12 +59,23 @@ static void assign_species(spheres *s, const dem_drum_definition *definition)
             joined += count * species->cluster.sphere_count;
         }
     }
-    s->smallest_diameter = INFINITY;
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        s->smallest_diameter = fmin(s->smallest_diameter, 2 * s->full_radius[i]);
-        s->largest_diameter = fmax(s->largest_diameter, 2 * s->full_radius[i]);
+    set_extremes(s);
+}
+
+void filling_assign_in_order(spheres *s, const dem_drum_definition *definition, const int32_t *order)
+{
+    size_t single = 0, body = 0, joined = s->single_count;
+    for (size_t p = 0; p < definition->particle_count; p++) {
+        const size_t k = (size_t)order[p];
+        const dem_species *species = &definition->species[k];
+        if (species->cluster.sphere_count == 0) {
+            assign_spheres(s, species, k, single++, 1);
+        } else {
+            assign_clusters(s, species, k, body++, joined, 1);
+            joined += species->cluster.sphere_count;
+        }
     }
-    for (size_t p = 0; p < particles_count(s); p++) s->largest_reach = fmax(s->largest_reach, particle_reach(s, p));
+    set_extremes(s);
 }
 
 /* Particles placed so far, each as the sphere that holds it, in linked cells. */
@@ -106,7 +126,7 @@ typedef struct random_streams {
 } random_streams;
 
 /* Evenly over all orientations (Shoemake 1992). */
-static quaternion random_orientation(random_stream *random)
+quaternion filling_random_orientation(random_stream *random)
 {
     const double u = random_uniform(random), a = 2 * DEM_PI * random_uniform(random), b = 2 * DEM_PI * random_uniform(random);
     return (quaternion){ sqrt(1 - u) * sin(a), sqrt(1 - u) * cos(a), sqrt(u) * sin(b), sqrt(u) * cos(b) };
@@ -158,7 +178,7 @@ static bool place_one(placing *p, spheres *s, size_t i, const region *r, double 
         } else {
             cluster_body *body = &s->clusters.body[i - s->single_count];
             memcpy(body->x, x, sizeof x);
-            body->orientation = random_orientation(&random->turn);
+            body->orientation = filling_random_orientation(&random->turn);
         }
         insert(p, x, (int32_t)i);
         return true;

@@ -4,6 +4,8 @@
 #define FILLING_H
 
 #include "container.h"
+#include "quaternion.h"
+#include "random.h"
 #include "spheres.h"
 
 typedef struct filling {
@@ -18,6 +20,9 @@ typedef struct filling {
 /* Mass, inertia and species of every particle, its place and orientation at start_scale.
  * Errors: DEM_DOES_NOT_FIT, DEM_NO_MEMORY. */
 dem_status filling_place(filling *filling, spheres *spheres, const container *drum, const dem_drum_definition *definition);
+/* Mass, inertia and species alone, of particles in the order of their species (particles). */
+void filling_assign_in_order(spheres *spheres, const dem_drum_definition *definition, const int32_t *order);
+quaternion filling_random_orientation(random_stream *random); /* evenly over all */
 /* Share of full size after so many steps of growing. */
 double filling_scale(const filling *filling, int64_t steps);
 

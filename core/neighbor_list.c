@@ -54,6 +54,14 @@ void neighbor_list_invalidate(neighbor_list *list)
     list->inner_valid = false;
 }
 
+void neighbor_list_extend(neighbor_list *list, size_t before, size_t now)
+{
+    for (size_t i = before + 1; i <= now; i++) {
+        list->pairs.start[i] = list->pairs.start[before];
+        list->walls.start[i] = list->walls.start[before];
+    }
+}
+
 /* ---- outer list ---- */
 
 static inline double squared_distance(const double a[3], const double b[3], double period, double inverse_period)

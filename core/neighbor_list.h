@@ -54,6 +54,8 @@ typedef struct neighbor_list {
 dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres);
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand */
+/* Spheres were added behind the last one: they have touched nothing yet. Invalidate, too. */
+void neighbor_list_extend(neighbor_list *list, size_t before, size_t now);
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
  * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. made_new (may be NULL): whether anything was done. */
 dem_status neighbor_list_update(neighbor_list *list, const spheres *spheres, const container *drum,

@@ -4,6 +4,7 @@
 
 #include "dem_cluster.h"
 #include "dem_rules.h"
+#include "dem_stream.h"
 
 static bool is_positive(double x) { return isfinite(x) && x > 0; }
 
@@ -44,6 +45,15 @@ static bool are_lifters(const dem_lifters *l, double radius)
     return top > 0 && hypot(top, half) <= radius && (l->count < 3 || half < top * tan(DEM_PI / (double)l->count));
 }
 
+/* Nothing below is of use before species are known to be good. */
+static bool is_stream(const dem_drum_definition *d)
+{
+    const double rate = d->stream.rate;
+    if (rate == 0) return true;
+    return d->container == DEM_CYLINDER && is_positive(rate) && d->stream.diameter <= d->diameter
+           && d->stream.diameter >= dem_stream_widest(d) && d->stream.impact_speed >= dem_stream_least_impact_speed(d);
+}
+
 /* Beside the measures that every container has. */
 static bool is_container(const dem_drum_definition *d)
 {
@@ -81,7 +91,7 @@ static dem_status parameters_check(const dem_drum_definition *d)
     if (good && d->lining.diameter != 0)
         good = is_positive(d->lining.diameter) && is_positive(d->lining.pitch) && d->lining.diameter < 0.25 * d->diameter
                && d->lining.pitch <= d->length;
-    return good && is_container(d) ? DEM_OK : DEM_BAD_PARAMETER;
+    return good && is_container(d) && is_stream(d) ? DEM_OK : DEM_BAD_PARAMETER;
 }
 
 dem_status parameters_complete(dem_drum_definition *d)

@@ -2,6 +2,7 @@
 
 #include "lost.h"
 #include "parameters.h"
+#include "stream.h"
 
 dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
 {
@@ -9,6 +10,7 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     dem_scene *scene = array_create(1, sizeof *scene);
     if (!scene) return DEM_NO_MEMORY;
     scene->definition = *definition;
+    stream_complete_species(&scene->definition);
     dem_status status = parameters_complete(&scene->definition);
     if (status != DEM_OK) {
         free(scene);
@@ -18,7 +20,9 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     scene->rotation_start = -1;
     container_init(&scene->drum, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
-    if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
+    if (status == DEM_OK)
+        status =
+            has_stream(definition) ? stream_init(scene) : filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
     if (status == DEM_OK) status = lost_init(scene);
     if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres);
     if (status != DEM_OK) {
@@ -26,7 +30,8 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
         return status;
     }
     container_place_lining(&scene->drum, definition, &scene->spheres);
-    scene_enter_phase(scene, DEM_PHASE_GROWING);
+    if (has_stream(definition)) stream_begin(scene);
+    else scene_enter_phase(scene, DEM_PHASE_GROWING);
     *out = scene;
     return DEM_OK;
 }

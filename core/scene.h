@@ -10,6 +10,12 @@
 #include "neighbor_list.h"
 #include "spheres.h"
 
+/* All particles of a stream, those not yet in included. */
+typedef struct stream {
+    size_t particles, spheres;
+    bool has_clusters; /* then every particle is one, if of one sphere */
+} stream;
+
 struct dem_scene {
     dem_drum_definition definition;
     dem_contact_parameters contact; /* those of the present phase: friction waits until spheres have grown */
@@ -17,6 +23,7 @@ struct dem_scene {
     spheres spheres;
     neighbor_list neighbors;
     filling filling;
+    stream stream;
     dem_phase phase;
     int64_t step_count, phase_start, rotation_start; /* rotation_start: -1 before */
     double maximum_overlap;                          /* m since rotation began */

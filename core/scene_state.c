@@ -3,6 +3,7 @@
 #include "lost.h"
 #include "scene.h"
 #include "step.h"
+#include "stream.h"
 
 enum { STATE_INTEGERS = 4, STATE_NUMBERS = 3, HISTORY_NUMBERS = 5 };
 /* What a cluster's spheres don't tell of it. */
@@ -186,6 +187,8 @@ static void restore_clusters(clusters *c, const double *numbers)
 
 dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
 {
+    const dem_state_array *places = state_find(state, "position", DEM_FLOAT64, 3);
+    if (!places || stream_restore(scene, places->rows) != DEM_OK) return DEM_STATE_MISMATCH;
     const size_t n = scene->spheres.mobile_count;
     const dem_state_array *integers = state_find(state, "counters", DEM_INT64, STATE_INTEGERS);
     const dem_state_array *numbers = state_find(state, "numbers", DEM_FLOAT64, STATE_NUMBERS);

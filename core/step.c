@@ -4,7 +4,7 @@
  *     each sphere's sum over its contacts, and each cluster's over its spheres
  *     a look at the drum's torque now and then
  *     velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
- *     what fell off a plate is laid aside
+ *     what fell off a plate is laid aside; what is due of a stream enters
  *     the container moves; the phase may change
  */
 #include "step.h"
@@ -14,6 +14,7 @@
 #include "filling.h"
 #include "lost.h"
 #include "step_profile.h"
+#include "stream.h"
 #include "wall_forces.h"
 
 dem_status scene_update_neighbors(dem_scene *scene)
@@ -146,6 +147,7 @@ dem_status scene_step(dem_scene *scene)
     lost_hold(scene);
     scene->step_count++;
     lost_look(scene);
+    stream_enter(scene);
     move_container(scene);
     status = continue_phase(scene);
     step_profile_lap(scene->profile, DEM_PART_CONTAINER);

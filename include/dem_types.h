@@ -111,6 +111,13 @@ typedef struct dem_plate {
     double friction;
 } dem_plate;
 
+/* Particles that enter a standing cylinder one after the other: dem_stream.h. */
+typedef struct dem_stream {
+    double rate;         /* 1/s; 0: no stream, the bed makes itself */
+    double diameter;     /* m, of the inlet, in the cylinder's middle */
+    double impact_speed; /* m/s, at the level of the bed */
+} dem_stream;
+
 enum { DEM_MAXIMUM_LIFTERS = 64 };
 
 typedef struct dem_drum_definition {
@@ -121,6 +128,7 @@ typedef struct dem_drum_definition {
     dem_lifters lifters;
     dem_lift lift;        /* of the tube alone */
     dem_plate plate;      /* of the tube alone; a cylinder's floor has ends.friction */
+    dem_stream stream;    /* of the cylinder alone */
     double rotation_rate; /* rad/s; the drum's */
     double gravity;       /* m/s2 */
     double fill_fraction; /* share of the cross-section below the free surface at a bed solid fraction of 0.6 */
@@ -138,7 +146,7 @@ typedef struct dem_drum_definition {
 typedef enum dem_phase {
     DEM_PHASE_GROWING,  /* spheres placed at random grow to full size, without gravity */
     DEM_PHASE_SETTLING, /* the bed falls and comes to rest in the standing drum */
-    DEM_PHASE_ROTATING  /* the drum turns; the tube is raised */
+    DEM_PHASE_ROTATING  /* the drum turns; the tube is raised; the stream fills the cylinder, from the first step on */
 } dem_phase;
 
 /* The parts of a step, for whoever wants to know what they cost. */

@@ -1,0 +1,68 @@
+/* The stream that fills a cylinder: where its inlet is, how fast particles enter, and how many of them it lets through.
+ * Inline, because the daemon, which checks requests, does not link the core. Reasons: core/NUMERICS.md, "The stream". */
+#ifndef DEM_STREAM_H
+#define DEM_STREAM_H
+
+#include "dem_rules.h"
+
+/* Solid share of the inlet's flow up to which a random free place is found at once: random placing jams at 0.38, and
+ * particles that bounce back want room too. */
+#define DEM_STREAM_MOST_SOLID 0.15
+
+/* Solid fraction that the level of the bed is counted by. Clusters pack looser than spheres. */
+static inline double dem_stream_bed_fraction(const dem_drum_definition *d)
+{
+    bool has_clusters = false;
+    for (size_t s = 0; s < d->species_count; s++) has_clusters = has_clusters || d->species[s].cluster.sphere_count > 1;
+    return has_clusters ? 0.5 : DEM_BED_SOLID_FRACTION;
+}
+
+/* m above the floor: level of a bed of so many particles, were it flat. */
+static inline double dem_stream_level(const dem_drum_definition *d, double particles)
+{
+    const double area = DEM_PI / 4.0 * d->diameter * d->diameter;
+    return particles * dem_mean_volume(d->species, d->species_count) / (dem_stream_bed_fraction(d) * area);
+}
+
+static inline double dem_stream_widest(const dem_drum_definition *d)
+{
+    double reach = 0.0;
+    for (size_t s = 0; s < d->species_count; s++) reach = fmax(reach, dem_species_reach(&d->species[s]));
+    return 2.0 * reach;
+}
+
+/* m from the level of the bed up to the inlet: a mound as steep as 37 degrees below it, and three particles more. */
+static inline double dem_stream_clearance(const dem_drum_definition *d) { return 0.25 * d->diameter + 3.0 * dem_stream_widest(d); }
+
+/* m above the floor, of the centre of a particle that enters after so many others. */
+static inline double dem_stream_inlet_height(const dem_drum_definition *d, double particles)
+{
+    return dem_stream_level(d, particles) + dem_stream_clearance(d);
+}
+
+/* m/s: what falls from the inlet to the level of the bed arrives with at least this. */
+static inline double dem_stream_least_impact_speed(const dem_drum_definition *d)
+{
+    return sqrt(2.0 * d->gravity * dem_stream_clearance(d));
+}
+
+/* m/s, downward at the inlet; NaN where impact_speed is below the least. */
+static inline double dem_stream_entry_speed(const dem_drum_definition *d)
+{
+    return sqrt(d->stream.impact_speed * d->stream.impact_speed - 2.0 * d->gravity * dem_stream_clearance(d));
+}
+
+/* Particles a second that make up `solid` of the flow at a speed. */
+static inline double dem_stream_rate(const dem_drum_definition *d, double solid, double speed)
+{
+    const double area = DEM_PI / 4.0 * d->stream.diameter * d->stream.diameter;
+    return solid * area * speed / dem_mean_volume(d->species, d->species_count);
+}
+
+/* 1/s: more would clog the inlet. */
+static inline double dem_stream_most_rate(const dem_drum_definition *d)
+{
+    return dem_stream_rate(d, DEM_STREAM_MOST_SOLID, dem_stream_entry_speed(d));
+}
+
+#endif
