@@ -109,7 +109,7 @@ static bool turn_drum(container *c, double rate, double time)
 {
     const bool changes = rate != c->rotation_rate;
     c->rotation_rate = rate;
-    c->angle = rate * time;
+    c->angle = c->angle_before + rate * time;
     const double cosine = cos(c->angle), sine = sin(c->angle);
     for (int k = 0; k < c->wall_count; k++) {
         container_wall *w = &c->wall[k];

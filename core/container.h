@@ -14,7 +14,8 @@ typedef struct container {
     double period, inverse_period; /* m, 1/m along z; both 0 where the axis is not periodic, so that nothing is wrapped */
     double up[3];                  /* unit vector against gravity */
     double rotation_rate;          /* rad/s now: zero until rotation begins */
-    double angle;                  /* rad turned since rotation began */
+    double angle;                  /* rad turned */
+    double angle_before;           /* rad turned before the time that container_move is told */
     double inner_radius;           /* m, of the free room: radius less the lining's diameter */
     double low[3], high[3];        /* m: the box that particles are looked for in */
     int wall_count;

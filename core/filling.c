@@ -322,6 +322,13 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
     return DEM_OK;
 }
 
+void filling_leave_out(filling *f, spheres *s, const dem_drum_definition *definition)
+{
+    assign_species(s, definition);
+    *f = (filling){ .start_scale = 1, .growing_steps = 1 };
+    spheres_set_scale(s, 1);
+}
+
 double filling_scale(const filling *f, int64_t steps)
 {
     const double share = (double)steps / (double)f->growing_steps;

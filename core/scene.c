@@ -20,9 +20,9 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     scene->rotation_start = -1;
     container_init(&scene->drum, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
-    if (status == DEM_OK)
-        status =
-            has_stream(definition) ? stream_init(scene) : filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
+    if (status == DEM_OK && definition->is_placed) filling_leave_out(&scene->filling, &scene->spheres, definition);
+    else if (status == DEM_OK && has_stream(definition)) status = stream_init(scene);
+    else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
     if (status == DEM_OK) status = lost_init(scene);
     if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres);
     if (status != DEM_OK) {
@@ -53,7 +53,7 @@ void scene_enter_phase(dem_scene *scene, dem_phase phase)
     /* Grown without friction, spheres slip into place instead of locking each other. */
     if (phase == DEM_PHASE_GROWING) scene->contact.friction = scene->contact.wall_friction = 0.0;
     container_set_friction(&scene->drum, definition, phase != DEM_PHASE_GROWING);
-    container_move(&scene->drum, definition, phase == DEM_PHASE_ROTATING, dem_scene_time(scene));
+    container_move(&scene->drum, definition, phase == DEM_PHASE_ROTATING, scene_time_in_motion(scene));
     container_turn_lining(&scene->drum, &scene->spheres);
     neighbor_list_invalidate(&scene->neighbors);
 }
@@ -67,6 +67,7 @@ size_t dem_scene_particle_count(const dem_scene *scene) { return particles_count
 size_t dem_scene_sphere_count(const dem_scene *scene) { return scene->spheres.mobile_count; }
 size_t dem_scene_lost_count(const dem_scene *scene) { return scene->lost_count; }
 bool dem_scene_has_clusters(const dem_scene *scene) { return scene->spheres.clusters.count > 0; }
+double dem_scene_turned(const dem_scene *scene) { return scene->drum.angle; }
 double dem_scene_kinetic_energy(const dem_scene *scene) { return spheres_kinetic_energy(&scene->spheres); }
 
 double dem_scene_time(const dem_scene *scene)

@@ -26,6 +26,7 @@ struct dem_scene {
     stream stream;
     dem_phase phase;
     int64_t step_count, phase_start, rotation_start; /* rotation_start: -1 before */
+    int64_t steps_before;                            /* of rotation at the same rate, before the scene's own clock began */
     double maximum_overlap;                          /* m since rotation began */
     size_t lost_count;                               /* particles that fell off the plate */
     int32_t *lost;                                   /* (lost_count of particles) who; NULL where none can be lost */
@@ -37,6 +38,12 @@ struct dem_scene {
 };
 
 static inline bool particle_is_lost(const dem_scene *scene, size_t p) { return scene->is_lost && scene->is_lost[p]; }
+
+/* s that the container has moved, those before the scene's own clock began included. */
+static inline double scene_time_in_motion(const dem_scene *scene)
+{
+    return (double)(scene->step_count - scene->rotation_start + scene->steps_before) * scene->definition.time_step;
+}
 
 /* Everything that follows from the phase alone: friction, the drum's rate. */
 void scene_enter_phase(dem_scene *scene, dem_phase phase);

@@ -1,20 +1,12 @@
 /* Saving and restoring: what a scene can't make again from its definition. Neighbor lists are made again, since
  * no result depends on when they were made (core/contact_list.h). */
+#include "scene_state.h"
+
 #include "lost.h"
-#include "scene.h"
 #include "step.h"
 #include "stream.h"
 
-enum { STATE_INTEGERS = 4, STATE_NUMBERS = 3, HISTORY_NUMBERS = 5 };
-/* What a cluster's spheres don't tell of it. */
-enum {
-    CLUSTER_PLACE = 0,
-    CLUSTER_VELOCITY = 3,
-    CLUSTER_SPIN = 6,
-    CLUSTER_SPIN_CHANGE = 9,
-    CLUSTER_ORIENTATION = 12,
-    CLUSTER_NUMBERS = 16
-};
+enum { HISTORY_NUMBERS = 5 };
 
 static void *state_add(dem_state *state, const char *name, dem_element element, size_t rows, size_t columns)
 {
@@ -24,7 +16,7 @@ static void *state_add(dem_state *state, const char *name, dem_element element, 
     return data;
 }
 
-static const dem_state_array *state_find(const dem_state *state, const char *name, dem_element element, size_t columns)
+const dem_state_array *state_find(const dem_state *state, const char *name, dem_element element, size_t columns)
 {
     for (size_t k = 0; k < state->array_count; k++) {
         const dem_state_array *a = &state->array[k];
@@ -101,13 +93,18 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
         dem_state_clear(state);
         return DEM_NO_MEMORY;
     }
-    integers[0] = (int64_t)scene->phase;
-    integers[1] = scene->step_count;
-    integers[2] = scene->phase_start;
-    integers[3] = scene->rotation_start;
-    numbers[0] = scene->maximum_overlap;
-    numbers[1] = scene->torque.sum;
-    numbers[2] = scene->torque.count;
+    integers[STATE_PHASE] = (int64_t)scene->phase;
+    integers[STATE_STEP] = scene->step_count;
+    integers[STATE_PHASE_START] = scene->phase_start;
+    integers[STATE_ROTATION_START] = scene->rotation_start;
+    integers[STATE_STEPS_BEFORE] = scene->steps_before;
+    integers[STATE_LAW] = (int64_t)scene->definition.contact.law;
+    numbers[STATE_OVERLAP] = scene->maximum_overlap;
+    numbers[STATE_TORQUE_SUM] = scene->torque.sum;
+    numbers[STATE_TORQUE_COUNT] = scene->torque.count;
+    numbers[STATE_ANGLE_BEFORE] = scene->drum.angle_before;
+    numbers[STATE_RATE] = scene->definition.rotation_rate;
+    numbers[STATE_TIME_STEP] = scene->definition.time_step;
     for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, sphere_place(s, i), 3 * sizeof *position);
     memcpy(fallen, s->fallen_time, n * sizeof *fallen);
     return DEM_OK;
@@ -203,7 +200,7 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     if (!integers || !numbers || (bodies > 0 && !of_clusters) || (of_clusters && of_clusters->rows != bodies))
         return DEM_STATE_MISMATCH;
     const int64_t *counter = integers->data;
-    if (counter[0] < DEM_PHASE_GROWING || counter[0] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
+    if (counter[STATE_PHASE] < DEM_PHASE_GROWING || counter[STATE_PHASE] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
 
     const size_t all = spheres_count(&scene->spheres);
     contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
@@ -218,13 +215,15 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     /* Nothing can fail from here on but memory for new lists. */
     restore_contacts(state, pairs, n, "pair", "pair_history");
     restore_contacts(state, walls, n, "wall_contact", "wall_history");
-    scene->step_count = counter[1];
-    scene->phase_start = counter[2];
-    scene->rotation_start = counter[3];
+    scene->step_count = counter[STATE_STEP];
+    scene->phase_start = counter[STATE_PHASE_START];
+    scene->rotation_start = counter[STATE_ROTATION_START];
+    scene->steps_before = counter[STATE_STEPS_BEFORE];
     const double *number = numbers->data;
-    scene->maximum_overlap = number[0];
-    scene->torque = (torque_meter){ .sum = number[1], .count = number[2] };
-    scene->phase = (dem_phase)counter[0];
+    scene->maximum_overlap = number[STATE_OVERLAP];
+    scene->torque = (torque_meter){ .sum = number[STATE_TORQUE_SUM], .count = number[STATE_TORQUE_COUNT] };
+    scene->drum.angle_before = number[STATE_ANGLE_BEFORE];
+    scene->phase = (dem_phase)counter[STATE_PHASE];
     scene_enter_phase(scene, scene->phase);
     if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);
     restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);

@@ -85,7 +85,7 @@ static body_forces forces_of_phase(const dem_scene *scene)
 static void move_container(dem_scene *scene)
 {
     if (scene->phase != DEM_PHASE_ROTATING) return;
-    const bool another_velocity = container_move(&scene->drum, &scene->definition, true, dem_scene_time(scene));
+    const bool another_velocity = container_move(&scene->drum, &scene->definition, true, scene_time_in_motion(scene));
     if (another_velocity) neighbor_list_invalidate(&scene->neighbors);
     container_turn_lining(&scene->drum, &scene->spheres);
 }

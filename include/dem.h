@@ -27,6 +27,7 @@ void dem_scene_set_profile(dem_scene *scene, dem_step_profile *profile);
 dem_phase dem_scene_phase(const dem_scene *scene);
 int64_t dem_scene_step_count(const dem_scene *scene);     /* since creation */
 int64_t dem_scene_rotation_start(const dem_scene *scene); /* step at which rotation began; -1 before */
+double dem_scene_turned(const dem_scene *scene);         /* rad that the drum has turned, in all runs from which this one goes on */
 double dem_scene_time(const dem_scene *scene);           /* s since rotation began; negative before: less the time since creation */
 size_t dem_scene_particle_count(const dem_scene *scene); /* mobile particles, each sphere or cluster one; without the lining */
 size_t dem_scene_sphere_count(const dem_scene *scene);   /* spheres that these are made of */
@@ -43,6 +44,17 @@ void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arra
 dem_status dem_scene_save(const dem_scene *scene, dem_state *state);
 void dem_state_clear(dem_state *state);
 dem_status dem_scene_restore(dem_scene *scene, const dem_state *state);
+
+/* A bed made before, instead of one at random: for scenes whose definition says is_placed, before anything else is done
+ * with them. Rotation begins at once; time and largest overlap count from here.
+ * place: particles in any order; within a species they get their ids in the order given. No contact remembers anything.
+ * turned: rad by which the drum, its lining and its lifters have turned already.
+ * continue: from a scene of the same container and particles, saved while it rotated. The container's turn and every
+ * contact's memory go on (memory is dropped where the contact law is another); all else may differ. With the same
+ * definition it goes on with the same bits.
+ * Errors: DEM_STATE_MISMATCH (other particles, or never rotated), DEM_NO_MEMORY, and those of dem_scene_advance. */
+dem_status dem_scene_place(dem_scene *scene, const dem_placed_particle *particles, size_t count, double turned);
+dem_status dem_scene_continue(dem_scene *scene, const dem_state *state);
 
 /* Measuring: the caller takes frames at regular intervals of simulated time while the drum rotates, keeps
  * them as rows of a table (with the checkpoint, too), and asks for the results from the table at the end.

@@ -137,6 +137,7 @@ typedef struct dem_drum_definition {
     dem_species species[DEM_MAXIMUM_SPECIES];
     dem_contact_parameters contact;
     dem_lining lining;
+    bool is_placed;       /* nothing is placed at random: particles come by dem_scene_place or dem_scene_continue */
     double time_step;     /* s */
     int corrector_passes; /* of Euler's equations for clusters, Eqns 9-10; 0: one */
     uint64_t seed;
@@ -195,6 +196,15 @@ typedef struct dem_particle_arrays {
     double *orientation;      /* (n,4) w, x, y, z: turns the particle's own frame into the drum's; 1, 0, 0, 0 for a sphere
                                  by itself, whose orientation nothing depends on */
 } dem_particle_arrays;
+
+/* A particle put into a scene by its maker. */
+typedef struct dem_placed_particle {
+    double position[3];         /* m, of the centre of mass */
+    double velocity[3];         /* m/s */
+    double angular_velocity[3]; /* rad/s, along the drum's axes */
+    double orientation[4];      /* w, x, y, z as in dem_particle_arrays, of any length but 0; a sphere by itself needs none */
+    int32_t species;
+} dem_placed_particle;
 
 /* Everything a scene needs to go on bit for bit: saved by dem_scene_save, owned by the caller.
  * `table` names each array so that a file can hold them without knowing what they mean. */
