@@ -65,6 +65,7 @@ static void shares_to_numbers(const drum_inputs *inputs, dem_drum_definition *sc
 
 void scene_check_every_species(const drum_inputs *inputs, const dem_drum_definition *scene, double count, problem_list *problems)
 {
+    if (count < 8.0 || inputs->species_count == 1) return; /* that is then what is wrong, or nothing can be */
     for (size_t s = 0; s < inputs->species_count; s++) {
         if (!(count * scene->species[s].share < 0.5)) continue;
         char pointer[60];
