@@ -40,7 +40,7 @@ def arguments():
     parser.add_argument("--build", type=Path, default=ROOT / "build")
     parser.add_argument("--data", type=Path, default=ROOT / "data/reproduce")
     parser.add_argument("--studies", type=Path, default=ROOT / "api/studies")
-    parser.add_argument("--report", type=Path, help="default: REPORT.md in the studies' folder")
+    parser.add_argument("--report", type=Path, help="default: REPORT.md in the studies' folder, or in the data folder while studies are missing")
     parser.add_argument("--workers", type=int)
     parser.add_argument("--only-report", action="store_true", help="write it from what was collected before, running nothing")
     given = parser.parse_args()
@@ -49,7 +49,6 @@ def arguments():
     if unknown:
         parser.error(f"no such study: {', '.join(unknown)}; there are {', '.join(files)}")
     given.files = {name: path for name, path in files.items() if not given.wanted or name in given.wanted}
-    given.report = given.report or given.studies / "REPORT.md"
     return given
 
 
@@ -64,15 +63,16 @@ class Collection:
         collecting.save({"case": case, "collected": collected}, self.folder / f"{name}.json")
 
     def read(self, files):
+        """files: {name: path}. What was collected from a study that reads otherwise now is left out."""
         studies, investigations = {}, {}
         for path in sorted(self.folder.glob("*.json")):
             kept = json.loads(path.read_text())
             file = kept["collected"]["file"]
-            if file in files and kept["case"] is None:
-                studies[file] = kept["collected"]
-            elif file in files:
+            if kept["case"] is not None:
                 investigations[file, kept["case"]] = kept["collected"]
-        return studies, investigations
+            elif file in files and posting.plain(kept["collected"]["document"]) == posting.plain(json.loads(files[file].read_text())):
+                studies[file] = kept["collected"]
+        return studies, {key: collected for key, collected in investigations.items() if key[0] in studies}
 
 
 def run_all(service, files, collection, rows_of):
@@ -97,11 +97,13 @@ def machine():
 
 
 def write_report(given, collection):
-    everything = list(study_files(given.studies))
+    """The report beside the studies is of all of them: a part goes elsewhere, so as not to take its place."""
+    everything = study_files(given.studies)
     studies, investigations = collection.read(everything)
-    book = Book(studies, investigations, given.report.parent / "pictures", given.data, everything)
-    given.report.write_text(report(book, machine()))
-    say(f"{given.report}: written from {len(studies)} of {len(everything)} studies")
+    place = given.report or (given.studies if len(studies) == len(everything) else given.data) / "REPORT.md"
+    book = Book(studies, investigations, place.parent / "pictures", given.data, list(everything))
+    place.write_text(report(book, machine()))
+    say(f"{place}: written from {len(studies)} of {len(everything)} studies")
 
 
 def main():
