@@ -1,0 +1,269 @@
+/* Claims about one sphere and the walls of each container, against closed forms. */
+#include "container_by_hand.h"
+#include "step.h"
+#include "wall_forces.h"
+
+static const double R = 0.002, K_1 = 4000;
+
+/* ---- weight ---- */
+
+/* Set down where K1 alpha = m g, a sphere stays, and all that its contacts do to the walls is its weight. */
+static void check_rest(dem_scene *scene, const double x[3], const double down[3], int walls_touched)
+{
+    const double weight = sphere_mass_of(scene) * scene->definition.gravity, alpha = weight / K_1;
+    double place[3];
+    for (int c = 0; c < 3; c++) place[c] = x[c] + alpha * down[c];
+    put(scene, place, NULL, NULL);
+    go_on(scene, 3000);
+    for (int c = 0; c < 3; c++) CHECK_NEAR(sphere_place(&scene->spheres, 0)[c], place[c], 1e-3 * alpha);
+    contact_list *walls = &scene->neighbors.walls;
+    contact_forces_with_walls(walls, &scene->spheres, &scene->drum, &scene->contact, 0.0, 1);
+    double force[3] = { 0 };
+    int touched = 0;
+    for (size_t k = 0; k < walls->count; k++) {
+        const wall_load load = wall_load_of(walls, k, &scene->spheres, &scene->drum);
+        for (int c = 0; c < 3; c++) force[c] += load.force[c];
+        touched += load.force[0] != 0 || load.force[1] != 0 || load.force[2] != 0;
+        if (walls->overlap[k] > 0) /* the point is on the way down, a radius less the overlap away */
+            for (int c = 0; c < 3; c++) CHECK_NEAR(load.point[c], place[c] + (R - alpha) * down[c], 1e-6 * R);
+    }
+    /* rounding of the overlap: a few of the radius's last digits, against alpha */
+    for (int c = 0; c < 3; c++) CHECK_NEAR(force[c], weight * down[c], 1e-3 * weight);
+    assert_int_equal(touched, walls_touched);
+    dem_scene_free(scene);
+}
+
+static void a_sphere_at_rest_on_any_wall_carries_its_weight(void **unused)
+{
+    (void)unused;
+    static const double along_y[3] = { 0, -1, 0 }, along_z[3] = { 0, 0, -1 };
+    dem_drum_definition d = container_definition(DEM_CYLINDER, 1);
+    check_rest(container_scene(&d), (double[]){ 0.01, 0.02, R }, along_z, 1);
+    d = container_definition(DEM_TUBE_ON_PLATE, 1);
+    check_rest(container_scene(&d), (double[]){ 0.01, 0.02, R }, along_z, 1); /* the plate, within the tube */
+    check_rest(container_scene(&d), (double[]){ 0.08, 0, R }, along_z, 1);    /* and beside it */
+    d.lift.speed = 0.3;
+    check_rest(container_scene(&d), (double[]){ 0.08, 0, R }, along_z, 1); /* while the tube rises */
+    d = container_definition(DEM_DRUM, 1);
+    d.ends.are_walls = true;
+    check_rest(container_scene(&d), (double[]){ 0, -0.05 + R, 0.01 }, along_y, 1);
+    d.lifters = (dem_lifters){ .count = 4, .height = 0.01, .width = 0.008, .friction = 0.3 };
+    check_rest(container_scene(&d), (double[]){ 0, -0.04 + R, 0.01 }, along_y, 1);     /* the lowest bar's top */
+    check_rest(container_scene(&d), (double[]){ 0.045, 0.004 + R, 0.01 }, along_y, 1); /* the right bar's upper side */
+}
+
+/* ---- normal impacts ---- */
+
+typedef struct shot {
+    const char *at;
+    dem_container_kind container;
+    double from[3], direction[3]; /* m, of the place of first touch; unit */
+} shot;
+
+/* Every wall gives back e of the normal speed: K1/K2 = e^2. Some 75 steps a collision (20 give 0.1 %). */
+static void a_normal_impact_on_any_wall_leaves_e_of_the_speed(void **unused)
+{
+    (void)unused;
+    const double h = sqrt(0.5), corner = 0.004 + h * R; /* of a bar 8 mm wide and 10 mm high */
+    const shot shots[] = {
+        { "low end", DEM_DRUM, { 0.01, -0.02, -0.03 + R }, { 0, 0, -1 } },
+        { "high end", DEM_DRUM, { 0.01, -0.02, 0.03 - R }, { 0, 0, 1 } },
+        { "drum", DEM_DRUM, { -h * (0.05 - R), h * (0.05 - R), 0 }, { -h, h, 0 } },
+        { "bar's top", DEM_DRUM, { 0.04 - R, 0.001, 0 }, { 1, 0, 0 } },
+        { "bar's side", DEM_DRUM, { 0.044, 0.004 + R, 0 }, { 0, -1, 0 } },
+        { "bar's other side", DEM_DRUM, { 0.044, -0.004 - R, 0 }, { 0, 1, 0 } },
+        { "bar's corner", DEM_DRUM, { 0.04 - h * R, corner, 0 }, { h, -h, 0 } },
+        { "floor", DEM_CYLINDER, { 0.01, 0.02, R }, { 0, 0, -1 } },
+        { "cylinder, high up", DEM_CYLINDER, { 0.05 - R, 0, 0.3 }, { 1, 0, 0 } },
+        { "tube from within", DEM_TUBE_ON_PLATE, { 0, 0.05 - R, 0.02 }, { 0, 1, 0 } },
+        { "tube from outside", DEM_TUBE_ON_PLATE, { 0, 0.05 + R, 0.02 }, { 0, -1, 0 } },
+        { "tube's upper edge", DEM_TUBE_ON_PLATE, { 0, 0.05, 0.06 + R }, { 0, 0, -1 } },
+        { "tube's upper edge, aslant", DEM_TUBE_ON_PLATE, { 0.05 - h * R, 0, 0.06 + h * R }, { h, 0, -h } },
+        { "plate", DEM_TUBE_ON_PLATE, { -0.07, 0, R }, { 0, 0, -1 } },
+        { "plate's edge", DEM_TUBE_ON_PLATE, { 0.1 + R, 0, 0 }, { -1, 0, 0 } },
+        { "rim", DEM_TUBE_ON_PLATE, { 0.1 - R, 0, 0.003 }, { 1, 0, 0 } },
+    };
+    for (size_t k = 0; k < sizeof shots / sizeof *shots; k++) {
+        const shot *s = &shots[k];
+        dem_drum_definition d = container_definition(s->container, 1);
+        d.ends.are_walls = s->container == DEM_DRUM;
+        if (strncmp(s->at, "bar", 3) == 0) d.lifters = (dem_lifters){ .count = 1, .height = 0.01, .width = 0.008, .friction = 0.3 };
+        if (strcmp(s->at, "rim") == 0) d.plate.rim_height = 0.006;
+        d.time_step = 5e-6;
+        dem_scene *scene = container_scene(&d);
+        scene->definition.gravity = 0;
+        double x[3], v[3], speed = 0.2, away = 0, sideways = 0;
+        for (int c = 0; c < 3; c++) x[c] = s->from[c] - 1e-4 * s->direction[c];
+        for (int c = 0; c < 3; c++) v[c] = speed * s->direction[c];
+        put(scene, x, v, NULL);
+        go_on(scene, 400);
+        const vector4 after = scene->spheres.velocity[0];
+        for (int c = 0; c < 3; c++) away -= after[c] * s->direction[c];
+        for (int c = 0; c < 3; c++) sideways = fmax(sideways, fabs(after[c] + away * s->direction[c]));
+        if (!(fabs(away / speed - 0.8) < 1e-3)) fail_msg("%s gives back %g of the speed, not 0.8", s->at, away / speed);
+        /* aimed as well as single precision points */
+        if (!(sideways < 1e-4 * speed)) fail_msg("%s turns the sphere aside by %g m/s", s->at, sideways);
+        dem_scene_free(scene);
+    }
+}
+
+/* ---- friction ---- */
+
+/* As on any plane: v/v_0 = 1/(1 + 0.4 r^2/r_a^2), 5/7 for r_a = r, once slip has ended after 2 v_0/(7 mu g). */
+static void a_sphere_set_sliding_on_a_floor_ends_rolling_at_five_sevenths(void **unused)
+{
+    (void)unused;
+    for (int plate = 0; plate < 2; plate++) {
+        dem_drum_definition d = container_definition(plate ? DEM_TUBE_ON_PLATE : DEM_CYLINDER, 1);
+        d.ends.friction = d.plate.friction = 0.4;
+        d.contact.wall_friction = 0; /* the floor's own friction counts, not the cylinder's */
+        dem_scene *scene = container_scene(&d);
+        const double v_0 = 0.2, alpha = sphere_mass_of(scene) * 9.81 / K_1, slip_time = 2 * v_0 / (7 * 0.4 * 9.81);
+        put(scene, (double[]){ -0.03, 0, R - alpha }, (double[]){ v_0, 0, 0 }, NULL);
+        go_on(scene, (int64_t)(0.5 * slip_time / d.time_step));
+        CHECK_NEAR(scene->spheres.velocity[0][0], v_0 - 0.4 * 9.81 * 0.5 * slip_time, 1e-3 * v_0);
+        go_on(scene, (int64_t)(0.7 * slip_time / d.time_step));
+        enum { SAMPLES = 4000 }; /* many periods of the tangential spring, which rings on */
+        double sum = 0;
+        for (int k = 0; k < SAMPLES; k++) {
+            go_on(scene, 1);
+            sum += scene->spheres.velocity[0][0];
+        }
+        CHECK_NEAR(sum / SAMPLES, 5.0 / 7 * v_0, 4e-4 * v_0); /* ringing 2e-4; r_a below r by alpha/2: 1e-4 */
+        dem_scene_free(scene);
+    }
+}
+
+/* A sphere that meets a turning end wall slides throughout where the wall is fast: it takes mu times the normal impulse
+ * m v (1 + e) in the direction of the wall, and spins by r times that over the moment of inertia. */
+static void a_turning_end_wall_drives_a_sphere_by_coulombs_impulse(void **unused)
+{
+    (void)unused;
+    for (int end = -1; end <= 1; end += 2) {
+        dem_drum_definition d = container_definition(DEM_DRUM, 1);
+        d.ends = (dem_drum_ends){ .are_walls = true, .friction = 0.25 };
+        d.contact.wall_friction = 0.9; /* not the end's */
+        d.rotation_rate = 40;
+        d.time_step = 2e-6;
+        dem_scene *scene = container_scene(&d);
+        scene->definition.gravity = 0;
+        const double v = 0.2, x = 0.03;
+        put(scene, (double[]){ x, 0, end * (0.03 - R - 1e-5) }, (double[]){ 0, 0, end * v }, NULL);
+        go_on(scene, 600);
+        /* the wall is at 1.2 m/s, far above what slides to an end: 3.5 mu v (1 + e) = 0.32 */
+        const double change = 0.25 * v * 1.8;
+        const vector4 after = scene->spheres.velocity[0], spin = scene->spheres.angular_velocity[0];
+        CHECK_NEAR(after[2], -end * 0.8 * v, 1e-3 * v);
+        /* the wall's direction turns by 40 rad/s * 0.4 ms, 0.9 degrees to either side of the mean, during the contact */
+        CHECK_NEAR(hypot(after[0], after[1]), change, 2e-3 * change);
+        CHECK_NEAR(after[1], change, 5e-3 * change);
+        /* the arm is less by up to half the overlap, 2.9e-5 m */
+        CHECK_BETWEEN(hypot(spin[0], spin[1]) / (change * R / (0.4 * R * R)), 1 - 0.01, 1);
+        CHECK_BETWEEN(-end * spin[0], 0, INFINITY); /* pushed to +y where it touches, at end z from its centre */
+        dem_scene_free(scene);
+    }
+}
+
+/* ---- lifters ---- */
+
+/* Without friction, a slow bar carries a ball between itself and the wall until its face is level (the ball could not
+ * roll off before) and not much longer: then the ball slides inward over the edge and falls. */
+static void a_lifter_carries_a_ball_up_until_its_face_is_level(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = container_definition(DEM_DRUM, 1);
+    d.contact.wall_friction = 0;
+    d.rotation_rate = 1; /* omega^2 R/g: half a percent */
+    d.lifters = (dem_lifters){ .count = 4, .height = 0.01, .width = 0.008 };
+    d.time_step = 2e-5;
+    dem_scene *scene = container_scene(&d);
+    /* at rest at the bottom, ahead of the bar that comes from 270 degrees */
+    put(scene, (double[]){ 0.012, -sqrt(0.048 * 0.048 - 0.012 * 0.012), 0 }, NULL, NULL);
+    const double offset = asin((0.004 + R) / 0.048);       /* by which the ball is ahead of the bar's middle */
+    for (double bar = 0.6; bar < DEM_PI / 2; bar += 0.1) { /* turned since the bar was at the bottom */
+        while (dem_scene_time(scene) < bar) go_on(scene, 100);
+        const double *x = sphere_place(&scene->spheres, 0), turned = scene->drum.angle;
+        /* carried without play: a ball that bounced would be off by more than a tenth of its radius */
+        CHECK_NEAR(hypot(x[0], x[1]), 0.048, 0.02 * R);
+        CHECK_NEAR(atan2(x[0], -x[1]), turned + offset, 0.02 * R / 0.048);
+    }
+    CHECK_BETWEEN(sphere_place(&scene->spheres, 0)[1], -0.002, 0.01); /* at the height of the axis, nearly */
+    /* off the bar after some (6 l/(g omega))^(1/3) = 0.2 s, l = 1 cm; down in 0.1 s */
+    double lowest = 1;
+    for (int k = 0; k < 50; k++) {
+        go_on(scene, (int64_t)(0.01 / d.time_step));
+        lowest = fmin(lowest, sphere_place(&scene->spheres, 0)[1]);
+    }
+    CHECK_BETWEEN(lowest, -0.05, -0.02);
+    dem_scene_free(scene);
+}
+
+/* ---- the inside ---- */
+
+static void check_escape(dem_drum_definition *d, const double x[3], const double v[3], const char *quantity)
+{
+    dem_scene *scene = container_scene(d);
+    scene->definition.gravity = 0;
+    put(scene, x, v, NULL);
+    dem_status status = DEM_OK;
+    for (int k = 0; k < 100 && status == DEM_OK; k++) status = dem_scene_advance(scene, 10);
+    assert_int_equal(status, DEM_PARTICLE_ESCAPED);
+    assert_string_equal(dem_scene_failure(scene)->quantity, quantity);
+    dem_scene_free(scene);
+}
+
+/* Thrown so fast that it is through within a step. */
+static void a_particle_beyond_any_wall_has_escaped(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = container_definition(DEM_CYLINDER, 1);
+    check_escape(&d, (double[]){ 0, 0, 0.01 }, (double[]){ 0, 0, -3000 }, "height above the floor");
+    check_escape(&d, (double[]){ 0, 0, 0.01 }, (double[]){ 9000, 0, 0 }, "distance from the axis");
+    d = container_definition(DEM_TUBE_ON_PLATE, 1);
+    check_escape(&d, (double[]){ 0, 0, 0.01 }, (double[]){ 0, 0, -3000 }, "height above the plate");
+    d = container_definition(DEM_DRUM, 1);
+    d.ends.are_walls = true;
+    check_escape(&d, (double[]){ 0, 0, 0.02 }, (double[]){ 0, 0, 3000 }, "distance before the end wall");
+    d.lifters = (dem_lifters){ .count = 4, .height = 0.01, .width = 0.008 };
+    check_escape(&d, (double[]){ 0.035, 0, 0 }, (double[]){ 1000, 0, 0 }, "distance before a lifter");
+}
+
+static void a_container_that_cannot_be_is_refused(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = NULL;
+    const dem_lifters bad_lifters[] = { { .count = 65, .height = 0.01, .width = 0.001 },
+                                        { .count = 4, .height = 0.05, .width = 0.004 },
+                                        { .count = 4, .height = 0, .width = 0.004 },
+                                        { .count = 4, .height = 0.01, .width = 0.08 },   /* corners outside the drum */
+                                        { .count = 60, .height = 0.01, .width = 0.005 }, /* one into the next */
+                                        { .count = 4, .height = 0.01, .width = 0.004, .friction = -1 } };
+    for (size_t k = 0; k < sizeof bad_lifters / sizeof *bad_lifters; k++) {
+        dem_drum_definition d = container_definition(DEM_DRUM, 10);
+        d.lifters = bad_lifters[k];
+        if (dem_scene_create(&d, &scene) != DEM_BAD_PARAMETER) fail_msg("lifters %zu were not refused", k);
+    }
+    dem_drum_definition d = container_definition(DEM_DRUM, 10);
+    d.ends = (dem_drum_ends){ .are_walls = true, .friction = NAN };
+    assert_int_equal(dem_scene_create(&d, &scene), DEM_BAD_PARAMETER);
+    d = container_definition(DEM_TUBE_ON_PLATE, 10);
+    d.plate.diameter = 0.09; /* narrower than the tube */
+    assert_int_equal(dem_scene_create(&d, &scene), DEM_BAD_PARAMETER);
+    d = container_definition(DEM_TUBE_ON_PLATE, 10);
+    d.lift.speed = -0.1;
+    assert_int_equal(dem_scene_create(&d, &scene), DEM_BAD_PARAMETER);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_sphere_at_rest_on_any_wall_carries_its_weight),
+        cmocka_unit_test(a_normal_impact_on_any_wall_leaves_e_of_the_speed),
+        cmocka_unit_test(a_sphere_set_sliding_on_a_floor_ends_rolling_at_five_sevenths),
+        cmocka_unit_test(a_turning_end_wall_drives_a_sphere_by_coulombs_impulse),
+        cmocka_unit_test(a_lifter_carries_a_ball_up_until_its_face_is_level),
+        cmocka_unit_test(a_particle_beyond_any_wall_has_escaped),
+        cmocka_unit_test(a_container_that_cannot_be_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
