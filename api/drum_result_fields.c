@@ -9,6 +9,7 @@
 #define REGIME(member) offsetof(drum_result, measured.regime.member)
 #define SEGREGATION(member) offsetof(drum_result, measured.segregation.member)
 #define PACKING(member) offsetof(drum_result, measured.packing.member)
+#define DRIVE(member) offsetof(drum_result, measured.drive.member)
 #define RUN(member) offsetof(drum_result, run.member)
 
 static const result_field fields[] = {
@@ -25,6 +26,18 @@ static const result_field fields[] = {
     { "repose", "window", "end", RESULT_REAL, REPOSE(window_end), "s", "its end" },
     { "repose", NULL, "correlation_time", RESULT_REAL, REPOSE(correlation_time), "s", "of the angle" },
     { "repose", NULL, "frames", RESULT_SIZE, REPOSE(frames), "", "frames in the window" },
+    { "repose", "slumps", "count", RESULT_WHOLE, REPOSE(slumps.count), "",
+      "slumps or avalanches seen from beginning to end; null, as all below, where the bed flows all the time" },
+    { "repose", "slumps", "period", RESULT_REAL, REPOSE(slumps.period.mean), "s", "from one beginning to the next, mean" },
+    { "repose", "slumps", "period_standard_error", RESULT_REAL, REPOSE(slumps.period.standard_error), "s", "its error" },
+    { "repose", "slumps", "start_deg", RESULT_REAL, REPOSE(slumps.start_deg.mean), "degrees",
+      "direction of the centre of mass where they begin, mean" },
+    { "repose", "slumps", "start_standard_error_deg", RESULT_REAL, REPOSE(slumps.start_deg.standard_error), "degrees",
+      "its error" },
+    { "repose", "slumps", "stop_deg", RESULT_REAL, REPOSE(slumps.stop_deg.mean), "degrees", "the same where they end" },
+    { "repose", "slumps", "stop_standard_error_deg", RESULT_REAL, REPOSE(slumps.stop_deg.standard_error), "degrees", "its error" },
+    { "repose", "slumps", "size_deg", RESULT_REAL, REPOSE(slumps.size_deg.mean), "degrees", "start less stop, mean" },
+    { "repose", "slumps", "size_standard_error_deg", RESULT_REAL, REPOSE(slumps.size_deg.standard_error), "degrees", "its error" },
 
     { "regime", NULL, "omega2_outer", RESULT_REAL, REGIME(omega2_outer), "", "omega^2 R/g at the wall" },
     { "regime", NULL, "omega2_inner", RESULT_REAL, REGIME(omega2_inner), "", "the same at the bed's inner surface" },
@@ -57,6 +70,19 @@ static const result_field fields[] = {
 
     { "packing", NULL, "solid_fraction", RESULT_REAL, PACKING(solid_fraction), "", "of the bed's core" },
     { "packing", NULL, "coordination_number", RESULT_REAL, PACKING(coordination_number), "", "contacts a particle" },
+    { "packing", NULL, "mean_overlap", RESULT_REAL, PACKING(mean_overlap), "",
+      "of contacts between spheres, as a share of the smallest diameter" },
+    { "packing", NULL, "overlap_99", RESULT_REAL, PACKING(overlap_99), "", "what 99 of 100 such contacts stay below" },
+
+    { "drive", NULL, "torque", RESULT_REAL, DRIVE(torque.mean), "N m",
+      "of the drum on the bed about the axis, for the length simulated, mean" },
+    { "drive", NULL, "torque_standard_error", RESULT_REAL, DRIVE(torque.standard_error), "N m", "error of that mean" },
+    { "drive", NULL, "weight_torque", RESULT_REAL, DRIVE(weight_torque.mean), "N m",
+      "of the bed's weight, m g x of its centre of mass: what a steady drum's torque carries" },
+    { "drive", NULL, "weight_torque_standard_error", RESULT_REAL, DRIVE(weight_torque.standard_error), "N m",
+      "error of that mean" },
+    { "drive", NULL, "torque_number", RESULT_REAL, DRIVE(torque_number), "", "torque over the bed's m g R" },
+    { "drive", NULL, "power", RESULT_REAL, DRIVE(power), "W", "torque times rotation rate" },
 
     { "run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", "mobile particles, a cluster being one" },
     { "run", NULL, "spheres", RESULT_WHOLE, RUN(spheres), "", "spheres that these are made of" },
@@ -87,6 +113,7 @@ static const result_output outputs[] = {
     { "regime", "flow regime, with the numbers it was told from" },
     { "segregation", "segregation of the species" },
     { "packing", "packing of the bed" },
+    { "drive", "torque and power that turn the drum" },
     { "run", "how the run went" },
 };
 

@@ -20,7 +20,11 @@ typedef enum frame_column {
     FRAME_FLOW_SPEED,
     FRAME_SURFACE_LAG,
     FRAME_KINETIC_ENERGY,
-    FRAME_RADIAL_INDEX
+    FRAME_RADIAL_INDEX,
+    FRAME_TORQUE,
+    FRAME_WEIGHT_TORQUE,
+    FRAME_MEAN_OVERLAP,
+    FRAME_OVERLAP_99
 } frame_column;
 
 /* A table of frames and the part of it that is measured. */
@@ -44,6 +48,18 @@ dem_status measure_repose_results(const dem_scene *scene, const double *frames, 
 void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *frame);
 void measure_regime_results(const dem_scene *scene, const frame_window *window, const dem_repose_result *repose,
                             dem_regime_result *result);
+
+/* The drum's torque since the last frame, whose meter it resets, and that of the bed's weight: frame[FRAME_TORQUE,
+ * FRAME_WEIGHT_TORQUE]. */
+void measure_drive_frame(dem_scene *scene, double *frame);
+void measure_drive_results(const dem_scene *scene, const frame_window *window, dem_drive_result *result);
+
+/* Overlaps of the contacts between spheres, shares of the smallest diameter: frame[FRAME_MEAN_OVERLAP, FRAME_OVERLAP_99]. */
+dem_status measure_overlap_frame(const dem_scene *scene, double *frame);
+
+/* Slumps or avalanches in a series of the bed's angle: degrees, over time in s, positive for a surface that rises with the
+ * drum. NaN where there are too few of them. Errors: DEM_NO_MEMORY. */
+dem_status measure_slumps(const double *time, const double *angle, size_t count, dem_slumps *slumps);
 
 double measure_radial_index(const dem_scene *scene);
 dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_result *result);

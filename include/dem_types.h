@@ -241,6 +241,17 @@ typedef struct dem_angle {
     double mean_deg, standard_error_deg, minimum_deg, maximum_deg;
 } dem_angle;
 
+typedef struct dem_mean {
+    double mean, standard_error; /* NaN: too few to tell */
+} dem_mean;
+
+/* Slumps or avalanches: the bed is lifted until it gives way, and comes to rest at a lower angle. */
+typedef struct dem_slumps {
+    double count;                           /* those seen from their beginning to their end */
+    dem_mean period;                        /* s, from one beginning to the next */
+    dem_mean start_deg, stop_deg, size_deg; /* direction of the centre of mass before and after; the difference */
+} dem_slumps;
+
 typedef enum dem_angle_method {
     DEM_SURFACE_FIT,    /* line through the half-density heights over the middle 60 % of the chord */
     DEM_CENTER_OF_MASS, /* direction of the centre of mass from straight down */
@@ -259,6 +270,7 @@ typedef struct dem_repose_result {
     double window_start, window_end; /* s since rotation began */
     double correlation_time;         /* s, of the surface-fit angle */
     size_t frames;                   /* in the window */
+    dem_slumps slumps;               /* all NaN where the bed neither slumps nor avalanches */
 } dem_repose_result;
 
 typedef struct dem_regime_result {
@@ -289,13 +301,24 @@ typedef struct dem_segregation_result {
 typedef struct dem_packing_result {
     double solid_fraction;      /* of the bed's core */
     double coordination_number; /* mean contacts a particle */
+    double mean_overlap;        /* of contacts between spheres, share of the smallest diameter; mean over the window */
+    double overlap_99;          /* what 99 of 100 such contacts stay below */
 } dem_packing_result;
+
+/* What turns the drum. In a steady state its torque carries the bed's weight, m g x of the centre of mass. */
+typedef struct dem_drive_result {
+    dem_mean torque;        /* N m about the axis, of the drum on the bed */
+    dem_mean weight_torque; /* N m, m g x of the centre of mass */
+    double power;           /* W, torque times rotation rate */
+    double torque_number;   /* torque over m g R */
+} dem_drive_result;
 
 typedef struct dem_drum_results {
     dem_repose_result repose;
     dem_regime_result regime;
     dem_segregation_result segregation;
     dem_packing_result packing;
+    dem_drive_result drive;
 } dem_drum_results;
 
 #endif

@@ -14,6 +14,7 @@ const METHODS = {
 };
 
 const micro = metres => `${significant(1e6 * metres)} µm`;
+const newtonMetres = value => `${significant(value)} N m`;
 const WORDS = {
   omega2_outer: ['ω²R/g at the wall'],
   omega2_inner: ['ω²R/g at the inner surface'],
@@ -42,6 +43,14 @@ const WORDS = {
   slip_onset_deg: ['slips from', value => `${degrees(value)} above the horizontal`],
   sliding_eq34: ['sliding, Eq 34'], least_normal_force: ['least force on the wall', value => `${significant(value)} of the weight`],
   revolutions: ['revolutions followed', count],
+  mean_overlap: ['mean overlap', value => `${percent(value)} of the smallest diameter`],
+  overlap_99: ['99 of 100 overlaps below', value => `${percent(value)} of the smallest diameter`],
+  torque: ['torque', newtonMetres], torque_standard_error: ['its error', newtonMetres],
+  weight_torque: ['torque of the bed’s weight', newtonMetres], weight_torque_standard_error: ['its error', newtonMetres],
+  torque_number: ['torque over m g R', value => significant(value)], power: ['power', value => `${significant(value)} W`],
+  period: ['period', value => `${significant(value)} s`], period_standard_error: ['its error', value => `${significant(value)} s`],
+  start_standard_error_deg: ['its error', degrees], stop_standard_error_deg: ['its error', degrees],
+  size_standard_error_deg: ['its error', degrees],
   airborne_fraction: ['airborne', percent], wall_coverage: ['wall covered', percent],
   fallen_fraction: ['lately fallen', percent],
 };
@@ -97,16 +106,18 @@ export function answer(repose, regime, summary) {
 }
 
 export function resultsInWords(results) {
-  const { repose = {}, regime = {}, segregation, packing, run, ...others } = results;
+  const { repose = {}, regime = {}, segregation, packing, drive, run, ...others } = results;
   const hidden = ['angle_deg', 'standard_error_deg', 'minimum_deg', 'maximum_deg', 'method'];
   const rest = Object.fromEntries(Object.entries(repose).filter(([name]) => !hidden.includes(name)));
   return h('div', { class: 'results' },
     section('Angle of repose', { ...rest, ...repose.window }, angleTable(repose)),
+    repose.slumps?.count ? section('Slumps', repose.slumps) : null,
     section('Regime', { name: regime.name, ...regime }),
     isRecord(regime.predicted) ? section('Predicted boundaries of ω²R/g', regime.predicted) : null,
     isRecord(regime.evidence) ? section('Evidence for the regime', regime.evidence) : null,
     section('Segregation', segregation),
     section('Packing', packing),
+    drive ? section('Drive', drive) : null,
     section('Run', run),
     Object.entries(others).map(([name, value]) => section(name.replaceAll('_', ' '), isRecord(value) ? value : { [name]: value })));
 }

@@ -12,6 +12,8 @@ const MEASURES = [
   ['radial_index', 'radial segregation', plain],
   ['lacey_index', 'Lacey index', plain],
   ['solid_fraction', 'solid fraction', plain],
+  ['torque', 'torque, N m', plain],
+  ['slumps_period', 'period of slumps, s', plain],
   ['maximum_overlap', 'largest overlap', value => percent(value)],
 ];
 

@@ -88,12 +88,13 @@ static bool migrate(sqlite3 *database, const char *path)
     }
     for (int next = version; next < schema_version; next++) {
         const char *const *parts = schema_migrations[next].parts;
+        const size_t most = sizeof schema_migrations[next].parts / sizeof *parts;
         char end[128];
         snprintf(end, sizeof end, "PRAGMA application_id=%d; PRAGMA user_version=%d; COMMIT;", SCHEMA_APPLICATION_ID, next + 1);
-        if (sqlite3_exec(database, "BEGIN IMMEDIATE;", NULL, NULL, NULL) != SQLITE_OK
-            || sqlite3_exec(database, parts[0], NULL, NULL, NULL) != SQLITE_OK
-            || (parts[1] && sqlite3_exec(database, parts[1], NULL, NULL, NULL) != SQLITE_OK)
-            || sqlite3_exec(database, end, NULL, NULL, NULL) != SQLITE_OK) {
+        bool done = sqlite3_exec(database, "BEGIN IMMEDIATE;", NULL, NULL, NULL) == SQLITE_OK;
+        for (size_t p = 0; done && p < most && parts[p]; p++)
+            done = sqlite3_exec(database, parts[p], NULL, NULL, NULL) == SQLITE_OK;
+        if (!done || sqlite3_exec(database, end, NULL, NULL, NULL) != SQLITE_OK) {
             log_line("%s: migration %d failed: %s", path, next + 1, sqlite3_errmsg(database));
             return false;
         }

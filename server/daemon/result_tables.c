@@ -1,20 +1,25 @@
 /* The results document, spread over the tables whose columns bear its names. */
+#include <stdio.h>
+#include <string.h>
 
 #include "database.h"
 #include "job_store.h"
 #include "text_buffer.h"
 
-/* Table <object>_result has these columns, each named as the document's member. */
+enum { MOST_COLUMNS = 16 };
+
+/* Table <object>_result has these columns, each named as the document's member; group/member is column group_member. */
 static const struct {
     const char *object;
-    const char *columns[12];
+    const char *columns[MOST_COLUMNS];
 } tables[] = {
     { "repose",
       { "angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady", "drift_deg_per_revolution", "method",
-        "interface_fluctuation" } },
+        "interface_fluctuation", "slumps/count", "slumps/period", "slumps/start_deg", "slumps/stop_deg", "slumps/size_deg" } },
     { "regime", { "name", "omega2_outer", "omega2_inner" } },
     { "segregation", { "radial_index", "axial_index", "lacey_index" } },
-    { "packing", { "solid_fraction", "coordination_number" } },
+    { "packing", { "solid_fraction", "coordination_number", "mean_overlap", "overlap_99" } },
+    { "drive", { "torque", "torque_standard_error", "weight_torque", "weight_torque_standard_error", "torque_number", "power" } },
     { "granule", { "minimum_omega2", "error", "minimum_rotation_rate", "slip_per_revolution", "slip_onset_deg" } },
     { "run",
       { "particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second", "maximum_overlap",
@@ -30,20 +35,36 @@ static void bind_json(sqlite3_stmt *statement, int index, const json_t *value)
     else sqlite3_bind_null(statement, index);
 }
 
+static const json_t *member_of(const json_t *object, const char *path)
+{
+    const char *slash = strchr(path, '/');
+    if (!slash) return json_object_get(object, path);
+    char group[32];
+    snprintf(group, sizeof group, "%.*s", (int)(slash - path), path);
+    return json_object_get(json_object_get(object, group), slash + 1);
+}
+
+static void add_column(text_buffer *sql, const char *path)
+{
+    const char *slash = strchr(path, '/');
+    if (slash) text_buffer_print(sql, ",%.*s_%s", (int)(slash - path), path, slash + 1);
+    else text_buffer_print(sql, ",%s", path);
+}
+
 static store_status fill_table(sqlite3 *writer, int64_t job, size_t table, const json_t *object)
 {
     text_buffer sql;
     text_buffer_init(&sql, 2048);
     text_buffer_print(&sql, "INSERT OR REPLACE INTO %s_result(job", tables[table].object);
     size_t count = 0;
-    while (tables[table].columns[count]) text_buffer_print(&sql, ",%s", tables[table].columns[count++]);
+    while (tables[table].columns[count]) add_column(&sql, tables[table].columns[count++]);
     text_buffer_print(&sql, ") VALUES(?");
     for (size_t i = 0; i < count; i++) text_buffer_print(&sql, ",?");
     text_buffer_print(&sql, ")");
     sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(writer, sql.text, "i", job);
     text_buffer_clear(&sql);
     if (!statement) return STORE_FAILED;
-    for (size_t i = 0; i < count; i++) bind_json(statement, (int)i + 2, json_object_get(object, tables[table].columns[i]));
+    for (size_t i = 0; i < count; i++) bind_json(statement, (int)i + 2, member_of(object, tables[table].columns[i]));
     return sql_finish(statement, sqlite3_step(statement));
 }
 

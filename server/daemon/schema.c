@@ -162,9 +162,45 @@ static const char study_tables[] =
     "   successful=successful-(old.status='successful'), failed=failed-(old.status='failed'),"
     "   dismissed=dismissed-(old.status='dismissed') WHERE number=old.study; END;";
 
+static const char more_measures[] =
+    "ALTER TABLE repose_result ADD COLUMN slumps_count INTEGER;"
+    "ALTER TABLE repose_result ADD COLUMN slumps_period REAL;"
+    "ALTER TABLE repose_result ADD COLUMN slumps_start_deg REAL;"
+    "ALTER TABLE repose_result ADD COLUMN slumps_stop_deg REAL;"
+    "ALTER TABLE repose_result ADD COLUMN slumps_size_deg REAL;"
+    "ALTER TABLE packing_result ADD COLUMN mean_overlap REAL;"
+    "ALTER TABLE packing_result ADD COLUMN overlap_99 REAL;"
+    "CREATE TABLE drive_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  torque REAL, torque_standard_error REAL, weight_torque REAL, weight_torque_standard_error REAL, torque_number REAL,"
+    "  power REAL) STRICT;";
+
+static const char run_summary_with_more_measures[] =
+    "DROP VIEW run_summary;"
+    "CREATE VIEW run_summary AS SELECT"
+    "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
+    "  i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
+    "  coalesce(i.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles, i.species, i.diameter,"
+    "  i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution, i.wall_friction,"
+    "  i.tangential_stiffness_ratio, i.stiffness, i.lining_diameter, i.time_step, i.duration, i.seed, gi.radius,"
+    "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady, a.drift_deg_per_revolution,"
+    "  a.interface_fluctuation, a.slumps_count, a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg,"
+    "  g.name AS regime, g.omega2_outer, g.omega2_inner,"
+    "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number, p.mean_overlap, p.overlap_99,"
+    "  d.torque, d.torque_standard_error, d.torque_number, d.power,"
+    "  gr.minimum_omega2, gr.minimum_rotation_rate, gr.slip_per_revolution,"
+    "  r.steps, r.simulated_seconds, r.wall_seconds, r.particle_steps_per_second, r.maximum_overlap, r.threads"
+    " FROM job JOIN run_result r ON r.job=job.number LEFT JOIN drum_input i ON i.job=job.number"
+    " LEFT JOIN granule_input gi ON gi.job=job.number LEFT JOIN granule_result gr ON gr.job=job.number"
+    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"
+    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
+    " LEFT JOIN drive_result d ON d.job=job.number"
+    " WHERE job.status='successful';";
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
     { { study_tables } },
+    { { more_measures, run_summary_with_more_measures } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

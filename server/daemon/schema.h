@@ -3,7 +3,7 @@
 #define SCHEMA_H
 
 typedef struct schema_migration {
-    const char *parts[2]; /* SQL, run one after the other; NULL: none */
+    const char *parts[6]; /* SQL, run one after the other; NULL: none */
 } schema_migration;
 
 extern const schema_migration schema_migrations[];

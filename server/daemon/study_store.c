@@ -238,10 +238,12 @@ store_status store_list_study_cases(job_store *store, const char *id, study_case
 #define SELECT_RUNS                                                                                                                \
     "SELECT job.study_case, job.status, a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg,"                          \
     " a.drift_deg_per_revolution, a.interface_fluctuation, g.name AS regime, s.radial_index, s.axial_index,"                       \
-    " s.lacey_index, p.solid_fraction, p.coordination_number, r.maximum_overlap, gr.minimum_omega2, gr.error,"                     \
+    " s.lacey_index, p.solid_fraction, p.coordination_number, r.maximum_overlap, d.torque, d.torque_standard_error, d.power,"      \
+    " a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg, gr.minimum_omega2, gr.error,"                                        \
     " gr.minimum_rotation_rate, gr.slip_per_revolution"                                                                            \
     " FROM job LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                        \
     " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"                           \
+    " LEFT JOIN drive_result d ON d.job=job.number"                                                                                \
     " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"
 
 static json_t *measures_of(sqlite3_stmt *row)

@@ -63,10 +63,12 @@ def run():
 RESULT = {
     "repose": {"angle_deg": 23.5, "standard_error_deg": 0.3, "minimum_deg": 22, "maximum_deg": 25, "steady": True,
                "drift_deg_per_revolution": 0.1, "method": "surface-fit", "other_methods": {"chord": 23.1},
-               "interface_fluctuation": 1e-4},
+               "interface_fluctuation": 1e-4, "slumps": {"count": 12, "period": 0.56, "start_deg": 13.5}},
     "regime": {"name": "rolling", "omega2_outer": 0.07, "omega2_inner": 0.01, "predicted": {}, "evidence": {}},
     "segregation": {"radial_index": None, "axial_index": None, "lacey_index": None},
-    "packing": {"solid_fraction": 0.59, "coordination_number": 4.4},
+    "packing": {"solid_fraction": 0.59, "coordination_number": 4.4, "mean_overlap": 0.001, "overlap_99": 0.004},
+    "drive": {"torque": 0.012, "torque_standard_error": 1e-4, "weight_torque": 0.0121, "weight_torque_standard_error": 1e-4,
+              "torque_number": 0.2, "power": 0.019},
     "run": {"particles": 41, "steps": 2000, "time_step": 1e-4, "simulated_seconds": 0.4, "wall_seconds": 0.1,
             "particle_steps_per_second": 8.2e5, "maximum_overlap": 0.01, "threads": 1, "seed": 7},
 }

@@ -94,13 +94,14 @@ def test_wrong_usage_ends_with_2_and_help_with_0(tmp_path):
 
 def test_a_run_leaves_every_result_that_is_promised(whole):
     document = result(whole[0])
-    assert set(document) == {"repose", "regime", "segregation", "packing", "run"}
+    assert set(document) == {"repose", "regime", "segregation", "packing", "drive", "run"}
     promised = {
         "repose": ["angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady",
                    "drift_deg_per_revolution", "method", "other_methods", "interface_fluctuation"],
         "regime": ["name", "omega2_outer", "omega2_inner", "predicted", "evidence"],
         "segregation": ["radial_index", "axial_index", "lacey_index"],
-        "packing": ["solid_fraction", "coordination_number"],
+        "packing": ["solid_fraction", "coordination_number", "mean_overlap", "overlap_99"],
+        "drive": ["torque", "torque_standard_error", "weight_torque", "weight_torque_standard_error", "torque_number", "power"],
         "run": ["particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second",
                 "maximum_overlap", "threads", "seed"],
     }

@@ -276,6 +276,42 @@ static void one_species_has_no_segregation(void **unused)
     dem_scene_free(scene);
 }
 
+/* ---- contacts ---- */
+
+/* Rows of three spheres along z far from all others; within each row the gaps overlap by what is asked for. */
+static void overlaps_and_contacts_are_those_of_the_pairs_that_touch(void **unused)
+{
+    (void)unused;
+    enum { ROWS = 100 };
+    dem_drum_definition d = hand_definition(3 * ROWS);
+    const double diameter = 2 * (double)(real)0.002; /* radii are kept as real */
+    double x[9 * ROWS] = { 0 }, sum = 0;
+    for (int row = 0; row < ROWS; row++) {
+        const double overlap = 0.004 * 1e-4 * (row + 1); /* 0.01 % to 1 % */
+        double *p = x + 9 * row;
+        for (int k = 0; k < 3; k++) {
+            p[3 * k] = -0.06 + 0.008 * (row % 10);
+            p[3 * k + 1] = -0.07 + 0.006 * (row / 10);
+        }
+        p[2] = 0.045; /* the third of them is beyond the period's end */
+        p[5] = p[2] + diameter - overlap;
+        p[8] = row % 2 ? p[5] + diameter + 1e-6 : p[5] + diameter - overlap; /* every second row: it does not touch */
+        p[8] = remainder(p[8], d.length);
+        sum += overlap * (row % 2 ? 1 : 2);
+    }
+    dem_scene *scene = hand_scene(&d);
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x });
+    double frame[DEM_FRAME_SCALARS];
+    assert_int_equal(measure_overlap_frame(scene, frame), DEM_OK);
+    enum { CONTACTS = ROWS * 3 / 2 };
+    CHECK_NEAR(frame[FRAME_MEAN_OVERLAP], sum / CONTACTS / 0.004, 1e-9);
+    CHECK_NEAR(frame[FRAME_OVERLAP_99], 99e-4, 1e-9); /* of 150: one is above, 1 %; the two rows of 99 parts come next */
+    double *whole = frame_of(scene);
+    CHECK_NEAR(whole[FRAME_COORDINATION], 2.0 * CONTACTS / (3 * ROWS + PARKED), 1e-12);
+    free(whole);
+    dem_scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -287,6 +323,7 @@ int main(void)
         cmocka_unit_test(species_in_bands_along_the_axis_have_an_axial_index_of_one),
         cmocka_unit_test(the_radial_index_is_the_difference_of_mean_radii_over_the_drums),
         cmocka_unit_test(one_species_has_no_segregation),
+        cmocka_unit_test(overlaps_and_contacts_are_those_of_the_pairs_that_touch),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,36 @@
+/* How soft the bed is: overlaps of the contacts between its spheres. */
+#include "measure.h"
+
+/* Share of the touching contacts that the percentile leaves above it. */
+static const double TAIL = 0.01;
+
+static double overlap_of(const spheres *s, const container *drum, int32_t i, int32_t j)
+{
+    const double *a = sphere_place(s, (size_t)i), *b = sphere_place(s, (size_t)j);
+    const double dx = a[0] - b[0], dy = a[1] - b[1], dz = wrap_axial(a[2] - b[2], drum->length, 1.0 / drum->length);
+    return sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j) - sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+static int descending(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x < y) - (x > y);
+}
+
+dem_status measure_overlap_frame(const dem_scene *scene, double *frame)
+{
+    const contact_list *pairs = &scene->neighbors.pairs;
+    double *overlap = array_create(pairs->count, sizeof *overlap), sum = 0.0;
+    if (!overlap) return DEM_NO_MEMORY;
+    size_t touching = 0;
+    for (size_t k = 0; k < pairs->count; k++) {
+        overlap[touching] = overlap_of(&scene->spheres, &scene->drum, pairs->first[k], pairs->second[k]);
+        if (overlap[touching] > 0) sum += overlap[touching++];
+    }
+    qsort(overlap, touching, sizeof *overlap, descending);
+    const double unit = scene->spheres.smallest_diameter;
+    frame[FRAME_MEAN_OVERLAP] = touching ? sum / (double)touching / unit : NAN;
+    frame[FRAME_OVERLAP_99] = touching ? overlap[(size_t)(TAIL * (double)touching)] / unit : NAN;
+    free(overlap);
+    return DEM_OK;
+}

@@ -1,0 +1,148 @@
+/* Claims about slumps as events, against saw-teeth whose period and height are known. */
+#include "measure.h"
+
+#include "claims.h"
+
+enum { COUNT = 1200 };
+static const double INTERVAL = 0.05; /* s */
+
+/* Sum of twelve uniforms less six: deviation 1. */
+static double dice_normal(dice *d)
+{
+    double sum = -6;
+    for (int k = 0; k < 12; k++) sum += dice_uniform(d, 0, 1);
+    return sum;
+}
+
+/* Rises from `low` to `high` over `rise` s and falls back over `fall` s; begins `phase` s after a low. */
+static double saw_tooth(double t, double phase, double low, double high, double rise, double fall)
+{
+    const double at = fmod(t + phase, rise + fall);
+    return at < rise ? low + (high - low) * at / rise : high - (high - low) * (at - rise) / fall;
+}
+
+static dem_slumps slumps_of(const double *time, const double *angle, size_t count)
+{
+    dem_slumps s;
+    assert_int_equal(measure_slumps(time, angle, count, &s), DEM_OK);
+    return s;
+}
+
+/* Turning points on frames: exact. Of 60 s in periods of 1.2 s, begun 0.3 s after a low: tops at 0.7, 1.9, ...: 50 of
+ * them, of which the first has no rise by more than the threshold before it (0.7 of 1.0 s), and the last bottom is at
+ * 60.9 s, beyond the end. */
+static void a_saw_tooth_is_found_tooth_by_tooth(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    for (int k = 0; k < COUNT; k++) {
+        time[k] = 7 + INTERVAL * k;
+        angle[k] = saw_tooth(INTERVAL * k, 0.3, 4, 10, 1.0, 0.2);
+    }
+    const dem_slumps s = slumps_of(time, angle, COUNT);
+    CHECK_BETWEEN(s.count, 48, 50);
+    CHECK_NEAR(s.period.mean, 1.2, 1e-12);
+    CHECK_NEAR(s.period.standard_error, 0, 1e-12);
+    CHECK_NEAR(s.start_deg.mean, 10, 1e-12);
+    CHECK_NEAR(s.stop_deg.mean, 4, 1e-12);
+    CHECK_NEAR(s.size_deg.mean, 6, 1e-12);
+    CHECK_NEAR(s.size_deg.standard_error, 0, 1e-12);
+}
+
+/* Noise of 1/15 of a tooth's height: no tooth is missed and none is made up. A turning point is the extreme of a few
+ * frames' noise, so it lies further out by up to two deviations; of 40 teeth the mean scatters by less than that. */
+static void noise_neither_hides_nor_makes_slumps(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    const double noise = 0.4, period = 1.37;
+    dice d = { 5 };
+    for (int trial = 0; trial < 50; trial++) {
+        const double phase = dice_uniform(&d, 0, period);
+        for (int k = 0; k < COUNT; k++) {
+            time[k] = INTERVAL * k;
+            angle[k] = saw_tooth(time[k], phase, 12, 18, 1.1, period - 1.1) + noise * dice_normal(&d);
+        }
+        const dem_slumps s = slumps_of(time, angle, COUNT);
+        CHECK_BETWEEN(s.count, floor(COUNT * INTERVAL / period) - 1, ceil(COUNT * INTERVAL / period));
+        /* the first and the last top are known to a frame or two of 42 periods */
+        CHECK_NEAR(s.period.mean, period, 2 * 2 * INTERVAL / (s.count - 1));
+        CHECK_BETWEEN(s.start_deg.mean, 18 - noise, 18 + 2 * noise);
+        CHECK_BETWEEN(s.stop_deg.mean, 12 - 2 * noise, 12 + noise);
+        CHECK_NEAR(s.size_deg.mean, s.start_deg.mean - s.stop_deg.mean, 1e-12);
+        CHECK_BETWEEN(s.start_deg.standard_error, 0, 1.5 * noise / sqrt(s.count));
+    }
+}
+
+static void noise_alone_has_no_slumps(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    dice d = { 9 };
+    for (int trial = 0; trial < 50; trial++) {
+        for (int k = 0; k < COUNT; k++) {
+            time[k] = INTERVAL * k;
+            angle[k] = 23 + 0.3 * dice_normal(&d);
+        }
+        CHECK_NEAR(slumps_of(time, angle, COUNT).count, 0, 0); /* 1200 values span 6.5 deviations */
+    }
+}
+
+/* Teeth of random height between 60 and 140 % of the mean: all seen, and the error of the mean size is their own scatter,
+ * 0.8/sqrt(12) = 0.23 of it, over the root of their number. */
+static void uneven_slumps_are_all_seen(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    enum { RISE = 16, FALL = 4 };
+    dice d = { 13 };
+    double low = 5, high = 0, sum = 0;
+    int teeth = 0;
+    for (int k = 0; k < COUNT; k++) {
+        const int at = k % (RISE + FALL);
+        if (at == 0) {
+            high = 11 + dice_uniform(&d, -1.2, 1.2);
+            low = k ? low : 5;
+        }
+        time[k] = INTERVAL * k;
+        static double next_low;
+        if (at == RISE) next_low = 5 + dice_uniform(&d, -1.2, 1.2);
+        angle[k] = at <= RISE ? low + (high - low) * at / RISE : high + (next_low - high) * (at - RISE) / FALL;
+        if (at == RISE + FALL - 1) {
+            low = next_low;
+            sum += high - low;
+            teeth++;
+        }
+    }
+    const dem_slumps s = slumps_of(time, angle, COUNT);
+    CHECK_BETWEEN(s.count, teeth - 1, teeth);
+    CHECK_NEAR(s.size_deg.mean, sum / teeth, 2 * 2.4 / teeth); /* but for one tooth at an end */
+    CHECK_NEAR(s.size_deg.standard_error, sqrt(2) * 2.4 / sqrt(12) / sqrt(teeth), 0.25 * s.size_deg.standard_error);
+    CHECK_NEAR(s.period.mean, (RISE + FALL) * INTERVAL, 1e-12);
+}
+
+static void missing_frames_are_left_out_and_too_few_have_no_slumps(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    for (int k = 0; k < COUNT; k++) {
+        time[k] = INTERVAL * k;
+        angle[k] = k % 7 == 3 ? NAN : saw_tooth(time[k], 0.3, 4, 10, 1.0, 0.2);
+    }
+    CHECK_NEAR(slumps_of(time, angle, COUNT).period.mean, 1.2, 0.01);
+    const double none[] = { NAN, NAN, 3, NAN, 4 }, when[] = { 0, 1, 2, 3, 4 };
+    const dem_slumps s = slumps_of(when, none, 5);
+    assert_true(isnan(s.count) && isnan(s.period.mean) && isnan(s.size_deg.mean));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_saw_tooth_is_found_tooth_by_tooth),
+        cmocka_unit_test(noise_neither_hides_nor_makes_slumps),
+        cmocka_unit_test(noise_alone_has_no_slumps),
+        cmocka_unit_test(uneven_slumps_are_all_seen),
+        cmocka_unit_test(missing_frames_are_left_out_and_too_few_have_no_slumps),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
