@@ -62,6 +62,8 @@ double calibration_seconds_a_step(const calibration *machine, const calibration_
 
 /* --- the file --- */
 
+const char *calibration_law_name(int law) { return law_names[law]; }
+
 static bool read_text(const json_t *document, const char *name, char *text, size_t size)
 {
     const char *value = json_string_value(json_object_get(document, name));

@@ -40,6 +40,8 @@ typedef struct calibration_load {
 /* s of wall time for one step. machine NULL: built-in figures. */
 double calibration_seconds_a_step(const calibration *machine, const calibration_load *load);
 
+const char *calibration_law_name(int law); /* as in a specification */
+
 /* False: the document is no calibration; *machine is then the built-in one. */
 bool calibration_from_json(const json_t *document, calibration *machine);
 json_t *calibration_to_json(const calibration *machine); /* new reference; NULL: no memory */

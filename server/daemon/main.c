@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "calibrator.h"
 #include "http_server.h"
 #include "log.h"
 
@@ -133,6 +134,7 @@ int main(int argc, char **argv)
     umask(077);
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */
     if (!open_parts(&all) || !announce(&all)) return 1;
+    calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);
     http_server_stop(&all.server);
     dispatcher_clear(&all.dispatcher);

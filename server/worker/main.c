@@ -9,6 +9,7 @@
 #include <sys/random.h>
 #include <unistd.h>
 
+#include "calibrate.h"
 #include "file_publish.h"
 #include "hdf_file.h"
 #include "job_run.h"
@@ -31,14 +32,19 @@ static const char help[] =
     "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"
     "                              memory; or every problem it has. Of a study: its cases and what it costs\n"
+    "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"
+    "                              else the user's cache)\n"
+    "repose calibrate              measure this machine's speed where that was not yet done; --data DIR as above\n"
     "repose --help | --version\n"
     "\n"
     "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"
     "of another SPEC in DIR are never overwritten.\n"
     "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk.\n";
 
+static const char no_spec[] = "give one SPEC file";
+
 typedef struct command_line {
-    const char *spec, *out;
+    const char *spec, *out, *data;
     int threads; /* 0: those of the spec */
     bool json;
     run_options run;
@@ -75,13 +81,10 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' },
-        { "threads", required_argument, NULL, 't' },
-        { "attempt", required_argument, NULL, 'a' },
-        { "checkpoint-seconds", required_argument, NULL, 'c' },
-        { "json", no_argument, NULL, 'j' },
-        { "profile", no_argument, NULL, 'p' },
-        { NULL, 0, NULL, 0 },
+        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },          { "profile", no_argument, NULL, 'p' },
+        { "data", required_argument, NULL, 'd' },    { NULL, 0, NULL, 0 },
     };
     *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
     bool good = true;
@@ -93,12 +96,13 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         case 'c': good = read_seconds("checkpoint-seconds", optarg, &line->run.checkpoint_seconds); break;
         case 'j': line->json = true; break;
         case 'p': line->run.profile = true; break;
+        case 'd': line->data = optarg; break;
         default: return WORKER_BAD_SPEC; /* getopt has said why */
         }
         if (!good) return WORKER_BAD_SPEC;
     }
-    if (optind + 1 != argc) return refuse_usage("give one SPEC file", NULL);
-    line->spec = argv[optind];
+    if (optind < argc) line->spec = argv[optind];
+    if (optind + 1 < argc) return refuse_usage("not understood", argv[optind + 1]);
     return WORKER_DONE;
 }
 
@@ -165,15 +169,36 @@ static enum worker_exit check(int argc, char **argv)
     command_line line;
     enum worker_exit exit = read_command_line(argc, argv, &line);
     if (exit != WORKER_DONE) return exit;
+    if (!line.spec) return refuse_usage(no_spec, NULL);
+    calibration machine;
+    bool is_new;
+    calibrate(line.data, &machine, &is_new);
     problem_list problems;
     problem_list_init(&problems);
     json_t *document = spec_file_read(path_of(line.spec), &problems);
-    json_t *report = document ? check_document(document, NULL, &problems) : NULL;
+    json_t *report = document ? check_document(document, &machine, &problems) : NULL;
     json_decref(document);
     if (report) print_json(report);
     else exit = refuse(&problems);
     problem_list_clear(&problems);
     return exit;
+}
+
+/* What a calibration was, for whoever watches; --json: the whole of it. */
+static enum worker_exit calibrate_here(int argc, char **argv)
+{
+    command_line line;
+    calibration machine;
+    bool is_new;
+    const enum worker_exit exit = read_command_line(argc, argv, &line);
+    if (exit != WORKER_DONE) return exit;
+    if (line.spec) return refuse_usage("not understood", line.spec);
+    if (!calibrate(line.data, &machine, &is_new)) return WORKER_FAULT;
+    if (line.json) print_json(calibration_to_json(&machine));
+    else
+        printf("%s, %s: %.1f M sphere-steps/s in the paper's drum\n", machine.processor,
+               is_new ? "measured now" : "as measured before", 1e3 / machine.sphere[0]);
+    return WORKER_DONE;
 }
 
 /* The working directory is the job folder now. */
@@ -204,6 +229,7 @@ static enum worker_exit run(int argc, char **argv)
     command_line line;
     job_spec spec;
     enum worker_exit exit = read_command_line(argc, argv, &line);
+    if (exit == WORKER_DONE && !line.spec) exit = refuse_usage(no_spec, NULL);
     if (exit == WORKER_DONE && !line.out) exit = refuse_usage("say where to write: --out DIR", NULL);
     if (exit == WORKER_DONE) exit = load_spec(line.spec, line.out, &spec);
     if (exit != WORKER_DONE) return exit;
@@ -227,6 +253,7 @@ int main(int argc, char **argv)
     int exit = WORKER_DONE;
     if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1);
     else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1);
+    else if (strcmp(word, "calibrate") == 0) exit = calibrate_here(argc - 1, argv + 1);
     else if (strcmp(word, "--help") == 0) fputs(help, stdout);
     else if (strcmp(word, "--version") == 0) puts("repose " REPOSED_VERSION);
     else exit = refuse_usage("not a command", word);

@@ -1,0 +1,274 @@
+/* Small beds of the paper's spheres in a drum a fifth as deep are made soft, which is quick, turned until they flow, and
+ * then measured with the stiffness and the step that a run would have: each law goes on from the same bed, without what
+ * its contacts remembered. How cost grows with size is seen while beds of several sizes grow. All of it by processor
+ * time, so that other programs on the machine matter little. */
+#include "calibrate.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "dem.h"
+#include "job_spec.h"
+#include "json_text.h"
+#include "version.h"
+#include "worker_log.h"
+
+/* drum diameter, length, the particle's shape, law, largest overlap, particle_count or fill_fraction */
+#define BED                                                                                                                        \
+    "{\"inputs\": {\"drum\": {\"diameter\": %g, \"length\": %g, \"rotation_rate\": 2.0}, \"particles\": [{\"shape\": \"%s\","      \
+    " \"diameter\": 0.00378}], \"contact\": {\"law\": \"%s\", \"friction\": 0.1, \"maximum_overlap\": %g},"                        \
+    " \"duration\": {\"revolutions\": 1}, \"seed\": 1}}"
+#define DRUM_DIAMETER 0.0756
+#define SOFT 0.05
+#define AS_USUAL 0.01
+#define FLOWING_SECONDS 0.2 /* of rotation, until the bed flows */
+
+enum { WARMING_STEPS = 1000, MEASURED_STEPS = 3000, WINDOWS = 3, GROWING_STEPS = 400 };
+
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool define(double diameter, double length, const char *shape, const char *law, double overlap, dem_drum_definition *drum)
+{
+    char text[600];
+    problem_list problems;
+    job_spec spec;
+    snprintf(text, sizeof text, BED, diameter, length, shape, law, overlap);
+    if (!problem_list_init(&problems)) return false;
+    json_t *request = json_loads(text, 0, NULL);
+    const bool good = request && job_spec_parse("drum", request, 1, &spec, &problems);
+    if (good) {
+        *drum = spec.drum;
+        job_spec_clear(&spec);
+    }
+    json_decref(request);
+    problem_list_clear(&problems);
+    return good;
+}
+
+/* ns a sphere-step; the quickest of a few windows, since whatever disturbs makes it slower. 0: it failed. */
+static double cost_of(dem_scene *scene, int64_t steps)
+{
+    double least = 0.0;
+    for (int window = 0; window < WINDOWS; window++) {
+        const double begin = processor_seconds();
+        if (dem_scene_advance(scene, steps) != DEM_OK) return 0.0;
+        const double cost = 1e9 * (processor_seconds() - begin) / ((double)steps * (double)dem_scene_sphere_count(scene));
+        least = window == 0 || cost < least ? cost : least;
+    }
+    return least;
+}
+
+/* What a contact remembers means something else to another law or stiffness. */
+static void forget_contacts(dem_state *state)
+{
+    static const char *const names[] = { "pair", "pair_history", "wall_contact", "wall_history" };
+    for (size_t k = 0; k < state->array_count; k++)
+        for (size_t n = 0; n < sizeof names / sizeof names[0]; n++)
+            if (strcmp(state->array[k].name, names[n]) == 0) state->array[k].rows = 0;
+}
+
+/* A bed that flows, of which others start. */
+static bool make_bed(const dem_drum_definition *drum, dem_state *state)
+{
+    dem_scene *scene;
+    dem_status status = dem_scene_create(drum, &scene);
+    if (status != DEM_OK) return false;
+    while (status == DEM_OK && dem_scene_phase(scene) != DEM_PHASE_ROTATING) status = dem_scene_advance(scene, 100);
+    if (status == DEM_OK) status = dem_scene_advance(scene, (int64_t)(FLOWING_SECONDS / drum->time_step));
+    if (status == DEM_OK) status = dem_scene_save(scene, state);
+    dem_scene_free(scene);
+    if (status == DEM_OK) forget_contacts(state);
+    return status == DEM_OK;
+}
+
+static double cost_from_bed(const dem_drum_definition *drum, const dem_state *state)
+{
+    dem_scene *scene;
+    double cost = 0.0;
+    if (dem_scene_create(drum, &scene) != DEM_OK) return 0.0;
+    if (dem_scene_restore(scene, state) == DEM_OK && dem_scene_advance(scene, WARMING_STEPS) == DEM_OK)
+        cost = cost_of(scene, MEASURED_STEPS);
+    dem_scene_free(scene);
+    return cost;
+}
+
+/* Each law's cost in one bed of this shape; laws from 0 to `laws`. */
+static bool measure_laws(const char *shape, double length, int laws, double cost[CALIBRATION_LAWS])
+{
+    dem_drum_definition drum;
+    dem_state state = { .array_count = 0 };
+    bool good = define(DRUM_DIAMETER, length, shape, calibration_law_name(0), SOFT, &drum) && make_bed(&drum, &state);
+    for (int law = 0; good && law < laws; law++) {
+        good = define(DRUM_DIAMETER, length, shape, calibration_law_name(law), AS_USUAL, &drum);
+        if (good) cost[law] = cost_from_bed(&drum, &state);
+        good = good && cost[law] > 0.0;
+    }
+    dem_state_clear(&state);
+    return good;
+}
+
+static double cost_of_growing(double diameter, double length, int64_t steps, double *spheres)
+{
+    dem_drum_definition drum;
+    dem_scene *scene;
+    if (!define(diameter, length, "sphere", calibration_law_name(0), AS_USUAL, &drum)) return 0.0;
+    if (dem_scene_create(&drum, &scene) != DEM_OK) return 0.0;
+    *spheres = (double)dem_scene_sphere_count(scene);
+    const double cost = dem_scene_advance(scene, 200) == DEM_OK ? cost_of(scene, steps) : 0.0;
+    dem_scene_free(scene);
+    return cost;
+}
+
+/* Relative to the bed in which the laws were measured. */
+static bool measure_sizes(calibration *machine)
+{
+    static const struct {
+        double diameter, length;
+        int64_t steps;
+    } beds[CALIBRATION_SIZES] = { { 0.04, 0.01512, 6 * GROWING_STEPS },
+                                  { DRUM_DIAMETER, 0.0252, 2 * GROWING_STEPS },
+                                  { 0.126, 0.15, GROWING_STEPS / 4 } };
+    double cost[CALIBRATION_SIZES];
+    for (size_t k = 0; k < CALIBRATION_SIZES; k++) {
+        cost[k] = cost_of_growing(beds[k].diameter, beds[k].length, beds[k].steps, &machine->size[k]);
+        if (!(cost[k] > 0.0)) return false;
+    }
+    for (size_t k = 0; k < CALIBRATION_SIZES; k++) machine->size_factor[k] = cost[k] / cost[1];
+    return true;
+}
+
+/* --- whose it is --- */
+
+static void name_processor(char text[CALIBRATION_TEXT])
+{
+    char line[400];
+    snprintf(text, CALIBRATION_TEXT, "unknown");
+    FILE *file = fopen("/proc/cpuinfo", "re");
+    while (file && fgets(line, sizeof line, file)) {
+        const char *colon = strncmp(line, "model name", 10) == 0 ? strchr(line, ':') : NULL;
+        if (!colon) continue;
+        snprintf(text, CALIBRATION_TEXT, "%.*s", (int)strcspn(colon + 2, "\n"), colon + 2);
+        break;
+    }
+    if (file) fclose(file);
+}
+
+/* Every build has a time and a size of its own. */
+static void name_program(char text[CALIBRATION_TEXT])
+{
+    struct stat program;
+    if (stat("/proc/self/exe", &program) != 0) program = (struct stat){ .st_size = 0 };
+    snprintf(text, CALIBRATION_TEXT, "repose " REPOSED_VERSION ", %lld bytes, built at %lld", (long long)program.st_size,
+             (long long)program.st_mtim.tv_sec);
+}
+
+static bool measure(calibration *machine)
+{
+    *machine = calibration_built_in();
+    name_processor(machine->processor);
+    name_program(machine->program);
+    const time_t now = time(NULL);
+    struct tm utc;
+    gmtime_r(&now, &utc);
+    strftime(machine->made, sizeof machine->made, "%Y-%m-%dT%H:%M:%S.000Z", &utc);
+    if (!measure_laws("sphere", 0.0252, CALIBRATION_LAWS, machine->sphere)
+        || !measure_laws("tetrahedron", 0.0378, 1, machine->cluster) || !measure_sizes(machine)) {
+        *machine = calibration_built_in();
+        return false;
+    }
+    /* Joining spheres costs the same with any law. */
+    for (int law = 1; law < CALIBRATION_LAWS; law++)
+        machine->cluster[law] = machine->cluster[0] + machine->sphere[law] - machine->sphere[0];
+    return true;
+}
+
+bool calibrate_is_current(const calibration *machine)
+{
+    char processor[CALIBRATION_TEXT], program[CALIBRATION_TEXT];
+    name_processor(processor);
+    name_program(program);
+    return strcmp(machine->processor, processor) == 0 && strcmp(machine->program, program) == 0;
+}
+
+/* --- where it is kept --- */
+
+static bool is_folder(const char *path)
+{
+    struct stat found;
+    return stat(path, &found) == 0 && S_ISDIR(found.st_mode);
+}
+
+/* Its parent is there, or made here; private, as caches are. */
+static bool make_folder(const char *path) { return mkdir(path, 0700) == 0 || errno == EEXIST; }
+
+static bool choose_folder(const char *wish, char *path, size_t size)
+{
+    const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
+    if (wish || is_folder("data")) {
+        snprintf(path, size, "%s", wish ? wish : "data");
+        return make_folder(path);
+    }
+    if (cache && cache[0] == '/') snprintf(path, size, "%s", cache);
+    else if (home && home[0] == '/') snprintf(path, size, "%s/.cache", home);
+    else return false;
+    const size_t length = strlen(path);
+    const bool there = make_folder(path);
+    snprintf(path + length, size - length, "/reposed");
+    return there && make_folder(path);
+}
+
+/* Whole or not at all: several may be at it. */
+static bool keep(const calibration *machine, const char *folder)
+{
+    char path[4200], temporary[4300];
+    snprintf(path, sizeof path, "%s/" CALIBRATION_FILE, folder);
+    snprintf(temporary, sizeof temporary, "%s.%d.tmp", path, (int)getpid());
+    json_t *document = calibration_to_json(machine);
+    char *text = document ? json_text_write(document) : NULL;
+    json_decref(document);
+    FILE *file = text ? fopen(temporary, "we") : NULL;
+    bool good = file && fputs(text, file) >= 0;
+    if (file) good = fclose(file) == 0 && good;
+    good = good && rename(temporary, path) == 0;
+    if (file && !good) unlink(temporary);
+    free(text);
+    return good;
+}
+
+static void load(const char *folder, calibration *machine)
+{
+    char path[4200];
+    snprintf(path, sizeof path, "%s/" CALIBRATION_FILE, folder);
+    json_t *document = json_load_file(path, JSON_REJECT_DUPLICATES, NULL);
+    calibration_from_json(document, machine);
+    json_decref(document);
+}
+
+bool calibrate(const char *wish, calibration *machine, bool *is_new)
+{
+    char folder[4096];
+    const bool has_folder = choose_folder(wish, folder, sizeof folder);
+    *is_new = false;
+    if (has_folder) {
+        load(folder, machine);
+        if (calibrate_is_current(machine)) return true;
+    }
+    if (!measure(machine)) {
+        worker_warn("this machine's speed could not be measured: estimates are rough");
+        return false;
+    }
+    *is_new = true;
+    if (!has_folder || !keep(machine, folder))
+        worker_warn("%s can't be kept in %s: %s", CALIBRATION_FILE, has_folder ? folder : "any folder", strerror(errno));
+    return true;
+}
