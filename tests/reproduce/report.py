@@ -4,7 +4,7 @@ import sections_slow
 from collecting import cases_of, runs_of
 from comparing import AGREES, judge
 from markdown import duration, listed, number, table, with_error, z_text
-from tables import agreement, failures, here_text, paper_table, runs_table, total, verdicts
+from tables import agreement, base_text, failures, here_text, paper_table, runs_table, total, verdicts
 
 SECTIONS = {
     "table1": sections_slow.table1, "figure3": sections_slow.figure3, "figure4": sections_slow.figure4, "axial": sections_slow.axial,
@@ -80,7 +80,7 @@ def section(book, file):
     parts += investigations(book, file, collected)
     failed = failures(collected)
     parts += ["Runs without a result: " + listed(failed) + "."] if failed else []
-    return [*parts, "What was run (`" + file + ".json`):", runs_table(collected)]
+    return [*parts, f"What was run (`{file}.json`), where a case does not say otherwise: {base_text(collected)}.", runs_table(collected)]
 
 
 def investigations(book, file, collected):

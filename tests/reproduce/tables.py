@@ -66,6 +66,22 @@ def angle_table(collected, cases, paper=None):
     return table(["case", "paper", "surface-fit", *methods], rows)
 
 
+UNIMPORTANT = ("seed", "threads", "snapshots", "samples")
+
+
+def leaves(value, name=""):
+    """("drum/diameter", 0.126), ... for each number and word in it."""
+    if isinstance(value, (dict, list)):
+        members = value.items() if isinstance(value, dict) else enumerate(value)
+        return [leaf for key, member in members if key not in UNIMPORTANT for leaf in leaves(member, f"{name}/{key}" if name else str(key))]
+    return [(name, f"{value:.5g}" if isinstance(value, float) else str(value))]
+
+
+def base_text(collected):
+    """What all cases share, but for what a case says otherwise: the units are SI."""
+    return ", ".join(f"{name} {value}" for name, value in leaves(collected["document"]["base"]["inputs"]))
+
+
 def failures(collected):
     return [f"{run['case']}, seed {run['seed']}: {run['status']}, {run['message']}" for run in collected["runs"]
             if run["status"] != "successful"]
