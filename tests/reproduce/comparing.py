@@ -30,6 +30,8 @@ def error_path(path):
         return f"{place}_standard_error_deg.{name}"
     if name == "minimum_omega2":
         return f"{place}.error"
+    if name.endswith("_deg"):
+        return f"{place}.{name[:-4]}_standard_error_deg"
     return f"{path}_standard_error"
 
 
@@ -85,7 +87,7 @@ def judge(row, runs):
         return Verdict(row, text, None, all(name in row["words"] for name in said))
     here = mean(runs, row["measure"])
     if here is None:
-        return Verdict(row, None, None, None)
+        return Verdict(row, f"none in {len(runs)} run{'s' if len(runs) > 1 else ''}", None, False)
     if "value" in row:
         z = z_of(here, row["value"], row.get("spread"))
         return Verdict(row, here, z, here.value == row["value"] if z is None else abs(z) <= AGREES, len(runs))

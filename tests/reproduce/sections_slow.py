@@ -48,9 +48,9 @@ def unsteady_rows(book, collected):
 
 
 def slumping(runs):
-    events = "results.repose.events"
-    return [with_error(here) if here else "" for here in (mean(runs, f"{events}.{name}") for name in
-            ("count", "mean_period", "mean_start_deg", "mean_stop_deg"))]
+    """Numbers of its falls: of the direction of the centre of mass, which a block's surface follows."""
+    return [with_error(here) if here else "" for here in (mean(runs, f"results.repose.slumps.{name}") for name in
+            ("count", "period", "start_deg", "stop_deg"))]
 
 
 def angle_plot(book, collected, name, cases):
