@@ -1,0 +1,123 @@
+"""Estimates: from this machine's calibration, kept in the data folder, and from what finished runs took. Nothing here
+depends on how fast the machine is."""
+import json
+import os
+import sqlite3
+import subprocess
+import time
+
+import pytest
+from conftest import FAKE_WORKER, SPEC, Daemon
+from worker_runs import REPOSE, SMALL
+
+# What the seconds said may differ by: JSON texts of 15 digits, and sums in another order.
+CLOSE = 1e-9
+
+
+def repose(*arguments, folder=None, text=None):
+    done = subprocess.run([REPOSE, *map(str, arguments)], capture_output=True, text=True, timeout=120, input=text, cwd=folder)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def estimate(spec, data):
+    return json.loads(repose("check", "-", "--data", data, text=json.dumps(spec)))["estimate"]
+
+
+@pytest.fixture(scope="module")
+def measured(tmp_path_factory):
+    """A calibration of this machine."""
+    data = tmp_path_factory.mktemp("measured") / "data"
+    repose("calibrate", "--data", data)
+    return json.loads((data / "calibration.json").read_text())
+
+
+def keep(data, calibration, factor=1.0):
+    """The calibration in a data folder, of a machine slower by the factor."""
+    slower = json.loads(json.dumps(calibration))
+    for costs in slower["nanoseconds_a_sphere_step"].values():
+        for law in costs:
+            costs[law] *= factor
+    data.mkdir(exist_ok=True)
+    (data / "calibration.json").write_text(json.dumps(slower))
+
+
+def test_a_calibration_is_made_once_and_again_for_another_machine_or_program(measured, tmp_path):
+    data = tmp_path / "data"
+    keep(data, measured)
+    written = (data / "calibration.json").read_bytes()
+    assert "as measured before" in repose("calibrate", "--data", data)
+    assert (data / "calibration.json").read_bytes() == written
+    keep(data, {**measured, "processor": "another"})
+    assert "measured now" in repose("calibrate", "--data", data)
+    assert json.loads((data / "calibration.json").read_text())["processor"] == measured["processor"]
+
+
+def test_check_says_what_the_calibration_in_the_data_folder_makes_of_it(measured, tmp_path):
+    keep(tmp_path / "fast", measured)
+    keep(tmp_path / "slow", measured, 10.0)
+    fast, slow = estimate(SMALL, tmp_path / "fast"), estimate(SMALL, tmp_path / "slow")
+    assert slow["wall_seconds"] == pytest.approx(10.0 * fast["wall_seconds"], rel=CLOSE)
+    assert slow["steps"] == fast["steps"]
+
+
+def test_check_finds_the_data_folder_that_the_daemon_has_by_default(measured, tmp_path):
+    keep(tmp_path / "data", measured, 10.0)
+    there = json.loads(repose("check", "-", text=json.dumps(SMALL), folder=tmp_path))["estimate"]
+    assert there["wall_seconds"] == pytest.approx(estimate(SMALL, tmp_path / "data")["wall_seconds"], rel=CLOSE)
+
+
+def test_no_more_threads_count_than_there_are_cores(measured, tmp_path):
+    keep(tmp_path / "data", measured)
+    cores = os.sysconf("SC_NPROCESSORS_ONLN")
+    seconds = {}
+    for threads in (1, cores, 256):
+        spec = {"inputs": {**SMALL["inputs"], "threads": threads}}
+        seconds[threads] = estimate(spec, tmp_path / "data")["wall_seconds"]
+    assert seconds[256] == seconds[cores]
+    assert seconds[1] / cores <= seconds[cores] <= seconds[1]
+
+
+def posted(daemon):
+    return daemon.post(SPEC).json()["estimate"]["wall_seconds"]
+
+
+def test_the_daemon_estimates_from_the_calibration_and_from_finished_runs(measured, tmp_path):
+    keep(tmp_path / "data", measured, 10.0)
+    said = estimate({"inputs": SPEC}, tmp_path / "data")
+    daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "2"]).start()
+    try:
+        assert posted(daemon) == pytest.approx(said["wall_seconds"], rel=CLOSE)
+        # Three runs that took 0.9, 1.5 and 20 times what was said: the median counts, the odd one does not.
+        jobs = [daemon.submit() for _ in range(3)]
+        for job in jobs:
+            daemon.ended(job)
+        daemon.stop()
+        with sqlite3.connect(tmp_path / "data" / "reposed.sqlite") as database:
+            database.execute("DELETE FROM run_result")
+            for job, factor in zip(jobs, (0.9, 1.5, 20.0), strict=True):
+                database.execute("INSERT INTO run_result(job,steps,wall_seconds) SELECT number,?,? FROM job WHERE id=?",
+                                 (1e6, 1e6 * factor * said["wall_seconds"] / said["steps"], job))
+        daemon.start()
+        assert posted(daemon) == pytest.approx(1.5 * said["wall_seconds"], rel=1e-6)
+    finally:
+        if daemon.is_running():
+            daemon.stop()
+
+
+def test_the_daemon_has_its_machine_measured_in_the_background(tmp_path):
+    """By a worker program that only says how it was called: what it measures is tested above."""
+    program = tmp_path / "worker"
+    program.write_text(f'#!/bin/sh\necho "$@" >> {tmp_path}/calls\n')
+    program.chmod(0o700)
+    daemon = Daemon(tmp_path, worker=program).start()
+    try:
+        calls = tmp_path / "calls"
+        for _ in range(200):
+            if calls.exists() and calls.read_text().endswith("\n"):
+                break
+            time.sleep(0.05)
+        assert calls.read_text() == f"calibrate --data {tmp_path}/data\n"
+        assert daemon.workers() == []
+    finally:
+        daemon.stop()
