@@ -4,6 +4,7 @@ PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libja
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
+PEER_PACKAGES := lammps liggghts
 LINT_PACKAGES := clang-format clang-tidy cppcheck bear
 
 PYTHON := /usr/bin/python3
@@ -59,9 +60,9 @@ $(BUILD)/repose: $(WORKER) $(BUILD)/libapi.a $(BUILD)/libdem.a
 	$(CC) $(LDFLAGS) -fopenmp $^ -o $@ $(shell pkg-config --libs hdf5-serial) -ljansson -lm
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
 	$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lm
-$(BUILD)/tests/bench/%: tests/bench/%.c $(BUILD)/libdem.a
+$(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(BUILD)/libdem.a
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude $< $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -lm -o $@
+	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude -Iapi $< $(BUILD)/libapi.a $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -ljansson -lm -o $@
 # Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
 $(BUILD)/tests/unit/%: tests/unit/%.c $(BUILD)/libdem.a $(BUILD)/libapi.a $(DAEMON_PARTS)
 	@mkdir -p $(@D)
@@ -89,9 +90,16 @@ reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md;
 check: programs ## the layers: the core needs nothing but libc, libm and OpenMP
 	@sh tests/check_layers.sh $(BUILD)
 
-bench: all ## particle-steps per second of the core on the paper's drum
-	@$(MAKE) --no-print-directory $(BUILD)/tests/bench/bench_drum
-	@sh tests/bench/bench.sh $(BUILD)
+bench: all ## how fast we are, on all kinds of beds, beside the last record: tests/bench/results/
+	@$(MAKE) --no-print-directory $(BUILD)/tests/bench/bench_table
+	@CC=$(CC) PYTHON=$(PYTHON) sh tests/bench/bench.sh $(BUILD) "$(OPT) $(CORE_FLAGS)"
+
+bench-peers: all ## the same drum by LAMMPS and LIGGGHTS beside ours, taking turns
+	$(call install,$(PEER_PACKAGES))
+	@$(MAKE) --no-print-directory $(BUILD)/tests/bench/bench_peers
+	@$(PYTHON) tests/bench/bench_peers.py $(BUILD) >$(BUILD)/peers.ndjson
+	@$(PYTHON) tests/bench/report.py tests/bench/results --compiler "$(shell $(CC) --version | head -n 1)" --flags "$(OPT) $(CORE_FLAGS)" \
+	  --peers $(BUILD)/peers.ndjson
 
 asan: test-packages ## unit and worker tests under the address and undefined-behavior sanitizers, in build/asan
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan SANITIZE="-fsanitize=address,undefined -fno-omit-frame-pointer" asan-run
@@ -135,6 +143,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES))
 
-.PHONY: all programs demo serve test physics reproduce check bench asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
+.PHONY: all programs demo serve test physics reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)
