@@ -2,7 +2,7 @@
 #include "drum_process.h"
 #include "scene_fields.h"
 
-static const char *const ends_choices[] = { "periodic", NULL };
+static const char *const ends_choices[] = { "periodic", "walls", NULL };
 
 static const spec_field fields[] = {
     { SPEC_INPUTS, "drum", FIELD_OBJECT, SPEC_DRUM, .required = true, .meaning = "the rotating drum" },
@@ -11,7 +11,10 @@ static const spec_field fields[] = {
     { SPEC_DRUM, "length", FIELD_REAL, .required = true, .unit = "m", RANGE(0.0001, 20.0), .fallback = NAN, AT(drum_length),
       .meaning = "length along the axis; at least 3 of the largest particle diameters" },
     { SPEC_DRUM, "ends", FIELD_CHOICE, .unit = "", .choices = ends_choices, AT(drum_ends),
-      .meaning = "periodic: what leaves at one end enters at the other, as in a slice of a long drum" },
+      .meaning = "periodic: what leaves at one end enters at the other, as in a slice of a long drum; walls: closed by flat "
+                 "discs that turn with it" },
+    { SPEC_DRUM, "lifters", FIELD_OBJECT_OR_NULL, SPEC_LIFTERS, AT(lifter_count),
+      .meaning = "straight bars of rectangular section along the wall, evenly spaced, turning with it; null: none" },
     { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .unit = "rad/s", RANGE(0.001, 500.0), .fallback = NAN,
       AT(rotation_rate), .meaning = "rate of rotation" },
 
@@ -27,12 +30,22 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "inner wall of the drum" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
       .meaning = "coefficient of friction between a particle and the wall or its lining" },
+    { SPEC_WALL, "end_friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(end_friction),
+      .meaning = "coefficient of friction between a particle and the walls at the drum's ends. Default: the wall's" },
     { SPEC_WALL, "lining", FIELD_OBJECT_OR_NULL, SPEC_LINING, AT(lining_diameter),
       .meaning = "spheres glued to the wall, turning with it; null: a smooth wall" },
     { SPEC_LINING, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT(lining_diameter),
       .meaning = "diameter of the glued spheres; at most 1/8 of the drum's" },
     { SPEC_LINING, "pitch", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT(lining_pitch),
       .meaning = "distance between their centres, around the wall and along the axis. Default: their diameter" },
+    { SPEC_LIFTERS, "count", FIELD_INTEGER, .required = true, .unit = "", RANGE(1, DEM_MAXIMUM_LIFTERS), .fallback = NAN,
+      AT(lifter_count), .meaning = "number of bars" },
+    { SPEC_LIFTERS, "height", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 10.0), .fallback = NAN, AT(lifter_height),
+      .meaning = "of a bar, from the wall towards the axis" },
+    { SPEC_LIFTERS, "width", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 10.0), .fallback = NAN, AT(lifter_width),
+      .meaning = "of a bar, around the wall" },
+    { SPEC_LIFTERS, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(lifter_friction),
+      .meaning = "coefficient of friction between a particle and a bar. Default: the wall's" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, .meaning = "how long the drum turns" },
     { SPEC_DURATION, "revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = 1.25,

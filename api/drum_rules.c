@@ -32,8 +32,12 @@ static void derive_duration(drum_inputs *inputs, job_spec *spec, problem_list *p
     spec->duration = isnan(inputs->revolutions) ? inputs->seconds : inputs->revolutions * revolution;
 }
 
+static bool has_end_walls(const drum_inputs *inputs) { return inputs->drum_ends == 1.0; }
+
 static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_t seed_if_missing)
 {
+    if (isnan(inputs->end_friction) && has_end_walls(inputs)) inputs->end_friction = inputs->wall_friction;
+    if (isnan(inputs->lifter_friction) && inputs->lifter_count > 0.0) inputs->lifter_friction = inputs->wall_friction;
     if (isnan(inputs->lining_pitch)) inputs->lining_pitch = inputs->lining_diameter;
     if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & ((UINT64_C(1) << 53) - 1));
     if (isnan(inputs->sample_interval)) {
@@ -84,6 +88,50 @@ static void check_lining(const drum_inputs *inputs, problem_list *problems)
                          inputs->lining_pitch, spheres, SCENE_MOST_PARTICLES);
 }
 
+static void check_ends(const drum_inputs *inputs, problem_list *problems)
+{
+    if (!isnan(inputs->end_friction) && inputs->drum_ends == 0.0)
+        problem_list_add(problems, "/inputs/wall/end_friction",
+                         "is %g, but the drum's ends are periodic; give /inputs/drum/ends as \"walls\", too", inputs->end_friction);
+}
+
+/* Bars whose corners are within the drum, apart from each other, and which leave the largest particle its room. */
+static bool check_lifters(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+{
+    const size_t before = json_array_size(problems->errors);
+    const double radius = 0.5 * inputs->drum_diameter, top = radius - inputs->lifter_height;
+    const double highest = radius - 1.5 * scene_of_species(drum, scene_species_width, true);
+    double widest = 2.0 * sqrt(fmax(radius * radius - top * top, 0.0));
+    if (inputs->lifter_count >= 3.0) widest = fmin(widest, 1.99 * top * tan(DEM_PI / inputs->lifter_count));
+    if (!isnan(inputs->lining_diameter) && !isnan(inputs->lifter_count))
+        problem_list_add(problems, "/inputs/drum/lifters", "are %.0f bars in a drum with a lining; give one of the two",
+                         inputs->lifter_count);
+    if (inputs->lifter_height > highest)
+        problem_list_add(problems, "/inputs/drum/lifters/height",
+                         "is %g m; must be at most %g m, the drum's radius less 1.5 of the largest particle diameters",
+                         inputs->lifter_height, highest);
+    else if (inputs->lifter_count >= 1.0 && inputs->lifter_width > widest)
+        problem_list_add(problems, "/inputs/drum/lifters/width",
+                         "is %g m; must be at most %g m, for that many bars of that height to lie within the drum and apart",
+                         inputs->lifter_width, widest);
+    return json_array_size(problems->errors) == before;
+}
+
+/* Share of the drum that bars take up. */
+static double share_of_lifters(const dem_drum_definition *drum)
+{
+    const dem_lifters *l = &drum->lifters;
+    return (double)l->count * l->height * l->width / (0.25 * DEM_PI * drum->diameter * drum->diameter);
+}
+
+static void check_room_beside_lifters(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+{
+    const double fill = drum->fill_fraction, most = 0.95 * (1.0 - share_of_lifters(drum));
+    if (fill <= 0.95 && fill > most)
+        problem_list_add(problems, isnan(inputs->particle_count) ? "/inputs/fill_fraction" : "/inputs/particle_count",
+                         "makes a fill of %g; must be at most %.3g beside these lifters", fill, most);
+}
+
 static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     double count = inputs->particle_count;
@@ -113,8 +161,10 @@ static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition
 
 static double largest_impact(const drum_inputs *inputs, const dem_drum_definition *drum)
 {
-    return dem_impact_speed(drum->diameter, scene_of_species(drum, dem_species_diameter, true), drum->gravity,
-                            dem_bed_friction(inputs->friction, drum->species, drum->species_count), drum->rotation_rate);
+    const double rolling =
+        dem_impact_speed(drum->diameter, scene_of_species(drum, dem_species_diameter, true), drum->gravity,
+                         dem_bed_friction(inputs->friction, drum->species, drum->species_count), drum->rotation_rate);
+    return drum->lifters.count > 0 ? fmax(rolling, dem_lifted_speed(drum->diameter, drum->gravity, drum->fill_fraction)) : rolling;
 }
 
 static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
@@ -129,10 +179,17 @@ static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_
         .threads = isnan(inputs->threads) ? 1 : (int)inputs->threads,
     };
     if (!isnan(inputs->lining_diameter)) drum->lining = (dem_lining){ inputs->lining_diameter, inputs->lining_pitch };
+    drum->ends = (dem_drum_ends){ has_end_walls(inputs), has_end_walls(inputs) ? inputs->end_friction : 0.0 };
+    if (inputs->lifter_count > 0.0)
+        drum->lifters =
+            (dem_lifters){ (size_t)inputs->lifter_count, inputs->lifter_height, inputs->lifter_width, inputs->lifter_friction };
     scene_derive_species(inputs, drum, problems);
     check_sizes(inputs, drum, problems);
     check_lining(inputs, problems);
+    check_ends(inputs, problems);
+    const bool good_lifters = check_lifters(inputs, drum, problems);
     derive_particle_count(inputs, drum, problems);
+    if (good_lifters) check_room_beside_lifters(inputs, drum, problems);
     scene_derive_contact(inputs, largest_impact(inputs, drum), drum, problems);
 }
 

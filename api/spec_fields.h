@@ -14,6 +14,7 @@ typedef enum spec_group {
     SPEC_CONTACT,
     SPEC_WALL,
     SPEC_LINING,
+    SPEC_LIFTERS,
     SPEC_DURATION,
     SPEC_SNAPSHOTS,
     SPEC_SAMPLES,

@@ -3,21 +3,32 @@
 
 #include "database.h"
 #include "job_store.h"
+#include "process_type.h"
 
 typedef store_status inputs_inserter(sqlite3 *writer, int64_t job, const job_spec *spec);
+
+/* The word that a choice stands for; of a shape that is none, what it is made of. */
+static const char *word_of(const job_spec *spec, spec_group group, const char *name, double choice)
+{
+    const spec_field *field = spec_field_find(spec->type->inputs, group, name);
+    for (int c = 0; field->choices[c]; c++)
+        if (c == (int)choice) return field->choices[c];
+    return "spheres";
+}
 
 static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *spec)
 {
     const dem_drum_definition *drum = &spec->drum;
-    return sql_run(writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+    return sql_run(writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
                    "idddddii"
                    "dddddddddd"
-                   "i",
+                   "itit",
                    job, drum->diameter, drum->length, drum->rotation_rate, drum->gravity, drum->fill_fraction,
                    (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter, drum->species[0].density,
                    drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
                    drum->contact.tangential_stiffness_ratio, drum->contact.stiffness, drum->lining.diameter, drum->time_step,
-                   spec->duration, (int64_t)drum->seed);
+                   spec->duration, (int64_t)drum->seed, word_of(spec, SPEC_DRUM, "ends", spec->inputs.drum_ends),
+                   (int64_t)drum->lifters.count, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape));
 }
 
 static store_status insert_granule(sqlite3 *writer, int64_t job, const job_spec *spec)

@@ -175,11 +175,21 @@ static const char more_measures[] =
     "  torque REAL, torque_standard_error REAL, weight_torque REAL, weight_torque_standard_error REAL, torque_number REAL,"
     "  power REAL) STRICT;";
 
+/* Jobs from before say in their specification what shape their particles have. */
+static const char drums_closed_and_with_lifters[] =
+    "ALTER TABLE drum_input ADD COLUMN ends TEXT NOT NULL DEFAULT 'periodic';"
+    "ALTER TABLE drum_input ADD COLUMN lifters INTEGER NOT NULL DEFAULT 0;"   /* how many */
+    "ALTER TABLE drum_input ADD COLUMN shape TEXT NOT NULL DEFAULT 'sphere';" /* of the first species */
+    "UPDATE drum_input SET shape=coalesce((SELECT CASE json_type(job.spec,'$.inputs.particles[0].shape')"
+    "  WHEN 'text' THEN job.spec->>'$.inputs.particles[0].shape' WHEN 'object' THEN 'spheres' END"
+    "  FROM job WHERE job.number=drum_input.job), 'sphere');";
+
 static const char run_summary_with_more_measures[] =
     "DROP VIEW run_summary;"
     "CREATE VIEW run_summary AS SELECT"
     "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
-    "  i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
+    "  i.drum_diameter, i.drum_length, i.ends, i.lifters, i.shape,"
+    "  coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
     "  coalesce(i.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles, i.species, i.diameter,"
     "  i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution, i.wall_friction,"
     "  i.tangential_stiffness_ratio, i.stiffness, i.lining_diameter, i.time_step, i.duration, i.seed, gi.radius,"
@@ -201,6 +211,6 @@ const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
     { { study_tables } },
-    { { more_measures, run_summary_with_more_measures } },
+    { { more_measures, drums_closed_and_with_lifters, run_summary_with_more_measures } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

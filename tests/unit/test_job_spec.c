@@ -215,7 +215,7 @@ static void unknown_members_are_refused_with_the_nearest_name(void **state)
 static void what_is_not_available_yet_is_refused_with_what_is(void **state)
 {
     (void)state;
-    expect_problem("drum/ends", "\"walls\"", "/inputs/drum/ends: is \"walls\"; available: \"periodic\"\n");
+    expect_problem("drum/ends", "\"disc\"", "/inputs/drum/ends: is \"disc\"; available: \"periodic\", \"walls\"\n");
     expect_problem("particles/0/shape", "\"cone\"",
                    "/inputs/particles/0/shape: is \"cone\"; available: \"sphere\", "
                    "\"dumbbell\", \"tetrahedron\", \"cube\", or an object\n");
@@ -225,6 +225,46 @@ static void what_is_not_available_yet_is_refused_with_what_is(void **state)
     json_object_set_new(request, "process", json_string("heap"));
     char *problems = problems_of(request);
     assert_string_equal(problems, "/process: is \"heap\"; was sent to the process \"drum\"\n");
+    free(problems);
+}
+
+/* The drum of `minimal` is 50 mm across, with 5 mm spheres. */
+static void a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own(void **state)
+{
+    (void)state;
+    job_spec spec = parse_or_fail(minimal_with("drum/ends", "\"walls\""));
+    assert_true(spec.drum.ends.are_walls);
+    assert_true(spec.drum.ends.friction == spec.drum.contact.wall_friction);
+    assert_true(spec.drum.lifters.count == 0);
+    job_spec_clear(&spec);
+    spec = parse_or_fail(minimal_with("drum/lifters", "{\"count\": 6, \"height\": 0.004, \"width\": 0.003, \"friction\": 0.7}"));
+    assert_false(spec.drum.ends.are_walls);
+    assert_int_equal(spec.drum.lifters.count, 6);
+    assert_true(spec.drum.lifters.height == 0.004 && spec.drum.lifters.width == 0.003 && spec.drum.lifters.friction == 0.7);
+    job_spec_clear(&spec);
+
+    expect_problem(
+        "wall/end_friction", "0.2",
+        "/inputs/wall/end_friction: is 0.2, but the drum's ends are periodic; give /inputs/drum/ends as \"walls\", too\n");
+    /* 25 mm less 1.5 times 5 mm */
+    expect_problem("drum/lifters", "{\"count\": 4, \"height\": 0.02, \"width\": 0.003}",
+                   "/inputs/drum/lifters/height: is 0.02 m; must be at most 0.0175 m, the drum's radius less 1.5 of the largest "
+                   "particle diameters\n");
+    /* corners: 2 sqrt(25^2 - 20^2) = 30 mm; apart, 8 of them: 1.99 * 20 tan(pi/8) = 16.486 mm */
+    expect_problem(
+        "drum/lifters", "{\"count\": 1, \"height\": 0.005, \"width\": 0.031}",
+        "/inputs/drum/lifters/width: is 0.031 m; must be at most 0.03 m, for that many bars of that height to lie within the "
+        "drum and apart\n");
+    expect_problem(
+        "drum/lifters", "{\"count\": 8, \"height\": 0.005, \"width\": 0.017}",
+        "/inputs/drum/lifters/width: is 0.017 m; must be at most 0.0164857 m, for that many bars of that height to lie within "
+        "the drum and apart\n");
+    expect_problem("drum/lifters", "{\"count\": 65, \"height\": 0.004}",
+                   "/inputs/drum/lifters/count: is 65; must be in [1, 64]\n/inputs/drum/lifters/width: is missing; must be a number in [1e-05, 10] m\n");
+    json_t *both = minimal_with("drum/lifters", "{\"count\": 2, \"height\": 0.004, \"width\": 0.003}");
+    json_object_set_new(json_object_get(both, "inputs"), "wall", json_pack("{s:{s:f}}", "lining", "diameter", 0.003));
+    char *problems = problems_of(both);
+    assert_string_equal(problems, "/inputs/drum/lifters: are 2 bars in a drum with a lining; give one of the two\n");
     free(problems);
 }
 
@@ -536,8 +576,7 @@ static void corrector_passes_are_one_unless_asked_for(void **state)
     spec = parse_or_fail(minimal_with("integration", "{\"corrector_passes\": 3}"));
     assert_int_equal(spec.drum.corrector_passes, 3);
     job_spec_clear(&spec);
-    expect_problem("integration", "{\"corrector_passes\": 0}",
-                   "/inputs/integration/corrector_passes: is 0; must be in [1, 10]\n");
+    expect_problem("integration", "{\"corrector_passes\": 0}", "/inputs/integration/corrector_passes: is 0; must be in [1, 10]\n");
 }
 
 int main(void)
@@ -554,6 +593,7 @@ int main(void)
         cmocka_unit_test(whole_numbers_are_asked_for_where_they_are_needed),
         cmocka_unit_test(unknown_members_are_refused_with_the_nearest_name),
         cmocka_unit_test(what_is_not_available_yet_is_refused_with_what_is),
+        cmocka_unit_test(a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own),
         cmocka_unit_test(a_cluster_of_named_or_given_spheres_is_one_particle),
         cmocka_unit_test(a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault),
         cmocka_unit_test(a_run_may_be_asked_for_its_answer),

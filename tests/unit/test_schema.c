@@ -41,10 +41,15 @@ static void make_database(const char *path, int version)
     char text[200];
     snprintf(text, sizeof text, "PRAGMA application_id=%d; PRAGMA user_version=%d", SCHEMA_APPLICATION_ID, version);
     run_sql(database, text);
+    run_sql(
+        database,
+        "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,"
+        "updated) VALUES('a','drum','{}','{\"inputs\":{\"particles\":[{\"shape\":\"cube\"}]}}','successful','done',1,1,1,'x','x')");
     run_sql(database,
-            "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,"
-            "updated) VALUES('a','drum','{}','{}','successful','done',1,1,1,'x','x')");
-    run_sql(database, "INSERT INTO drum_input VALUES(1,.1,.1,2,9.81,.5,100,1,.004,2500,.25,.8,.5,.8,4000,0,1e-5,1,7)");
+            "INSERT INTO "
+            "drum_input(job,drum_diameter,drum_length,rotation_rate,gravity,fill_fraction,particles,species,diameter,density,"
+            "friction,restitution,wall_friction,tangential_stiffness_ratio,stiffness,lining_diameter,time_step,duration,seed)"
+            " VALUES(1,.1,.1,2,9.81,.5,100,1,.004,2500,.25,.8,.5,.8,4000,0,1e-5,1,7)");
     run_sql(database, "INSERT INTO run_result(job,particles) VALUES(1,100)");
     run_sql(database, "INSERT INTO repose_result(job,angle_deg) VALUES(1,23.5)");
     assert_int_equal(sqlite3_close(database), SQLITE_OK);
@@ -62,8 +67,11 @@ static void every_earlier_version_is_brought_up_to_date_with_what_it_holds(void 
         assert_non_null(database);
         assert_int_equal(number_of(database, "PRAGMA user_version"), schema_version);
         assert_int_equal(number_of(database, "SELECT count(*) FROM run_summary WHERE process='drum' AND friction=.25"
-                                             " AND rotation_rate=2 AND particles=100 AND angle_deg=23.5"),
+                                             " AND rotation_rate=2 AND particles=100 AND angle_deg=23.5 AND ends='periodic'"
+                                             " AND lifters=0"),
                          1);
+        if (version < 4) /* from when the specification alone knew */
+            assert_int_equal(number_of(database, "SELECT count(*) FROM run_summary WHERE shape='cube'"), 1);
         run_sql(database, "INSERT INTO granule_input VALUES(1,.5,.063,NULL,30,9.81,1e-9)");
         run_sql(database, "INSERT INTO granule_result(job,minimum_omega2) VALUES(1,1.826)");
         sqlite3_close(database);
