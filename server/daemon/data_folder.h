@@ -1,4 +1,4 @@
-/* The data folder on the disk: DATA/lock, DATA/reposed.sqlite, DATA/jobs/<id>/. */
+/* The data folder on the disk: DATA/lock, DATA/reposed.sqlite, DATA/calibration.json, DATA/jobs/<id>/. */
 #ifndef DATA_FOLDER_H
 #define DATA_FOLDER_H
 
