@@ -35,6 +35,7 @@ done
   figure "share of making the bed, demo" "of the run" $beds
   # shellcheck disable=SC2086
   figure "share of measuring, demo" "of the run" $measures
+  "${PYTHON:-/usr/bin/python3}" tests/bench/bench_pool.py "$build"
 } >"$out/demo"
 
 "${PYTHON:-/usr/bin/python3}" tests/bench/report.py tests/bench/results --compiler "$("${CC:-gcc}" --version | head -n 1)" \

@@ -22,10 +22,13 @@ def json_lines(path):
     return [json.loads(line) for line in pathlib.Path(path).read_text().splitlines() if line.startswith("{")] if path else []
 
 
-def newest(folder):
-    """The newest record in the folder by its own date, or None."""
-    records = [json.loads(path.read_text()) for path in folder.glob("*.json")]
-    return max(records, key=lambda record: record["date"], default=None)
+def last_figures(folder):
+    """{name: (figure, record)} of the newest record, by its own date, that has the figure."""
+    figures = {}
+    for record in sorted((json.loads(path.read_text()) for path in folder.glob("*.json")), key=lambda one: one["date"]):
+        for name, figure in record["figures"].items():
+            figures[name] = figure, record
+    return figures
 
 
 def figures_of(tables, demo, peers):
@@ -57,14 +60,16 @@ def text_of(value, unit):
 def print_table(record, last):
     print(f"{record['processor']}, {record['compiler']}, {record['flags']}, commit {record['commit']}")
     print(f"{'figure':34} {'minimum':>10} {'median':>10} {'maximum':>10} {'unit':14} {'cost':>6} {'to the last':>11}")
+    compared = {}
     for name, figure in record["figures"].items():
-        before = (last or {"figures": {}})["figures"].get(name)
+        before, of = last.get(name, (None, None))
         ratio = f"{figure['median'] / before['median']:.3f}" if before and before["median"] else ""
+        compared.update({of["date"]: of} if ratio else {})
         cost = f"{figure['cost_relative_to_best']:.2f}" if "cost_relative_to_best" in figure else ""
         numbers = " ".join(f"{text_of(figure[part], figure['unit']):>10}" for part in ("minimum", "median", "maximum"))
         print(f"{name:34} {numbers} {figure['unit']:14} {cost:>6} {ratio:>11}")
-    if last:
-        print(f"the last: {last['date']}, commit {last['commit']}, {last['processor']}")
+    for of in compared.values():
+        print(f"the last: {of['date']}, commit {of['commit']}, {of['processor']}")
 
 
 def main():
@@ -85,7 +90,7 @@ def main():
               "flags": asked.flags,
               "figures": figures_of(json_lines(asked.table) + json_lines(asked.million), json_lines(asked.demo), json_lines(asked.peers))}
     asked.out.mkdir(parents=True, exist_ok=True)
-    last = newest(asked.out)
+    last = last_figures(asked.out)
     name = f"{now:%Y-%m-%d}-{commit}{'-peers' if asked.peers else ''}.json"
     (asked.out / name).write_text(json.dumps(record, indent=1) + "\n")
     print_table(record, last)
