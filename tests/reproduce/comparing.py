@@ -92,5 +92,5 @@ def judge(row, runs):
         z = z_of(here, row["value"], row.get("spread"))
         return Verdict(row, here, z, here.value == row["value"] if z is None else abs(z) <= AGREES, len(runs))
     bound, sign = (row["above"], 1.0) if "above" in row else (row["below"], -1.0)
-    z = z_of(here, bound)
+    z = z_of(here, bound, row.get("spread"))
     return Verdict(row, here, z, sign * (here.value - bound) > 0.0 if z is None else sign * z > AGREES, len(runs))

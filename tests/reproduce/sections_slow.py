@@ -206,14 +206,18 @@ def axial(book, collected):
                    "share of the large in the end slices less the mean"], rows),
             plots.lines(book.pictures, collected["file"], "Share of the large spheres along the axis", series, "z, mm",
                         "share of the large by number", 0.5)]
-    return said + [axial_words(case, one) for case, one in excess.items()]
+    return said + [axial_words(case, one, revolutions(runs_of(collected, case)[0])) for case, one in excess.items()]
 
 
-def axial_words(case, excess):
+def revolutions(run):
+    return run["inputs"]["drum"]["rotation_rate"] * find(run, "results.run.simulated_seconds") / (2.0 * math.pi)
+
+
+def axial_words(case, excess, turns):
     """By chance alone the number is 0 +- 1 in each run, so 1/sqrt(runs) for their mean."""
     z = excess.value * math.sqrt(excess.count)
     if abs(z) < AGREES:
-        return f"With {case} there is no axial segregation after ten revolutions: slices differ as a random mixture's do ({z_text(z)} spreads)."
+        return f"With {case} there is no axial segregation after {turns:.3g} revolutions: slices differ as a random mixture's do ({z_text(z)} spreads)."
     if z < 0:
         return f"With {case} slices differ less than a random mixture's do ({z_text(z)} spreads): no stripes."
-    return f"With {case} there is axial segregation after ten revolutions: slices differ more than a random mixture's do ({z_text(z)} spreads)."
+    return f"With {case} there is axial segregation after {turns:.3g} revolutions: slices differ more than a random mixture's do ({z_text(z)} spreads)."
