@@ -164,7 +164,8 @@ static double largest_impact(const drum_inputs *inputs, const dem_drum_definitio
     const double rolling =
         dem_impact_speed(drum->diameter, scene_of_species(drum, dem_species_diameter, true), drum->gravity,
                          dem_bed_friction(inputs->friction, drum->species, drum->species_count), drum->rotation_rate);
-    return drum->lifters.count > 0 ? fmax(rolling, dem_lifted_speed(drum->diameter, drum->gravity, drum->fill_fraction)) : rolling;
+    if (drum->lifters.count == 0) return rolling;
+    return fmax(rolling, dem_lifted_speed(drum->diameter, drum->gravity, drum->fill_fraction, drum->rotation_rate));
 }
 
 static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)

@@ -107,10 +107,11 @@ static inline double dem_impact_speed(double drum_diameter, double largest_diame
 }
 
 /* The same for a particle that a lifter drops from the top of the drum onto the bed, or onto the wall where the bed is
- * shallow. */
-static inline double dem_lifted_speed(double drum_diameter, double gravity, double fill_fraction)
+ * shallow, on top of what the wall throws. */
+static inline double dem_lifted_speed(double drum_diameter, double gravity, double fill_fraction, double rotation_rate)
 {
-    return sqrt(2.0 * gravity * drum_diameter * (1.0 - fill_fraction));
+    const double thrown = 1.4 * fabs(rotation_rate) * 0.5 * drum_diameter;
+    return sqrt(2.0 * gravity * drum_diameter * (1.0 - fill_fraction) + thrown * thrown);
 }
 
 /* Friction of the bed of spheres that is as steep: clusters interlock, whatever their friction. */
