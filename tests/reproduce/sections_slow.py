@@ -113,8 +113,9 @@ def rotation_rate(book, collected):
     cases = [case for case in cases_of(collected) if runs_of(collected, case)]
     angles = {case: mean(runs_of(collected, case), ANGLE) for case in cases}
     steady = [case for case in cases if regimes(runs_of(collected, case)) in ("rolling", "cascading")]
-    said = [table(["rate", "angle, degrees", "regime"], [[case, with_error(angles[case]) if angles[case] else "", regimes(runs_of(collected, case))]
-                                                       for case in cases])]
+    bends = {case: mean(runs_of(collected, case), "results.regime.evidence.curvature_deg") for case in cases}
+    rows = [[case, *(with_error(one) if one else "" for one in (angles[case], bends[case])), regimes(runs_of(collected, case))] for case in cases]
+    said = [table(["rate", "angle, degrees", "upper half steeper by, degrees", "regime"], rows)]
     if steady:
         said.append(f"The slowest of these rates at which the bed flows steadily in every run is {steady[0]}; the paper's threshold is "
                     "approximately pi/2 rad/s.")
