@@ -14,6 +14,7 @@ route_handler list_jobs, show_job, dismiss_job;
 route_handler show_results, show_spec, show_log;
 /* handlers_series.c */
 route_handler list_samples, list_snapshots, send_snapshot;
+route_handler list_samples, list_snapshots, send_fields;
 /* handlers_studies.c */
 route_handler create_study, list_studies, show_study, dismiss_study, show_study_results, show_study_csv, show_study_spec;
 /* handlers_query.c */

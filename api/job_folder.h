@@ -20,6 +20,7 @@
  *     key samples and snapshots by "number" and let the later line win.
  *   snapshots/000000.hdf ...   written as .tmp, closed, fsynced, renamed; never changed after
  *   snapshots.hdf.series       opens them in ParaView as one time series
+ *   fields.hdf                 a drum's fields over the cross-section, averaged over the run; before result.json
  *   checkpoint.hdf             newest full state
  *   result.json                the document of GET /jobs/{id}/results; written last, by rename. A worker that finds
  *                              it, of the same spec, has nothing to do and ends with 0
@@ -34,6 +35,7 @@
 #define JOB_SNAPSHOT_FOLDER "snapshots"
 #define JOB_SNAPSHOT_FILE_FORMAT "%06lld.hdf"
 #define JOB_SERIES_FILE "snapshots.hdf.series"
+#define JOB_FIELDS_FILE "fields.hdf"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
 #define JOB_RESULT_FILE "result.json"
 #define JOB_PROFILE_FILE "profile.json"

@@ -17,6 +17,7 @@ const http_route route_table[] = {
     { "GET", "/jobs/{}/samples", " after limit format ", list_samples, .open = false },
     { "GET", "/jobs/{}/snapshots", " after limit ", list_snapshots, .open = false },
     { "GET", "/jobs/{}/snapshots/{}", "", send_snapshot, .open = false },
+    { "GET", "/jobs/{}/fields.hdf", "", send_fields, .open = false },
     { "GET", "/studies", " limit cursor ", list_studies, .open = false },
     { "POST", "/studies", "", create_study, .slow = true },
     { "GET", "/studies/{}", " wait ", show_study, .open = false },

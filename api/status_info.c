@@ -53,10 +53,14 @@ static json_t *links_of(const job_record *job)
         { "log", "text/plain", "/log" },
         { "samples", "application/json", "/samples" },
         { "snapshots", "application/json", "/snapshots" },
+        { "fields", "application/x-hdf5", "/fields.hdf" }, /* of a drum, likewise */
     };
+    enum { FIELDS = sizeof links / sizeof links[0] - 1 };
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
-        if (i == 1 && job->status != JOB_SUCCESSFUL) continue;
+        const bool is_result = i == 1 || i == FIELDS;
+        if (is_result && job->status != JOB_SUCCESSFUL) continue;
+        if (i == FIELDS && strcmp(job->process, "drum") != 0) continue;
         char href[80];
         snprintf(href, sizeof href, "/jobs/%s%s", job->id, links[i].end);
         json_array_append_new(list, link_to(links[i].rel, links[i].type, href));

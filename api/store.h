@@ -127,6 +127,7 @@ store_status store_list_snapshots(job_store *store, const char *id, int64_t afte
 
 /* Descriptors for reading, the caller closes. */
 store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file);
+store_status store_open_fields(job_store *store, const char *id, int *file);
 store_status store_open_log(job_store *store, const char *id, int *file);
 
 /* How fast this machine is: as calibrated and as the latest runs corrected it, or the built-in figures. */

@@ -31,7 +31,7 @@ double dem_scene_turned(const dem_scene *scene);         /* rad that the drum ha
 double dem_scene_time(const dem_scene *scene);           /* s since rotation began; negative before: less the time since creation */
 size_t dem_scene_particle_count(const dem_scene *scene); /* mobile particles, each sphere or cluster one; without the lining */
 size_t dem_scene_sphere_count(const dem_scene *scene);   /* spheres that these are made of */
-size_t dem_scene_lost_count(const dem_scene *scene);   /* particles that fell off the plate: they lie on a tray below it */
+size_t dem_scene_lost_count(const dem_scene *scene);     /* particles that fell off the plate: they lie on a tray below it */
 bool dem_scene_has_clusters(const dem_scene *scene);
 double dem_scene_maximum_overlap(const dem_scene *scene); /* since rotation began, as a share of the smallest diameter */
 double dem_scene_kinetic_energy(const dem_scene *scene);  /* J, translation and rotation */
@@ -68,6 +68,16 @@ dem_status dem_frame_measure(dem_scene *scene, double *frame);
 /* frames: (count, dem_frame_width) in order of time. NaN where something could not be measured.
  * Errors: DEM_TOO_FEW_FRAMES (fewer than 8), DEM_NO_MEMORY. */
 dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results);
+
+/* Fields over the cross-section, averaged over frames: the caller keeps a table of dem_fields_size numbers, all zero at
+ * first, adds to it at regular intervals while the drum rotates, and asks for the fields at the end. The grid has
+ * dem_fields_cells a side, over the drum's diameter. */
+size_t dem_fields_cells(const dem_scene *scene);
+size_t dem_fields_size(const dem_scene *scene);
+/* Errors: DEM_NO_MEMORY. */
+dem_status dem_fields_add(const dem_scene *scene, double *sums);
+/* Fill the arrays that are not NULL. */
+void dem_fields_measure(const dem_scene *scene, const double *sums, const dem_field_arrays *arrays);
 
 const char *dem_status_text(dem_status status);
 const char *dem_phase_name(dem_phase phase);                /* "growing", "settling", "rotating" */

@@ -206,6 +206,15 @@ typedef struct dem_placed_particle {
     int32_t species;
 } dem_placed_particle;
 
+/* Fields over the cross-section, in the laboratory frame; n = cells x cells, x fastest, from the lowest x and y up. Arrays
+ * belong to the caller. NaN where a cell has seen too little to tell. */
+typedef struct dem_field_arrays {
+    double *solid_fraction; /* (n) */
+    double *velocity;       /* (n,3) m/s, mean over the volume of what passed */
+    double *temperature;    /* (n) m2/s2, a third of the mean square of velocities about the mean field */
+    double *samples;        /* (n) independent particles that the means rest on */
+} dem_field_arrays;
+
 /* Everything a scene needs to go on bit for bit: saved by dem_scene_save, owned by the caller.
  * `table` names each array so that a file can hold them without knowing what they mean. */
 typedef enum dem_element { DEM_FLOAT64, DEM_INT64, DEM_INT32 } dem_element;

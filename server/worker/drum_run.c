@@ -1,6 +1,9 @@
 #include "drum_run.h"
 
+#include <math.h>
+
 #include "drum_result.h"
+#include "fields_file.h"
 #include "scene_run.h"
 #include "worker_log.h"
 
@@ -14,10 +17,24 @@ static dem_status end_when_known(const scene_run *run, const char **ended_by)
     const dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &now);
     if (status == DEM_TOO_FEW_FRAMES) return DEM_OK;
     if (status != DEM_OK) return status;
-    if (now.repose.steady && now.repose.frames >= LEAST_FRAMES
+    /* An error is known to be what it says from ten correlation times on. */
+    const double length = now.repose.window_end - now.repose.window_start;
+    if (now.repose.steady && now.repose.frames >= LEAST_FRAMES && length >= 10 * now.repose.correlation_time
         && now.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= run->spec->until_standard_error)
         *ended_by = "standard-error";
     return DEM_OK;
+}
+
+/* Fields are of a bed that has begun to flow: from a quarter of a revolution on, or of the run where that is shorter. */
+static dem_status add_fields(const scene_run *run, double *tally)
+{
+    const double rate = fabs(run->spec->drum.rotation_rate), quarter = rate > 0 ? asin(1) / rate : 0.0;
+    return dem_scene_time(run->scene) < fmin(quarter, 0.25 * run->spec->duration) ? DEM_OK : dem_fields_add(run->scene, tally);
+}
+
+static bool write_fields(const scene_run *run)
+{
+    return fields_file_write(run->scene, run->tally, &run->spec->drum, run->params);
 }
 
 static const char *ended_by_time(const job_spec *spec)
@@ -47,8 +64,11 @@ enum worker_exit drum_run(const job_context *job)
         .frame_width = dem_frame_width,
         .frame_name = dem_frame_scalar_name,
         .frame_measure = dem_frame_measure,
+        .tally_size = dem_fields_size,
+        .tally_add = add_fields,
         .look = end_when_known,
         .ended_by_time = ended_by_time,
+        .write_files = write_fields,
         .results = measure_results,
     };
     return scene_run_job(job, &test);

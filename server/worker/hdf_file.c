@@ -70,11 +70,10 @@ static hid_t array_properties(const hdf_array *array, hdf_packing packing)
     return properties;
 }
 
-void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing)
+static void add_set(hdf_file *file, const hdf_array *array, const hsize_t *extent, int rank, hdf_packing packing)
 {
     if (file->failed) return;
-    const hsize_t extent[2] = { array->rows, array->columns };
-    const hid_t space = H5Screate_simple(array->columns ? 2 : 1, extent, NULL);
+    const hid_t space = H5Screate_simple(rank, extent, NULL);
     const hid_t properties = array_properties(array, packing);
     if (is_good(file, space) && is_good(file, properties)) {
         const hid_t set = H5Dcreate2(file->file, array->path, array->stored, space, H5P_DEFAULT, properties, H5P_DEFAULT);
@@ -85,6 +84,19 @@ void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing)
     }
     if (properties >= 0) H5Pclose(properties);
     if (space >= 0) H5Sclose(space);
+}
+
+void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing)
+{
+    add_set(file, array, (const hsize_t[]){ array->rows, array->columns }, array->columns ? 2 : 1, packing);
+}
+
+void hdf_add_image(hdf_file *file, const char *path, const double *data, size_t layers, size_t side, size_t components)
+{
+    const hdf_array array = { path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, side, side, data };
+    const hsize_t extent[4] = { layers, side, side, components };
+    const int skipped = layers > 0 ? 0 : 1;
+    add_set(file, &array, extent + skipped, (components > 1 ? 4 : 3) - skipped, HDF_PLAIN);
 }
 
 void hdf_add_hard_link(hdf_file *file, const char *target, const char *path)
@@ -122,6 +134,15 @@ void hdf_add_integers_attribute(hdf_file *file, const char *path, const char *na
     const hsize_t extent = count;
     const hid_t space = H5Screate_simple(1, &extent, NULL);
     add_attribute(file, path, name, H5T_NATIVE_INT64, space, numbers);
+    if (space >= 0) H5Sclose(space);
+}
+
+void hdf_add_reals_attribute(hdf_file *file, const char *path, const char *name, const double *numbers, size_t count)
+{
+    if (file->failed) return;
+    const hsize_t extent = count;
+    const hid_t space = H5Screate_simple(1, &extent, NULL);
+    add_attribute(file, path, name, H5T_NATIVE_DOUBLE, space, numbers);
     if (space >= 0) H5Sclose(space);
 }
 

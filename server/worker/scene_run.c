@@ -82,7 +82,8 @@ static enum worker_exit take_sample(scene_run *r)
 {
     double *frame = r->frames + (size_t)r->next_sample * r->frame_width;
     run_profile_lap_begin(&r->profile);
-    const dem_status status = r->test->frame_measure(r->scene, frame);
+    dem_status status = r->test->frame_measure(r->scene, frame);
+    if (status == DEM_OK && r->test->tally_add) status = r->test->tally_add(r, r->tally);
     run_profile_lap(&r->profile, RUN_MEASURES);
     run_profile_look(&r->profile, r->scene);
     if (status != DEM_OK) return fail(r, status);
@@ -138,6 +139,34 @@ static enum worker_exit take_what_is_due(scene_run *r)
     return exit;
 }
 
+#define TALLY_NAME "tally"
+
+/* The tally is saved as one more array of the state. */
+static dem_status save_tally(const scene_run *r, dem_state *state)
+{
+    if (r->tally_size == 0) return DEM_OK;
+    double *copy = malloc(r->tally_size * sizeof *copy);
+    if (!copy || state->array_count == DEM_STATE_ARRAYS) {
+        free(copy);
+        return DEM_NO_MEMORY;
+    }
+    memcpy(copy, r->tally, r->tally_size * sizeof *copy);
+    state->array[state->array_count++] = (dem_state_array){ TALLY_NAME, DEM_FLOAT64, r->tally_size, 1, copy };
+    return DEM_OK;
+}
+
+static bool restore_tally(scene_run *r, const dem_state *state)
+{
+    if (r->tally_size == 0) return true;
+    for (size_t k = 0; k < state->array_count; k++) {
+        const dem_state_array *a = &state->array[k];
+        if (strcmp(a->name, TALLY_NAME) != 0 || a->element != DEM_FLOAT64 || a->rows * a->columns != r->tally_size) continue;
+        memcpy(r->tally, a->data, r->tally_size * sizeof *r->tally);
+        return true;
+    }
+    return false;
+}
+
 static enum worker_exit save_checkpoint(scene_run *r)
 {
     checkpoint saved = {
@@ -149,8 +178,12 @@ static enum worker_exit save_checkpoint(scene_run *r)
         .frames = r->frames,
         .frame_width = r->frame_width,
     };
-    const dem_status status = dem_scene_save(r->scene, &saved.state);
-    if (status != DEM_OK) return fail(r, status);
+    dem_status status = dem_scene_save(r->scene, &saved.state);
+    if (status == DEM_OK) status = save_tally(r, &saved.state);
+    if (status != DEM_OK) {
+        dem_state_clear(&saved.state);
+        return fail(r, status);
+    }
     /* First the events: a checkpoint must not count samples that the log could still lose. */
     const bool written = event_log_sync(r->events) && checkpoint_write(&saved, r->params);
     dem_state_clear(&saved.state);
@@ -233,6 +266,10 @@ static enum worker_exit write_result(scene_run *r)
         json_decref(document);
         return fail_for_disk(r, JOB_SERIES_FILE);
     }
+    if (r->test->write_files && !r->test->write_files(r)) {
+        json_decref(document);
+        return fail_for_disk(r, "the fields");
+    }
     return job_run_write_result(r->events, document);
 }
 
@@ -256,7 +293,7 @@ static bool resume(scene_run *r, double *earlier_seconds)
     /* Another version of the program may derive other numbers from the same inputs. */
     const bool fits = saved.time_step == r->spec->drum.time_step && saved.stiffness == r->spec->drum.contact.stiffness
                       && saved.frame_width == r->frame_width && saved.next_sample <= r->plan.samples && saved.next_snapshot >= 0
-                      && saved.next_snapshot <= r->plan.snapshots;
+                      && saved.next_snapshot <= r->plan.snapshots && restore_tally(r, &saved.state);
     const dem_status status = fits ? dem_scene_restore(r->scene, &saved.state) : DEM_STATE_MISMATCH;
     if (status == DEM_OK) {
         memcpy(r->frames, saved.frames, (size_t)saved.next_sample * saved.frame_width * sizeof *saved.frames);
@@ -275,12 +312,15 @@ static dem_status prepare_scene(scene_run *r)
 {
     dem_scene_free(r->scene);
     free(r->frames);
-    r->frames = NULL;
+    free(r->tally);
+    r->frames = r->tally = NULL;
     const dem_status status = dem_scene_create(&r->spec->drum, &r->scene);
     if (status != DEM_OK) return status;
     r->frame_width = r->test->frame_width(r->scene);
     r->frames = calloc((size_t)r->plan.samples, r->frame_width * sizeof *r->frames);
-    return r->frames ? DEM_OK : DEM_NO_MEMORY;
+    r->tally_size = r->test->tally_size ? r->test->tally_size(r->scene) : 0;
+    r->tally = calloc(r->tally_size + 1, sizeof *r->tally);
+    return r->frames && r->tally ? DEM_OK : DEM_NO_MEMORY;
 }
 
 static enum worker_exit begin(scene_run *r)
@@ -322,5 +362,6 @@ enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
     if (exit == WORKER_DONE) worker_log("done in %.1f s", progress_wall_seconds(&r.progress));
     dem_scene_free(r.scene);
     free(r.frames);
+    free(r.tally);
     return exit;
 }

@@ -16,9 +16,14 @@ typedef struct scene_test {
     size_t (*frame_width)(const dem_scene *scene); /* numbers of a frame */
     const char *(*frame_name)(size_t index);       /* of the numbers that become a sample; NULL beyond the last */
     dem_status (*frame_measure)(dem_scene *scene, double *frame);
+    /* A table of numbers beside the frames, all zero at first, that grows with every frame; NULL: there is none. */
+    size_t (*tally_size)(const dem_scene *scene);
+    dem_status (*tally_add)(const scene_run *run, double *tally);
     /* After every frame: *ended_by becomes the reason why the run ends here, or stays. NULL: it always runs its time. */
     dem_status (*look)(const scene_run *run, const char **ended_by);
     const char *(*ended_by_time)(const job_spec *spec); /* what is said of a run that ran its whole time */
+    /* Files beside the result, written before it; false: the disk. NULL: there are none. */
+    bool (*write_files)(const scene_run *run);
     /* The results document, a new reference; NULL: no memory. */
     dem_status (*results)(const scene_run *run, json_t **document);
 } scene_test;
@@ -33,6 +38,8 @@ struct scene_run {
     schedule plan;
     double *frames; /* (plan.samples, frame_width), those before next_sample taken */
     size_t frame_width;
+    double *tally; /* (tally_size) */
+    size_t tally_size;
     int64_t next_sample, next_snapshot;
     const char *ended_by;                /* NULL: not yet, or by its time */
     double last_checkpoint, last_series; /* s, monotonic */

@@ -143,6 +143,11 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/jobs/{id}/samples", f"{job}/samples?after=1", 200, headers={"Accept": "text/csv"})
     call("/jobs/{id}/samples", f"{job}/samples?format=csv", 200)
     snapshots = call("/jobs/{id}/snapshots", f"{job}/snapshots", 200).json()["snapshots"]
+    fields = call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 200)
+    assert fields.content[:4] == b"\x89HDF"
+    call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 206, headers={"Range": "bytes=0-99"})
+    call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 304, headers={"If-None-Match": fields.headers["ETag"]})
+    assert any(link["href"].endswith("/fields.hdf") for link in requests.get(job).json()["links"])
     path, href = "/jobs/{id}/snapshots/{file}", url + snapshots[-1]["href"]
     whole = call(path, href, 200)
     assert len(whole.content) == snapshots[-1]["bytes"]
@@ -196,6 +201,7 @@ def test_every_error_is_a_documented_problem(daemon, contract):
         (404, jobs, {"method": "DELETE", "url": f"{url}/jobs/{NO_JOB}"}),
         (404, "/jobs/{id}/results", {"url": f"{url}/jobs/{NO_JOB}/results"}),
         (404, "/jobs/{id}/snapshots/{file}", {"url": f"{url}/jobs/{NO_JOB}/snapshots/000000.hdf"}),
+        (404, "/jobs/{id}/fields.hdf", {"url": f"{url}/jobs/{NO_JOB}/fields.hdf"}),
         (404, "/web/{name}", {"url": f"{url}/web/nothing.js"}),
         (400, "/jobs", {"url": f"{url}/jobs?status=lost"}),
         (400, "/jobs", {"url": f"{url}/jobs?limit=0"}),

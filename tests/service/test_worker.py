@@ -231,6 +231,7 @@ def test_a_killed_run_goes_on_from_its_checkpoint_to_the_same_result(whole, tmp_
     assert [s["attempt"] for s in starts] == [1, 2]
     assert starts[1]["resumed"] is True and starts[1]["step"] > 0
     expect_as_if_never_interrupted(out, whole[0])
+    assert (out / "fields.hdf").read_bytes() == (whole[0] / "fields.hdf").read_bytes()
 
 
 def test_a_run_killed_before_its_first_checkpoint_starts_anew(whole, tmp_path):

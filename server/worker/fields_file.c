@@ -1,0 +1,74 @@
+/* Layout, n points a side at the cells' centres, x fastest:
+ *   /fields  solid_fraction f4[n,n]   velocity f4[n,n,3]   granular_temperature f4[n,n]   samples f4[n,n]
+ *            @frames, @size of a cell in m
+ *   /VTKHDF  the same as an image of two equal layers, at both ends of the drum: readers of VTK 9.1 take none of one layer
+ *            @Version int64[2] {1,0}   @Type "ImageData"   @WholeExtent int64[6] {0,n-1,0,n-1,0,1}
+ *            @Origin f8[3]   @Spacing f8[3]   @Direction f8[9]
+ *     PointData/... f4[2,n,n] and f4[2,n,n,3]
+ *   /run @params_json
+ * NaN where nothing was seen, or too little. */
+#include "fields_file.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "hdf_file.h"
+#include "job_folder.h"
+#include "worker_log.h"
+
+/* data: (cells, cells, components), with room for as much again behind it. */
+static void add_field(hdf_file *file, const char *name, double *data, size_t cells, size_t components)
+{
+    const size_t count = cells * cells * components;
+    char path[64];
+    memcpy(data + count, data, count * sizeof *data);
+    snprintf(path, sizeof path, "/fields/%s", name);
+    hdf_add_image(file, path, data, 0, cells, components);
+    snprintf(path, sizeof path, "/VTKHDF/PointData/%s", name);
+    hdf_add_image(file, path, data, 2, cells, components);
+}
+
+static void add_groups(hdf_file *file, size_t cells, double diameter, double length, double frames, const char *params)
+{
+    static const double upright[9] = { 1, 0, 0, 0, 1, 0, 0, 0, 1 };
+    const double size = diameter / (double)cells, corner = 0.5 * (size - diameter);
+    const double origin[3] = { corner, corner, -0.5 * length }, spacing[3] = { size, size, length };
+    const int64_t version[2] = { 1, 0 }, extent[6] = { 0, (int64_t)cells - 1, 0, (int64_t)cells - 1, 0, 1 };
+    hdf_add_group(file, "/VTKHDF");
+    hdf_add_integers_attribute(file, "/VTKHDF", "Version", version, 2);
+    hdf_add_text_attribute(file, "/VTKHDF", "Type", "ImageData", H5T_CSET_ASCII);
+    hdf_add_integers_attribute(file, "/VTKHDF", "WholeExtent", extent, 6);
+    hdf_add_reals_attribute(file, "/VTKHDF", "Origin", origin, 3);
+    hdf_add_reals_attribute(file, "/VTKHDF", "Spacing", spacing, 3);
+    hdf_add_reals_attribute(file, "/VTKHDF", "Direction", upright, 9);
+    hdf_add_group(file, "/VTKHDF/PointData");
+    hdf_add_group(file, "/fields");
+    hdf_add_real_attribute(file, "/fields", "frames", frames);
+    hdf_add_real_attribute(file, "/fields", "size", size);
+    hdf_add_group(file, "/run");
+    hdf_add_text_attribute(file, "/run", "params_json", params, H5T_CSET_UTF8);
+}
+
+bool fields_file_write(const dem_scene *scene, const double *sums, const dem_drum_definition *drum, const char *params)
+{
+    const size_t cells = dem_fields_cells(scene), n = cells * cells;
+    double *all = malloc(12 * n * sizeof *all);
+    if (!all) {
+        worker_warn("can't write " JOB_FIELDS_FILE ": out of memory");
+        return false;
+    }
+    const dem_field_arrays fields = {
+        .solid_fraction = all, .temperature = all + 2 * n, .samples = all + 4 * n, .velocity = all + 6 * n
+    };
+    dem_fields_measure(scene, sums, &fields);
+    hdf_file file;
+    hdf_create(&file, JOB_FIELDS_FILE);
+    add_groups(&file, cells, drum->diameter, drum->length, sums[0], params);
+    add_field(&file, "solid_fraction", fields.solid_fraction, cells, 1);
+    add_field(&file, "velocity", fields.velocity, cells, 3);
+    add_field(&file, "granular_temperature", fields.temperature, cells, 1);
+    add_field(&file, "samples", fields.samples, cells, 1);
+    free(all);
+    return hdf_publish(&file);
+}
