@@ -67,8 +67,13 @@ static void gather(contact_block *restrict block, const contact_list *walls, siz
     if (c->wall[0].kind == WALL_CYLINDER)
         gather_cylinder(block, s->row, first, sphere_of_zeros(s), c->radius, (real)c->wall[0].rotation_rate);
     if (c->wall_count == 1) return;
-    for (int k = 0; k < BLOCK; k++)
-        if (c->wall[second[k]].kind != WALL_CYLINDER) gather_wall(block, k, s, (size_t)first[k], &c->wall[second[k]]);
+    const size_t left = walls->count - start;
+    for (int k = 0; k < BLOCK; k++) {
+        /* slots behind the last, whose results nobody reads, have spheres that no array of velocities has */
+        const int from = (size_t)k < left ? k : 0;
+        const container_wall *w = &c->wall[second[from]];
+        if (w->kind != WALL_CYLINDER) gather_wall(block, k, s, (size_t)first[from], w);
+    }
 }
 
 double contact_forces_with_walls(contact_list *walls, const spheres *s, const container *c, const dem_contact_parameters *contact,
