@@ -32,6 +32,7 @@ API := $(patsubst %.c,$(BUILD)/%.o,$(wildcard api/*.c))
 WORKER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/worker/*.c))
 DAEMON := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/daemon/*.c))
 DAEMON_PARTS := $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
+PHYSICS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/physics/*.c))
 UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(wildcard tests/unit/test_*.c))
 
 programs: $(BUILD)/repose $(BUILD)/reposed
@@ -68,6 +69,11 @@ $(BUILD)/tests/unit/%: tests/unit/%.c $(BUILD)/libdem.a $(BUILD)/libapi.a $(DAEM
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) -D_GNU_SOURCE $(if $(DOUBLE),-DDEM_DOUBLE) -march=$(MARCH) -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
 	  $(BUILD)/libapi.a $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
+# Programs that drive the core's own step for the physics tests, which compare what they print.
+$(BUILD)/tests/physics/%: tests/physics/%.c $(BUILD)/libdem.a
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -D_GNU_SOURCE $(if $(DOUBLE),-DDEM_DOUBLE) -march=$(MARCH) -Iinclude -Icore $< \
+	  $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $@
 
 demo: all ## the paper's drum from curl to an angle of repose, with nothing prepared
 	@sh tests/demo.sh $(BUILD)
@@ -76,12 +82,17 @@ serve: all ## the daemon in the foreground: PORT=8080 DATA=data
 	@$(BUILD)/reposed serve --port $(PORT) --data $(DATA)
 
 test: test-packages ## unit, short physics and service tests; closes with a line that counts them
-	@$(MAKE) --no-print-directory check programs $(UNIT_TESTS)
+	@$(MAKE) --no-print-directory check programs $(UNIT_TESTS) physics-programs
 	@PYTHON=$(PYTHON) sh tests/run.sh $(BUILD)
 
-physics: test-packages ## long physics: the drum's angles against the paper's
-	@$(MAKE) --no-print-directory programs
-	@$(PYTHON) -m pytest -q -p no:cacheprovider tests/physics
+physics: test-packages ## verification, a quarter of an hour: tests/physics/RESULTS.md; LONG=1: all of it, an hour more
+	@$(MAKE) --no-print-directory physics-programs
+	@$(if $(LONG),rm -f tests/physics/RESULTS.md)
+	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider $(if $(LONG),,-m "not long") tests/physics --results tests/physics/RESULTS.md
+# In both precisions: single, as users run it, and double, in build/double.
+physics-programs: programs $(PHYSICS)
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/double DOUBLE=1 physics-programs-double
+physics-programs-double: programs $(PHYSICS)
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs
@@ -143,6 +154,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES))
 
-.PHONY: all programs demo serve test physics reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
+.PHONY: all programs demo serve test physics physics-programs physics-programs-double reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)
