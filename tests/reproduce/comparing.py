@@ -1,8 +1,9 @@
 """Means over runs with their errors, and how far they are from what the paper says.
 
-z = (here - paper)/sqrt(error here^2 + spread of the paper^2). The error here is the standard error over the runs, or
-what the runs themselves say of their angles where that is larger: a spread known from three numbers is often far too
-small by chance.
+t = (here - paper)/sqrt(error here^2 + spread of the paper^2). The error here is the standard error over the runs, or
+what the runs themselves say of their angles where that is larger. An error from three numbers is often far too small by
+chance, so t follows Student's distribution with as many degrees of freedom as the errors have (Welch 1947); z is the
+normal deviate that is as improbable.
 """
 import math
 
@@ -10,8 +11,10 @@ AGREES = 3.0  # spreads
 
 
 class Mean:
-    def __init__(self, value, error, count):
-        self.value, self.error, self.count = value, error, count
+    """freedom: degrees of freedom of the error; infinite where runs said it themselves."""
+
+    def __init__(self, value, error, count, freedom=math.inf):
+        self.value, self.error, self.count, self.freedom = value, error, count, freedom
 
 
 def find(run, path):
@@ -44,18 +47,47 @@ def mean(runs, path):
     n, middle = len(values), sum(values) / len(values)
     among = math.sqrt(sum((value - middle) ** 2 for value in values) / (n - 1) / n) if n > 1 else None
     told = math.sqrt(sum(error**2 for error in own)) / n if len(own) == n else None
-    errors = [error for error in (among, told) if error is not None]
-    return Mean(middle, max(errors) if errors else None, n)
+    if among is not None and (told is None or among > told):
+        return Mean(middle, among, n, n - 1)
+    return Mean(middle, told, n)
+
+
+def improbability(t, freedom):
+    """How often a number of Student's distribution is further from zero than t."""
+    if freedom > 300:
+        return math.erfc(abs(t) / math.sqrt(2.0))
+    scale = 2.0 / math.sqrt(math.pi) * math.exp(math.lgamma((freedom + 1) / 2) - math.lgamma(freedom / 2))
+    start, parts = math.atan(abs(t) / math.sqrt(freedom)), 1000
+    width = (math.pi / 2 - start) / parts
+    # the middle rule, of the density in theta = atan(t/sqrt(freedom)): cos^(freedom - 1)
+    return scale * width * sum(math.cos(start + (k + 0.5) * width) ** (freedom - 1) for k in range(parts))
+
+
+def deviate(t, freedom):
+    """The normal deviate as improbable as t, on t's side."""
+    wanted, low, high = improbability(t, freedom), 0.0, 37.0
+    for _ in range(60):
+        middle = (low + high) / 2
+        low, high = (middle, high) if math.erfc(middle / math.sqrt(2.0)) > wanted else (low, middle)
+    return math.copysign(low, t)
+
+
+def combined_freedom(one, other):
+    """Welch's, for the sum of two squared errors given as (error, degrees of freedom)."""
+    parts = sum(error**4 / freedom for error, freedom in (one, other) if error)
+    return (one[0] ** 2 + other[0] ** 2) ** 2 / parts if parts > 0.0 else math.inf
 
 
 def z_of(here, value, spread=0.0):
     """None where neither side has a spread."""
-    both = math.hypot(here.error or 0.0, spread or 0.0)
-    return (here.value - value) / both if both > 0.0 else None
+    error, spread = here.error or 0.0, spread or 0.0
+    both = math.hypot(error, spread)
+    return deviate((here.value - value) / both, combined_freedom((error, here.freedom), (spread, math.inf))) if both > 0.0 else None
 
 
 def difference(one, other):
-    return Mean(one.value - other.value, math.hypot(one.error or 0.0, other.error or 0.0), min(one.count, other.count))
+    a, b = one.error or 0.0, other.error or 0.0
+    return Mean(one.value - other.value, math.hypot(a, b), min(one.count, other.count), combined_freedom((a, one.freedom), (b, other.freedom)))
 
 
 def furthest_apart(means):

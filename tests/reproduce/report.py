@@ -20,8 +20,9 @@ table and figure that can be computed, from the studies in this folder. `make re
 in it is written by hand but the paper's own values (`tests/reproduce/paper.json`). How each number is measured:
 `core/NUMERICS.md`."""
 
-HOW = f"""**z** = (here - paper)/sqrt(error here² + spread of the paper²). The error here is the standard error over the runs of a case, or
-what the runs say of themselves where that is larger. The paper gives no errors. Its angles are whole degrees, read by eye off a
+HOW = f"""**z** is (here - paper)/sqrt(error here² + spread of the paper²), made smaller where the error is known from few runs: the normal deviate
+as improbable as that quotient is by Student's distribution. The error here is the standard error over the runs of a case, or what the
+runs say of themselves where that is larger. The paper gives no errors. Its angles are whole degrees, read by eye off a
 moving surface: their spread (± in the tables) is taken as 1 degree, half a degree of which is rounding; a range as its middle and
 half its width; what it calls "approximately" or "nearly" as good to a tenth. A row agrees within {AGREES:g} spreads; where one does not, what the
 paper leaves unsaid is varied, one thing at a time, below its table."""

@@ -56,7 +56,10 @@ ROW = {"case": "c", "what": "angle", "paper": "23", "value": 23, "spread": 1, "m
 
 def test_z_counts_both_spreads():
     verdict = comparing.judge(ROW, [a_run("c", angle) for angle in (24, 25, 26)])
-    assert verdict.z == pytest.approx(2 / math.sqrt(1 + 1 / 3)) and verdict.agrees is True
+    # t = 2/sqrt(1 + 1/3) = 1.732 with 2 (1 + 1/3)^2/(1/3)^2 = 32 degrees of freedom, of which tables have 10 % at 1.694
+    assert 1.645 < verdict.z < 1.732 and verdict.agrees is True
+    claimed = comparing.judge(ROW, [a_run("c", angle, error=3) for angle in (24, 25, 26)])
+    assert claimed.z == pytest.approx(2 / math.sqrt(1 + 3))  # errors that runs claim are taken as they are
     assert comparing.judge(ROW, [a_run("c", 26.2)]).agrees is False  # 3.2/sqrt(1.01)
     assert comparing.judge(ROW, []).agrees is None
     missing = comparing.judge(ROW | {"measure": "results.packing.solid_fraction"}, [a_run("c", 23)])
@@ -67,13 +70,22 @@ def test_bounds_and_words_are_judged():
     grows = ROW | {"above": 0, "measure": "derived.change"}
     del grows["value"], grows["spread"]
     runs = [a_run("c", 23, change=one) for one in (0.9, 1.0, 1.1)]
-    assert comparing.judge(grows, runs).z == pytest.approx(1.0 / (0.1 / math.sqrt(3)))
-    assert comparing.judge(grows, runs).agrees is True
+    # t = sqrt(300) with 2 degrees of freedom: 1 - t/sqrt(2 + t^2) = 0.332 %
+    assert comparing.judge(grows, runs).z == pytest.approx(2.94, abs=0.01)
+    assert comparing.judge(grows, runs).agrees is False
+    assert comparing.judge(grows, runs + runs).agrees is True
     assert comparing.judge(grows, [a_run("c", 23, change=one) for one in (-0.9, 1.0, 1.1)]).agrees is False  # 0.4 +- 0.65
     regime = {"case": "c", "what": "regime", "paper": "slumping", "words": ["slumping"], "measure": "results.regime.name"}
     mixed = comparing.judge(regime, [a_run("c", 1, regime="slumping"), a_run("c", 1, regime="rolling")])
     assert mixed.agrees is False and mixed.here == "rolling 1, slumping 1"
     assert comparing.judge(regime, [a_run("c", 1, regime="slumping")]).agrees is True
+
+
+@pytest.mark.parametrize("t, freedom, z", [(2.920, 2, 1.645), (9.925, 2, 2.576), (63.657, 1, 2.576), (3.169, 10, 2.576), (2.228, 10, 1.960),
+                                           (-4.604, 4, -2.576), (5.0, math.inf, 5.0), (0.0, 2, 0.0)])
+def test_few_runs_make_a_deviate_less_improbable(t, freedom, z):
+    """Two-sided points of Student's distribution, as tables have them for 10, 5 and 1 %."""
+    assert comparing.deviate(t, freedom) == pytest.approx(z, abs=0.002)
 
 
 @pytest.mark.parametrize("value, error, text", [(22.8372, 0.14, "22.84 ± 0.14"), (22.8372, 1.4, "22.8 ± 1.4"), (0.01234, 0.0005, "0.01234 ± 0.00050"),
