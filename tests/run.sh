@@ -16,7 +16,7 @@ for program in "$build"/tests/unit/test_*; do
   if [ $code -ne 0 ]; then
     cat "$log"
     [ "$bad" -gt 0 ] || bad=1
-    bad=$(grep -cE '^\[  FAILED  \] test|^\[  FAILED  \] [a-z_]+$' "$log" | awk -v b="$bad" '{print b > $1 && $1 > 0 ? $1 : b}')
+    bad=$(grep -cE '^\[  FAILED  \] test|^\[  FAILED  \] [a-z_]+$' "$log" | awk -v b="$bad" '{print ((b > $1 && $1 > 0) ? $1 : b)}')
     failed=$((failed + bad))
   fi
   passed=$((passed + ok))
