@@ -176,7 +176,7 @@ class Drums:
         return result
 
     def __call__(self, specs, build=BUILD):
-        """specs: by name. Returns results by the same names, the largest begun first."""
+        """specs: by name. Returns results by the same names."""
         key = {name: (str(build), json.dumps(spec, sort_keys=True)) for name, spec in specs.items()}
         todo = {key[name]: spec for name, spec in specs.items() if key[name] not in self.known}
         with ThreadPoolExecutor(os.cpu_count()) as pool:
