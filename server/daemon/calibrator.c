@@ -25,7 +25,7 @@ static void become_calibrator(const char *program, char *const *arguments)
     const int null = open("/dev/null", O_RDWR);
     if (null < 0 || dup2(null, 0) < 0 || dup2(null, 1) < 0) _exit(1);
     close_range(3, ~0U, CLOSE_RANGE_CLOEXEC); /* the lock of the data folder among them */
-    setsid();
+    setpgid(0, 0);                            /* no session of its own: the scheduler would weigh that against the jobs of ours */
     for (int number = 1; number < 32; number++) signal(number, SIG_DFL);
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);

@@ -214,13 +214,10 @@ static bool is_folder(const char *path)
 /* Its parent is there, or made here; private, as caches are. */
 static bool make_folder(const char *path) { return mkdir(path, 0700) == 0 || errno == EEXIST; }
 
-static bool choose_folder(const char *wish, char *path, size_t size)
+/* Where programs of a user keep what they can make again. */
+static bool find_cache(char *path, size_t size)
 {
     const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
-    if (wish || is_folder("data")) {
-        snprintf(path, size, "%s", wish ? wish : "data");
-        return make_folder(path);
-    }
     if (cache && cache[0] == '/') snprintf(path, size, "%s", cache);
     else if (home && home[0] == '/') snprintf(path, size, "%s/.cache", home);
     else return false;
@@ -259,19 +256,22 @@ static void load(const char *folder, calibration *machine)
 
 bool calibrate(const char *wish, calibration *machine, bool *is_new)
 {
-    char folder[4096];
-    const bool has_folder = choose_folder(wish, folder, sizeof folder);
+    char cache[4096];
+    const char *folder = wish ? wish : is_folder("data") ? "data" : NULL;
+    const bool has_folder = folder && make_folder(folder), has_cache = find_cache(cache, sizeof cache);
     *is_new = false;
-    if (has_folder) {
-        load(folder, machine);
-        if (calibrate_is_current(machine)) return true;
+    if (has_folder) load(folder, machine);
+    if (has_folder && calibrate_is_current(machine)) return true;
+    if (has_cache) load(cache, machine);
+    if (!has_cache || !calibrate_is_current(machine)) {
+        if (!measure(machine)) {
+            worker_warn("this machine's speed could not be measured: estimates are rough");
+            return false;
+        }
+        *is_new = true;
+        if (has_cache) keep(machine, cache); /* a convenience: who has no room there has it in the folder */
     }
-    if (!measure(machine)) {
-        worker_warn("this machine's speed could not be measured: estimates are rough");
-        return false;
-    }
-    *is_new = true;
-    if (!has_folder || !keep(machine, folder))
-        worker_warn("%s can't be kept in %s: %s", CALIBRATION_FILE, has_folder ? folder : "any folder", strerror(errno));
+    if (folder && (!has_folder || !keep(machine, folder)))
+        worker_warn("%s can't be kept in %s: %s", CALIBRATION_FILE, folder, strerror(errno));
     return true;
 }

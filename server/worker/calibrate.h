@@ -7,9 +7,10 @@
 
 #include "calibration.h"
 
-/* The calibration kept in `folder`, measured anew and kept there where there is none of this processor and this program.
- * folder NULL: in ./data where that is a folder, else in the user's cache. False: it could not be measured (said on
- * stderr); *machine is then the built-in one. What was measured but can't be kept is only warned of. */
+/* The calibration of `folder`; where that has none of this processor and this program, the one of the user's cache, from
+ * where it is copied; where that has none either it is measured, and kept in both. folder NULL: ./data where that is a
+ * folder, else the cache alone. False: it could not be measured (said on stderr); *machine is then the built-in one. What
+ * can't be kept is only warned of. */
 bool calibrate(const char *folder, calibration *machine, bool *is_new);
 
 /* Of the same machine and program as before? */

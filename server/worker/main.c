@@ -33,7 +33,7 @@ static const char help[] =
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"
     "                              memory; or every problem it has. Of a study: its cases and what it costs\n"
     "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"
-    "                              else the user's cache)\n"
+    "                              else in the user's cache alone)\n"
     "repose calibrate              measure this machine's speed where that was not yet done; --data DIR as above\n"
     "repose --help | --version\n"
     "\n"

@@ -14,8 +14,10 @@ from worker_runs import REPOSE, SMALL
 CLOSE = 1e-9
 
 
-def repose(*arguments, folder=None, text=None):
-    done = subprocess.run([REPOSE, *map(str, arguments)], capture_output=True, text=True, timeout=120, input=text, cwd=folder)
+def repose(*arguments, folder=None, text=None, cache=""):
+    """With no cache, so that a calibration is where it is said to be and nowhere else."""
+    done = subprocess.run([REPOSE, *map(str, arguments)], capture_output=True, text=True, timeout=120, input=text, cwd=folder,
+                          env={**os.environ, "XDG_CACHE_HOME": str(cache), "HOME": ""})
     assert done.returncode == 0, done.stderr
     return done.stdout
 
@@ -38,7 +40,7 @@ def keep(data, calibration, factor=1.0):
     for costs in slower["nanoseconds_a_sphere_step"].values():
         for law in costs:
             costs[law] *= factor
-    data.mkdir(exist_ok=True)
+    data.mkdir(parents=True, exist_ok=True)
     (data / "calibration.json").write_text(json.dumps(slower))
 
 
@@ -51,6 +53,15 @@ def test_a_calibration_is_made_once_and_again_for_another_machine_or_program(mea
     keep(data, {**measured, "processor": "another"})
     assert "measured now" in repose("calibrate", "--data", data)
     assert json.loads((data / "calibration.json").read_text())["processor"] == measured["processor"]
+
+
+def test_another_data_folder_of_the_same_user_takes_the_calibration_over(measured, tmp_path):
+    keep(tmp_path / "cache" / "reposed", measured)
+    assert "as measured before" in repose("calibrate", "--data", tmp_path / "data", cache=tmp_path / "cache")
+    assert json.loads((tmp_path / "data" / "calibration.json").read_text()) == measured
+    spec = json.dumps(SMALL)
+    without = json.loads(repose("check", "-", text=spec, folder=tmp_path / "cache", cache=tmp_path / "cache"))["estimate"]
+    assert without["wall_seconds"] == pytest.approx(estimate(SMALL, tmp_path / "data")["wall_seconds"], rel=CLOSE)
 
 
 def test_check_says_what_the_calibration_in_the_data_folder_makes_of_it(measured, tmp_path):
