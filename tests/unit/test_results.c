@@ -62,6 +62,14 @@ static void a_steady_table_has_its_mean_error_and_range(void **unused)
     CHECK_NEAR(r.packing.solid_fraction, 0.58, 1e-12);
     CHECK_NEAR(r.packing.coordination_number, 4.5, 1e-12);
     assert_int_equal(r.regime.regime, DEM_ROLLING);
+    /* Eqns 33, 35 and 36-37 at the measured angle, and Omega^2 R/g at the wall and at R sqrt(1 - 0.5) */
+    const double phi = a->mean_deg * M_PI / 180;
+    CHECK_NEAR(r.regime.predicted_stationary, 1 / sin(phi), 1e-12);
+    CHECK_NEAR(r.regime.predicted_sliding_eq35, (1 + 1 / (tan(phi) + 0.125)) / sqrt(2), 1e-12);
+    CHECK_NEAR(r.regime.predicted_sliding_eq36, 1 / sin(atan(0.16 + tan(phi))), 1e-12);
+    CHECK_NEAR(r.regime.omega2_outer, 2 * 2 * RADIUS / 9.81, 1e-12);
+    CHECK_NEAR(r.regime.omega2_inner, 2 * 2 * RADIUS * sqrt(0.5) / 9.81, 1e-12);
+    assert_true(isnan(r.repose.slumps.count) && isnan(r.repose.slumps.period.mean)); /* of a bed that flows: none */
     free(table);
     dem_scene_free(scene);
 }
@@ -158,6 +166,12 @@ static void regimes_are_told_from_how_the_bed_moves(void **unused)
         if (cases[k].second != FRAME_TIME) set_column(table, width, cases[k].second, cases[k].second_mean, cases[k].second_swing);
         const dem_drum_results r = results_of(scene, table, FRAMES);
         assert_string_equal(dem_regime_name(r.regime.regime), dem_regime_name(cases[k].regime));
+        if (cases[k].regime == DEM_SLUMPING) { /* 8 frames from one top to the next, 8 degrees high: every one but the ends' */
+            CHECK_NEAR(r.repose.slumps.period.mean, 8 * INTERVAL, 1e-12);
+            CHECK_NEAR(r.repose.slumps.size_deg.mean, 8, 1e-12);
+            CHECK_BETWEEN(r.repose.slumps.count, (double)r.repose.frames / 8 - 2, (double)r.repose.frames / 8);
+            assert_false(r.repose.steady);
+        }
         free(table);
     }
     dem_scene_free(scene);
