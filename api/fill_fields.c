@@ -12,19 +12,19 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "stream", FIELD_OBJECT, SPEC_STREAM, .meaning = "the particles that fall in, along the axis" },
     { SPEC_STREAM, "diameter", FIELD_REAL, .unit = "m", RANGE(1e-5, 20.0), .fallback = NAN, AT(fill.stream_diameter),
       .meaning = "of the inlet; at most the cylinder's. Default: a quarter of it, or 3 of the largest particle diameters" },
-    { SPEC_STREAM, "rate", FIELD_REAL, .unit = "1/s", OPEN_RANGE(0.0, 1e9), .fallback = NAN, .excludes = "mass_rate", AT(fill.rate),
+    { SPEC_STREAM, "rate", FIELD_REAL, .unit = "1/s", OPEN_RANGE(0.0, 1e9), .fallback = NAN, AT(fill.rate),
       .meaning = "particles a second. Default: as many as fill 5 % of the stream at impact_speed" },
-    { SPEC_STREAM, "mass_rate", FIELD_REAL, .unit = "kg/s", OPEN_RANGE(0.0, 1e6), .fallback = NAN, .excludes = "rate",
+    { SPEC_STREAM, "mass_rate", FIELD_REAL, .unit = "kg/s", OPEN_RANGE(0.0, 1e6), .fallback = NAN, .excludes_too = "rate",
       AT(fill.mass_rate), .meaning = "mass a second, instead of rate" },
     { SPEC_STREAM, "impact_speed", FIELD_REAL, .unit = "m/s", OPEN_RANGE(0.0, 100.0), .fallback = 1.0, AT(fill.impact_speed),
       .meaning = "at which particles meet the level of the bed: the inlet rises with it" },
 
     FIELDS_OF_PARTICLES,
 
-    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes = "fill_height",
+    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height",
       AT(particle_count), .meaning = "number of particles, instead of fill_height" },
-    { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, .excludes = "particle_count",
-      AT(fill_height), .meaning = "of the whole bed, at a solid fraction of 0.6. Default: half the cylinder's diameter" },
+    { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, AT(fill_height),
+      .meaning = "of the whole bed, at a solid fraction of 0.6. Default: half the cylinder's diameter" },
 
     FIELDS_OF_CONTACT,
 

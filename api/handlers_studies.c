@@ -68,8 +68,7 @@ void create_study(api_service *service, const http_request *request, http_respon
     json_decref(document);
     calibration machine;
     store_read_calibration(service->store, &machine);
-    if (study_check(&study, &machine, &estimate, &problems))
-        add_study(service, response, &study, &estimate);
+    if (study_check(&study, &machine, &estimate, &problems)) add_study(service, response, &study, &estimate);
     else
         http_respond_json(response, 400,
                           problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",

@@ -14,7 +14,7 @@ static const spec_field fields[] = {
 
     { SPEC_INPUTS, "plate", FIELD_OBJECT, SPEC_PLATE, .meaning = "the level disc below, whose middle is on the tube's axis" },
     { SPEC_PLATE, "diameter", FIELD_REAL, .unit = "m", RANGE(0.001, 50.0), .fallback = NAN, AT(heap.plate_diameter),
-      .meaning = "of the disc: what rolls off it is lost. Default: 3 of the tube's diameters" },
+      .meaning = "of the disc: what rolls off it is lost. Default: 2 of the tube's diameters" },
     { SPEC_PLATE, "rim_height", FIELD_REAL, .unit = "m", RANGE(0.0, 1.0), .fallback = NAN, AT(heap.rim_height),
       .meaning = "of the rim around it; 0: none. Default: half the largest particle diameter, which keeps the lowest layer "
                  "from rolling off" },
@@ -23,10 +23,10 @@ static const spec_field fields[] = {
 
     FIELDS_OF_PARTICLES,
 
-    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes = "fill_height",
+    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height",
       AT(particle_count), .meaning = "number of particles, instead of fill_height" },
-    { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, .excludes = "particle_count",
-      AT(fill_height), .meaning = "of the bed in the tube, at a solid fraction of 0.6. Default: twice the tube's diameter" },
+    { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, AT(fill_height),
+      .meaning = "of the bed in the tube, at a solid fraction of 0.6. Default: twice the tube's diameter" },
 
     FIELDS_OF_CONTACT,
 

@@ -28,7 +28,7 @@ struct process_type {
 extern const process_type *const process_types[];        /* ends with NULL */
 const process_type *process_type_find(const char *name); /* NULL: unknown */
 
-/* The names of all, for messages: "drum", "granule". */
+/* The names of all, for messages: "drum", "fill", ... */
 void process_type_names(char *text, size_t size);
 
 #endif

@@ -25,6 +25,11 @@ const study_measure study_measures[STUDY_MEASURES] = {
     { "minimum_omega2", "error" },
     { "minimum_rotation_rate", NULL },
     { "slip_per_revolution", NULL },
+    { "while_filling_angle_deg", "while_filling_standard_error_deg" },
+    { "height", NULL },
+    { "base_diameter", NULL },
+    { "static_cohesive_index", NULL },
+    { "lost", NULL },
 };
 
 bool study_table_init(study_table *table)

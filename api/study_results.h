@@ -14,7 +14,7 @@ typedef struct study_measure {
     const char *run_error; /* name of a single run's own error of it; NULL: it has none */
 } study_measure;
 extern const study_measure study_measures[];
-enum { STUDY_MEASURES = 19 };
+enum { STUDY_MEASURES = 24 };
 
 typedef struct study_table {
     json_t *cases; /* (n) rows, as GET /studies/{id}/results has them; owned */

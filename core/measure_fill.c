@@ -77,8 +77,9 @@ static void slabs_add(slabs *s, double points[BALL_POINTS][3], const double x[3]
 {
     for (int k = 0; k < BALL_POINTS; k++) {
         const double px = x[0] + radius * points[k][0], py = x[1] + radius * points[k][1], pz = x[2] + radius * points[k][2];
-        const double slab = floor(pz / s->thickness);
-        if (slab >= 0 && slab < (double)s->count) s->solid[(size_t)slab] += volume / BALL_POINTS;
+        /* a sphere reaches a little into the floor */
+        const double slab = fmin(fmax(floor(pz / s->thickness), 0.0), (double)s->count - 1);
+        s->solid[(size_t)slab] += volume / BALL_POINTS;
         if (pz >= s->core_low && pz < s->core_high && px * px + py * py < s->core_radius * s->core_radius)
             s->core += volume / BALL_POINTS;
     }

@@ -25,42 +25,45 @@ static double falls_to(const double *place, const double *value, size_t count, d
     return place[last - 1] + (place[last] - place[last - 1]) * (value[last - 1] - height) / (value[last - 1] - value[last]);
 }
 
-static void fit_azimuths(const height_map *map, const dem_profile *mean, const dem_mound *mound, double radius, dem_angle *angle)
+static void fit_azimuths(const height_map *map, const dem_profile *mean, double grain, double level, double radius,
+                         dem_angle *angle)
 {
     double top = 0.0, radians[DEM_AZIMUTHS];
     for (size_t k = 0; k < mean->count; k++) top = fmax(top, mean->value[k]);
-    const double from = falls_to(mean->place, mean->value, mean->count, UPPER * top, radius);
-    const double to = falls_to(mean->place, mean->value, mean->count, LOWER * top, radius);
+    const double from = falls_to(mean->place, mean->value, mean->count, level + UPPER * (top - level), radius);
+    const double to = falls_to(mean->place, mean->value, mean->count, level + LOWER * (top - level), radius);
     ring_sums sums[DEM_AZIMUTHS];
     height_map_sum(map, from, to, sums);
     /* A flank shorter than two grains has no slope to speak of. */
-    const bool has_flank = to - from >= 2 * mound->grain;
+    const bool has_flank = to - from >= 2 * grain;
     for (int a = 0; a < DEM_AZIMUTHS; a++) radians[a] = has_flank ? atan(-ring_slope(&sums[a])) : NAN;
     *angle = angle_over_azimuths(radians);
 }
 
-/* Cones of each sector's base: of the heap's height, and of the sector's volume. */
-static void measure_cones(const height_map *map, const dem_profile *mean, double (*rings)[DEM_AZIMUTHS], const dem_mound *mound,
+/* Cones of each sector's base: of the heap's height, and of the sector's volume; both over the level of the base. */
+static void measure_cones(const height_map *map, const dem_profile *mean, double (*rings)[DEM_AZIMUTHS], double level,
                           double radius, dem_heap_results *results)
 {
     double height_cone[DEM_AZIMUTHS], volume_cone[DEM_AZIMUTHS], base[DEM_AZIMUTHS], sector[DEM_PROFILE_POINTS];
     for (int a = 0; a < DEM_AZIMUTHS; a++) {
         for (size_t k = 0; k < mean->count; k++) sector[k] = rings[k][a];
-        base[a] = falls_to(mean->place, sector, mean->count, 0.5 * mound->grain, radius);
+        base[a] = falls_to(mean->place, sector, mean->count, level, radius);
         ring_sums sums[DEM_AZIMUTHS];
         height_map_sum(map, 0, isnan(base[a]) ? 0 : base[a], sums);
         /* The mean height over the base is a third of the cone's. */
-        const double mean_height = sums[a].cells > 0 ? sums[a].h / sums[a].cells : NAN;
-        height_cone[a] = atan(results->height / base[a]);
+        const double mean_height = sums[a].cells > 0 ? sums[a].h / sums[a].cells - level : NAN;
+        height_cone[a] = atan((results->height - level) / base[a]);
         volume_cone[a] = atan(3 * mean_height / base[a]);
     }
     results->angle[DEM_APEX_TO_BASE] = angle_over_azimuths(height_cone);
+    /* Where the plate ends every base, all azimuths say the same, which is no sign of certainty. */
+    if (!(statistics_deviation(base, DEM_AZIMUTHS) > 0)) results->angle[DEM_APEX_TO_BASE].standard_error_deg = NAN;
     results->angle[DEM_EQUAL_VOLUME] = angle_over_azimuths(volume_cone);
     results->base_diameter = 2 * statistics_mean(base, DEM_AZIMUTHS);
 }
 
 /* Angle of the triangle that has the outline's area and base, as seen along the direction across `azimuth`. */
-static double silhouette_angle(const height_map *map, double azimuth, double grain, double *outline, int bins)
+static double silhouette_angle(const height_map *map, double azimuth, double level, double *outline, int bins)
 {
     const double c = cos(azimuth), sine = sin(azimuth), width = 2 * map->size;
     double area = 0.0;
@@ -74,8 +77,8 @@ static double silhouette_angle(const height_map *map, double azimuth, double gra
                 outline[bin] = fmax(outline[bin], map->value[(size_t)row * (size_t)map->cells + (size_t)column]);
         }
     for (int b = 0; b < bins; b++) {
-        if (outline[b] < 0.5 * grain) continue;
-        area += outline[b] * width;
+        if (outline[b] < level) continue;
+        area += (outline[b] - level) * width;
         first = b < first ? b : first;
         last = b;
     }
@@ -83,12 +86,12 @@ static double silhouette_angle(const height_map *map, double azimuth, double gra
     return last < first ? NAN : atan(4 * area / (base * base));
 }
 
-static dem_status measure_silhouette(const height_map *map, double grain, dem_angle *angle)
+static dem_status measure_silhouette(const height_map *map, double level, dem_angle *angle)
 {
     const int bins = map->cells; /* of two cells: enough for the diagonal */
     double *outline = malloc((size_t)bins * sizeof *outline), radians[DEM_AZIMUTHS];
     if (!outline) return DEM_NO_MEMORY;
-    for (int a = 0; a < DEM_AZIMUTHS; a++) radians[a] = silhouette_angle(map, DEM_PI * a / DEM_AZIMUTHS, grain, outline, bins);
+    for (int a = 0; a < DEM_AZIMUTHS; a++) radians[a] = silhouette_angle(map, DEM_PI * a / DEM_AZIMUTHS, level, outline, bins);
     free(outline);
     *angle = angle_over_azimuths(radians);
     return DEM_OK;
@@ -120,8 +123,9 @@ static void set_nothing_known(dem_heap_results *results)
     results->base_diameter = results->static_cohesive_index = results->solid_fraction = NAN;
 }
 
-dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, dem_heap_results *results)
+dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, double rim_height, dem_heap_results *results)
 {
+    const double level = fmax(rim_height, 0.5 * mound->grain);
     double rings[DEM_PROFILE_POINTS][DEM_AZIMUTHS];
     height_map map;
     set_nothing_known(results);
@@ -130,11 +134,11 @@ dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, dem_hea
     for (size_t i = 0; i < mound->count; i++)
         results->height = fmax(results->height, mound->position[3 * i + 2] + mound->radius[i]);
     height_map_profile(&map, plate_radius, mound->grain, &results->surface, rings);
-    fit_azimuths(&map, &results->surface, mound, plate_radius, &results->angle[DEM_AZIMUTHAL_FIT]);
-    measure_cones(&map, &results->surface, rings, mound, plate_radius, results);
+    fit_azimuths(&map, &results->surface, mound->grain, level, plate_radius, &results->angle[DEM_AZIMUTHAL_FIT]);
+    measure_cones(&map, &results->surface, rings, level, plate_radius, results);
     results->static_cohesive_index = cohesive_index(&results->surface, rings, 0.5 * results->base_diameter);
     measure_volume(&map, mound, results);
-    status = measure_silhouette(&map, mound->grain, &results->angle[DEM_SILHOUETTE]);
+    status = measure_silhouette(&map, level, &results->angle[DEM_SILHOUETTE]);
     height_map_clear(&map);
     return status;
 }

@@ -78,6 +78,12 @@ double dem_scene_time(const dem_scene *scene)
 
 double dem_scene_maximum_overlap(const dem_scene *scene) { return scene->maximum_overlap / scene->spheres.smallest_diameter; }
 
+const char *dem_scene_phase_name(const dem_scene *scene)
+{
+    if (scene->phase != DEM_PHASE_ROTATING || scene->drum.kind == DEM_DRUM) return dem_phase_name(scene->phase);
+    return scene->drum.kind == DEM_CYLINDER ? "filling" : "lifting";
+}
+
 static void sphere_orientation(const spheres *s, size_t i, double wxyz[4])
 {
     static const double none[4] = { 1, 0, 0, 0 };

@@ -81,6 +81,7 @@ void dem_fields_measure(const dem_scene *scene, const double *sums, const dem_fi
 
 const char *dem_status_text(dem_status status);
 const char *dem_phase_name(dem_phase phase);                /* "growing", "settling", "rotating" */
+const char *dem_scene_phase_name(const dem_scene *scene);   /* the same, but for "filling" and "lifting" where that is it */
 const char *dem_step_part_name(dem_step_part part);         /* "outer list", ... */
 const char *dem_regime_name(dem_regime regime);             /* "slipping", ... */
 const char *dem_angle_method_name(dem_angle_method method); /* "surface-fit", "center-of-mass", ... */

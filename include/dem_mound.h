@@ -3,7 +3,7 @@
 #ifndef DEM_MOUND_H
 #define DEM_MOUND_H
 
-#include "dem_types.h"
+#include "dem.h"
 
 enum { DEM_AZIMUTHS = 16, DEM_PROFILE_POINTS = 128 };
 
@@ -56,11 +56,36 @@ typedef struct dem_fill_results {
     dem_profile packing;               /* solid fraction over m above the floor; its error is not told */
 } dem_fill_results;
 
-/* plate_radius: m; the heap ends there at the latest. Measures that fail (a heap of a few grains) are NaN.
- * Errors: DEM_NO_MEMORY. */
-dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, dem_heap_results *results);
+/* plate_radius: m; the heap ends there at the latest. What is below the rim, or half a grain, is no part of slopes and
+ * cones. Measures that fail (a heap of a few grains) are NaN. Errors: DEM_NO_MEMORY. */
+dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, double rim_height, dem_heap_results *results);
 /* cylinder_radius: m. Likewise. */
 dem_status dem_fill_measure(const dem_mound *mound, double cylinder_radius, dem_fill_results *results);
+
+/* What a scene of either kind has beside its shape. */
+typedef struct dem_standing {
+    double coordination_number; /* contacts a particle, of those that are not in flight */
+    size_t inside;              /* in the heap: of at least two contacts; in the bed: joined to the floor by the others */
+    size_t in_flight;           /* or lying by themselves on the plate */
+    size_t lost, waiting;       /* fell off the plate; did not yet enter */
+    double kinetic_energy;      /* J */
+    bool at_rest;               /* below 1e-4 of the energy that the particles' fall through one diameter would give */
+} dem_standing;
+
+/* Frames, as of a drum (dem.h): all of their numbers have names. */
+enum { DEM_HEAP_FRAME = 12, DEM_FILL_FRAME = 10 };
+const char *dem_heap_frame_name(size_t index); /* NULL beyond the last */
+const char *dem_fill_frame_name(size_t index);
+dem_status dem_heap_frame_measure(dem_scene *scene, double *frame);
+dem_status dem_fill_frame_measure(dem_scene *scene, double *frame);
+/* Whether the last frames of `count` show that all is done and at rest: the tube clear of the heap, the stream ended. */
+bool dem_heap_is_over(const double *frames, size_t count);
+bool dem_fill_is_over(const double *frames, size_t count);
+
+/* Of the present state; of a fill the frames' mean angle from when half of the particles were in to when all were, too. */
+dem_status dem_heap_scene_measure(const dem_scene *scene, dem_heap_results *results, dem_standing *standing);
+dem_status dem_fill_scene_measure(const dem_scene *scene, const double *frames, size_t count, dem_fill_results *results,
+                                  dem_angle *while_filling, dem_standing *standing);
 
 const char *dem_heap_method_name(dem_heap_method method); /* "azimuthal-fit", ... */
 const char *dem_fill_method_name(dem_fill_method method); /* "radial-fit", ... */

@@ -13,10 +13,17 @@
     "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"                 \
     " job.started, job.finished, job.updated, job.message, job.label, study.id,"                                                   \
     " i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate, i.fill_fraction,"              \
-    " i.particles, i.species, i.diameter, i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution,"                \
-    " i.wall_friction, i.stiffness, i.duration, i.seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"               \
+    " fi.cylinder_diameter, fi.stream_diameter, fi.rate, fi.impact_speed, hi.tube_diameter, hi.lift_speed, hi.plate_diameter,"     \
+    " coalesce(i.particles, fi.particles, hi.particles) AS particles, coalesce(i.species, fi.species, hi.species) AS species,"     \
+    " coalesce(i.diameter, fi.diameter, hi.diameter) AS diameter, coalesce(i.density, fi.density, hi.density) AS density,"         \
+    " coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"                                                    \
+    " coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"                                                     \
+    " coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"                                             \
+    " coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, coalesce(i.duration, fi.duration, hi.duration) AS duration," \
+    " coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"                     \
     " a.standard_error_deg, a.steady, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds"               \
     " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"                         \
+    " LEFT JOIN fill_input fi ON fi.job=job.number LEFT JOIN heap_input hi ON hi.job=job.number"                                   \
     " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                                 \
     " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"                                 \
     " LEFT JOIN study ON study.number=job.study"

@@ -31,6 +31,36 @@ static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *sp
                    (int64_t)drum->lifters.count, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape));
 }
 
+static store_status insert_fill(sqlite3 *writer, int64_t job, const job_spec *spec)
+{
+    const dem_drum_definition *scene = &spec->drum;
+    return sql_run(writer, NULL, "INSERT INTO fill_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                   "idddd"
+                   "diiddt"
+                   "dddddddi",
+                   job, scene->diameter, scene->stream.diameter, scene->stream.rate, scene->stream.impact_speed, scene->gravity,
+                   (int64_t)scene->particle_count, (int64_t)scene->species_count, scene->species[0].diameter,
+                   scene->species[0].density, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape),
+                   scene->contact.friction, scene->contact.restitution, scene->contact.wall_friction,
+                   scene->contact.tangential_stiffness_ratio, scene->contact.stiffness, scene->time_step, spec->duration,
+                   (int64_t)scene->seed);
+}
+
+static store_status insert_heap(sqlite3 *writer, int64_t job, const job_spec *spec)
+{
+    const dem_drum_definition *scene = &spec->drum;
+    return sql_run(writer, NULL, "INSERT INTO heap_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+                   "iddddd"
+                   "diiddt"
+                   "dddddddi",
+                   job, scene->diameter, scene->lift.speed, scene->plate.diameter, scene->plate.rim_height, scene->plate.friction,
+                   scene->gravity, (int64_t)scene->particle_count, (int64_t)scene->species_count, scene->species[0].diameter,
+                   scene->species[0].density, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape),
+                   scene->contact.friction, scene->contact.restitution, scene->contact.wall_friction,
+                   scene->contact.tangential_stiffness_ratio, scene->contact.stiffness, scene->time_step, spec->duration,
+                   (int64_t)scene->seed);
+}
+
 static store_status insert_granule(sqlite3 *writer, int64_t job, const job_spec *spec)
 {
     const dem_granule_definition *granule = &spec->granule;
@@ -43,6 +73,8 @@ static const struct {
     inputs_inserter *insert;
 } tables[] = {
     { "drum", insert_drum },
+    { "fill", insert_fill },
+    { "heap", insert_heap },
     { "granule", insert_granule },
 };
 

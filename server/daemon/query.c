@@ -17,8 +17,8 @@
 #define STEPS_BETWEEN_LOOKS 1000 /* of the virtual machine, some tens of microseconds */
 
 static const char tables[] =
-    " job job_count study study_case drum_input granule_input result granule_result repose_result regime_result"
-    " segregation_result packing_result drive_result run_result sample"
+    " job job_count study study_case drum_input fill_input heap_input granule_input result granule_result repose_result regime_result"
+    " segregation_result packing_result drive_result surface_result fill_result heap_result run_result sample"
     " snapshot run_summary sqlite_master sqlite_schema json_each json_tree ";
 static const char functions[] =
     " abs avg ceil ceiling coalesce count cume_dist date datetime degrees dense_rank exp first_value floor format glob"

@@ -15,7 +15,11 @@ static const struct {
 } tables[] = {
     { "repose",
       { "angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady", "drift_deg_per_revolution", "method",
-        "interface_fluctuation", "slumps/count", "slumps/period", "slumps/start_deg", "slumps/stop_deg", "slumps/size_deg" } },
+        "interface_fluctuation", "slumps/count", "slumps/period", "slumps/start_deg", "slumps/stop_deg", "slumps/size_deg",
+        "while_filling/angle_deg", "while_filling/standard_error_deg" } },
+    { "surface", { "height", "center_height", "wall_height", "base_diameter", "volume", "static_cohesive_index" } },
+    { "fill", { "inside", "apart", "waiting", "at_rest" } },
+    { "heap", { "inside", "apart", "lost", "at_rest" } },
     { "regime", { "name", "omega2_outer", "omega2_inner" } },
     { "segregation", { "radial_index", "axial_index", "lacey_index" } },
     { "packing", { "solid_fraction", "coordination_number", "mean_overlap", "overlap_99" } },

@@ -184,17 +184,60 @@ static const char drums_closed_and_with_lifters[] =
     "  WHEN 'text' THEN job.spec->>'$.inputs.particles[0].shape' WHEN 'object' THEN 'spheres' END"
     "  FROM job WHERE job.number=drum_input.job), 'sphere');";
 
+/* What both have in common stands at the end, in the same order. */
+static const char fill_and_heap_tables[] =
+    "CREATE TABLE fill_input("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  cylinder_diameter REAL NOT NULL, stream_diameter REAL NOT NULL, rate REAL NOT NULL, impact_speed REAL NOT NULL,"
+    "  gravity REAL NOT NULL, particles INTEGER NOT NULL, species INTEGER NOT NULL, diameter REAL NOT NULL,"
+    "  density REAL NOT NULL, shape TEXT NOT NULL," /* of the first species */
+    "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"
+    "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, time_step REAL NOT NULL,"
+    "  duration REAL NOT NULL, seed INTEGER NOT NULL) STRICT;"
+    "CREATE TABLE heap_input("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  tube_diameter REAL NOT NULL, lift_speed REAL NOT NULL, plate_diameter REAL NOT NULL, rim_height REAL NOT NULL,"
+    "  plate_friction REAL NOT NULL,"
+    "  gravity REAL NOT NULL, particles INTEGER NOT NULL, species INTEGER NOT NULL, diameter REAL NOT NULL,"
+    "  density REAL NOT NULL, shape TEXT NOT NULL," /* of the first species */
+    "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"
+    "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, time_step REAL NOT NULL,"
+    "  duration REAL NOT NULL, seed INTEGER NOT NULL) STRICT;"
+    "CREATE TABLE surface_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  height REAL, center_height REAL, wall_height REAL, base_diameter REAL, volume REAL, static_cohesive_index REAL) STRICT;"
+    "CREATE TABLE fill_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  inside INTEGER, apart INTEGER, waiting INTEGER, at_rest INTEGER) STRICT;"
+    "CREATE TABLE heap_result("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  inside INTEGER, apart INTEGER, lost INTEGER, at_rest INTEGER) STRICT;"
+    "ALTER TABLE repose_result ADD COLUMN while_filling_angle_deg REAL;"
+    "ALTER TABLE repose_result ADD COLUMN while_filling_standard_error_deg REAL;";
+
 static const char run_summary_with_more_measures[] =
     "DROP VIEW run_summary;"
     "CREATE VIEW run_summary AS SELECT"
     "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
-    "  i.drum_diameter, i.drum_length, i.ends, i.lifters, i.shape,"
+    "  i.drum_diameter, i.drum_length, i.ends, i.lifters, coalesce(i.shape, fi.shape, hi.shape) AS shape,"
+    "  fi.cylinder_diameter, fi.stream_diameter, fi.rate, fi.impact_speed,"
+    "  hi.tube_diameter, hi.lift_speed, hi.plate_diameter, hi.rim_height, hi.plate_friction,"
     "  coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
-    "  coalesce(i.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles, i.species, i.diameter,"
-    "  i.density, coalesce(i.friction, gi.friction) AS friction, i.restitution, i.wall_friction,"
-    "  i.tangential_stiffness_ratio, i.stiffness, i.lining_diameter, i.time_step, i.duration, i.seed, gi.radius,"
+    "  coalesce(i.gravity, fi.gravity, hi.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles,"
+    "  coalesce(i.species, fi.species, hi.species) AS species, coalesce(i.diameter, fi.diameter, hi.diameter) AS diameter,"
+    "  coalesce(i.density, fi.density, hi.density) AS density,"
+    "  coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"
+    "  coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"
+    "  coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"
+    "  coalesce(i.tangential_stiffness_ratio, fi.tangential_stiffness_ratio, hi.tangential_stiffness_ratio)"
+    "   AS tangential_stiffness_ratio,"
+    "  coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, i.lining_diameter,"
+    "  coalesce(i.time_step, fi.time_step, hi.time_step) AS time_step,"
+    "  coalesce(i.duration, fi.duration, hi.duration) AS duration, coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius,"
     "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady, a.drift_deg_per_revolution,"
     "  a.interface_fluctuation, a.slumps_count, a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg,"
+    "  a.while_filling_angle_deg, a.while_filling_standard_error_deg,"
+    "  f.height, f.center_height, f.wall_height, f.base_diameter, f.static_cohesive_index, hr.lost,"
     "  g.name AS regime, g.omega2_outer, g.omega2_inner,"
     "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number, p.mean_overlap, p.overlap_99,"
     "  d.torque, d.torque_standard_error, d.torque_number, d.power,"
@@ -204,13 +247,15 @@ static const char run_summary_with_more_measures[] =
     " LEFT JOIN granule_input gi ON gi.job=job.number LEFT JOIN granule_result gr ON gr.job=job.number"
     " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"
     " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
-    " LEFT JOIN drive_result d ON d.job=job.number"
+    " LEFT JOIN drive_result d ON d.job=job.number LEFT JOIN fill_input fi ON fi.job=job.number"
+    " LEFT JOIN heap_input hi ON hi.job=job.number LEFT JOIN surface_result f ON f.job=job.number"
+    " LEFT JOIN heap_result hr ON hr.job=job.number"
     " WHERE job.status='successful';";
 
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
     { { study_tables } },
-    { { more_measures, drums_closed_and_with_lifters, run_summary_with_more_measures } },
+    { { more_measures, drums_closed_and_with_lifters, fill_and_heap_tables, run_summary_with_more_measures } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

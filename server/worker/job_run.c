@@ -9,8 +9,10 @@
 
 #include "drum_run.h"
 #include "failure_report.h"
+#include "fill_run.h"
 #include "file_publish.h"
 #include "granule_run.h"
+#include "heap_run.h"
 #include "json_text.h"
 #include "run_folder.h"
 #include "run_summary.h"
@@ -24,6 +26,8 @@ typedef struct job_runner {
 
 static const job_runner runners[] = {
     { "drum", drum_run, terminal_summary },
+    { "fill", fill_run, fill_summary },
+    { "heap", heap_run, heap_summary },
     { "granule", granule_run, granule_summary },
 };
 

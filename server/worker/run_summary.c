@@ -15,14 +15,14 @@ static void write_duration(double seconds, char *text, size_t size)
     else snprintf(text, size, "%lld s", whole);
 }
 
-void terminal_progress(const progress_report *report, dem_phase phase, double time)
+void terminal_progress(const progress_report *report, const char *phase, double time)
 {
     char bar[BAR_WIDTH + 1], left[40];
     for (int i = 0; i < BAR_WIDTH; i++) bar[i] = report->percent * BAR_WIDTH >= 100.0 * (i + 1) ? '#' : '.';
     bar[BAR_WIDTH] = '\0';
     write_duration(report->eta_seconds, left, sizeof left);
-    printf("\r\033[K%s %5.1f %%  %s", bar, report->percent, dem_phase_name(phase));
-    if (phase == DEM_PHASE_ROTATING) printf(" %.2f s", time);
+    printf("\r\033[K%s %5.1f %%  %s", bar, report->percent, phase);
+    if (time >= 0) printf(" %.2f s", time);
     printf("  %s left  %.1f M particle-steps/s", left, 1e-6 * report->particle_steps_per_second);
     fflush(stdout);
 }
@@ -39,25 +39,40 @@ static double number_at(const json_t *result, const char *output, const char *na
     return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
-void terminal_summary(const json_t *result, const char *folder)
+void summary_angle(const json_t *result)
 {
     const json_t *repose = json_object_get(result, "repose");
-    const char *regime = json_string_value(json_object_get(json_object_get(result, "regime"), "name"));
     const double angle = number_at(result, "repose", "angle_deg");
-    char spent[40];
     if (isnan(angle)) {
-        printf("angle of repose   not measured: the run is too short\n");
-    } else {
-        printf("angle of repose   %.2f +- %.2f degrees (%s)%s\n", angle, number_at(result, "repose", "standard_error_deg"),
-               json_string_value(json_object_get(repose, "method")),
-               json_is_true(json_object_get(repose, "steady")) ? "" : ", not steady");
-        printf("frames            %.2f to %.2f degrees\n", number_at(result, "repose", "minimum_deg"),
-               number_at(result, "repose", "maximum_deg"));
+        printf("angle of repose   not measured: the run is too short, or there are too few particles\n");
+        return;
     }
-    printf("regime            %s\n", regime ? regime : "not known: the run is too short");
+    const json_t *steady = json_object_get(repose, "steady");
+    printf("angle of repose   %.2f +- %.2f degrees (%s)%s\n", angle, number_at(result, "repose", "standard_error_deg"),
+           json_string_value(json_object_get(repose, "method")), json_is_false(steady) ? ", not steady" : "");
+    printf("%-18s%.2f to %.2f degrees\n", steady ? "frames" : "azimuths", number_at(result, "repose", "minimum_deg"),
+           number_at(result, "repose", "maximum_deg"));
+}
+
+void summary_fact(const json_t *result, const char *output, const char *name, const char *label, const char *unit)
+{
+    printf("%-18s%.4g %s\n", label, number_at(result, output, name), unit);
+}
+
+void summary_run(const json_t *result, const char *folder)
+{
+    char spent[40];
     write_duration(number_at(result, "run", "wall_seconds"), spent, sizeof spent);
     printf("run               %.0f particles, %.0f steps, %s, largest overlap %.2g of a diameter\n",
            number_at(result, "run", "particles"), number_at(result, "run", "steps"), spent,
            number_at(result, "run", "maximum_overlap"));
     printf("files             %s/%s, %s/%s (ParaView)\n", folder, JOB_RESULT_FILE, folder, JOB_SERIES_FILE);
+}
+
+void terminal_summary(const json_t *result, const char *folder)
+{
+    const char *regime = json_string_value(json_object_get(json_object_get(result, "regime"), "name"));
+    summary_angle(result);
+    printf("regime            %s\n", regime ? regime : "not known: the run is too short");
+    summary_run(result, folder);
 }

@@ -197,12 +197,12 @@ static enum worker_exit report_progress(scene_run *r)
     if (dem_scene_phase(r->scene) != r->phase) {
         r->phase = dem_scene_phase(r->scene);
         if (is_rotating(r)) run_profile_rotating(&r->profile, r->scene);
-        worker_log("%s since step %lld", dem_phase_name(r->phase), (long long)dem_scene_step_count(r->scene));
+        worker_log("%s since step %lld", dem_scene_phase_name(r->scene), (long long)dem_scene_step_count(r->scene));
     }
     progress_report report;
     if (!progress_is_due(&r->progress, r->scene, &report)) return WORKER_DONE;
-    if (r->options->on_terminal) terminal_progress(&report, r->phase, dem_scene_time(r->scene));
-    json_t *event = json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_phase_name(r->phase), "progress", report.percent, "eta_seconds",
+    if (r->options->on_terminal) terminal_progress(&report, dem_scene_phase_name(r->scene), dem_scene_time(r->scene));
+    json_t *event = json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_scene_phase_name(r->scene), "progress", report.percent, "eta_seconds",
                               json_real_or_null(report.eta_seconds), "particle_steps_per_second", report.particle_steps_per_second);
     return add_event(r, "progress", event) ? WORKER_DONE : WORKER_DISK;
 }
@@ -338,7 +338,7 @@ static enum worker_exit begin(scene_run *r)
     run_profile_begin(&r->profile, r->scene);
     const job_estimate estimate = job_spec_estimate(r->spec, NULL);
     worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d", r->options->attempt,
-               resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene), dem_phase_name(r->phase),
+               resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene), dem_scene_phase_name(r->scene),
                dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps, r->spec->drum.threads);
     json_t *event = json_pack("{s:i, s:b, s:I, s:f, s:I}", "attempt", r->options->attempt, "resumed", resumed, "particles",
                               (json_int_t)dem_scene_particle_count(r->scene), "time_step", r->spec->drum.time_step, "total_steps",

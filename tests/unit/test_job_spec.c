@@ -499,7 +499,7 @@ static void the_estimate_grows_with_what_is_asked(void **state)
 static void the_description_has_every_default_and_range_that_the_parser_has(void **state)
 {
     (void)state;
-    assert_null(process_description("heap"));
+    assert_null(process_description("hopper"));
     json_t *description = process_description("drum");
     json_t *friction = json_object_get(
         json_object_get(

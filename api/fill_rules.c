@@ -1,0 +1,120 @@
+/* From inputs, each within its own range, to a cylinder and a stream that can be run. Refused inputs are NaN, and no check
+ * is true of NaN. */
+#include <math.h>
+
+#include "dem_rules.h"
+#include "dem_stream.h"
+#include "fill_process.h"
+#include "standing_rules.h"
+
+#define LEAST_CYLINDER_DIAMETERS 6.0 /* of the largest particle: a surface needs some width */
+#define LEAST_BED_DIAMETERS 2.0
+#define USUAL_SOLID 0.05 /* of the stream */
+#define USUAL_STREAM_SHARE 0.25
+#define USUAL_STREAM_DIAMETERS 3.0
+#define SETTLING_EXPECTED 0.4 /* s, for the estimate */
+/* A bed of some height presses and slides, however gently it was poured: its own weight is a speed, too. */
+#define SPEED_OF_WEIGHT 0.6
+/* A particle that is hit on the bed by the next one is pressed by more than a single impact on the floor. */
+#define IMPACT_ON_OTHERS 1.25
+
+static void derive_stream(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+{
+    fill_inputs *fill = &inputs->fill;
+    const double widest = dem_stream_widest(scene), least_speed = dem_stream_least_impact_speed(scene);
+    if (isnan(fill->stream_diameter))
+        fill->stream_diameter = fmin(fmax(USUAL_STREAM_SHARE * scene->diameter, USUAL_STREAM_DIAMETERS * widest), scene->diameter);
+    scene->stream = (dem_stream){ .diameter = fill->stream_diameter, .impact_speed = fill->impact_speed };
+    if (fill->stream_diameter > scene->diameter)
+        problem_list_add(problems, "/inputs/stream/diameter", "is %g m; must be at most %g m, the cylinder's diameter",
+                         fill->stream_diameter, scene->diameter);
+    if (fill->stream_diameter < widest)
+        problem_list_add(problems, "/inputs/stream/diameter", "is %g m; must be at least %g m, the largest particle diameter",
+                         fill->stream_diameter, widest);
+    if (fill->impact_speed < least_speed)
+        problem_list_add(problems, "/inputs/stream/impact_speed",
+                         "is %g m/s; must be at least %.4g m/s here, the speed of falling the %.3g m from the inlet to the bed",
+                         fill->impact_speed, least_speed, dem_stream_clearance(scene));
+}
+
+/* rate or mass_rate as given; a few per cent of the stream where neither is. */
+static void derive_rate(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+{
+    fill_inputs *fill = &inputs->fill;
+    double mass = 0.0;
+    for (size_t s = 0; s < scene->species_count; s++) mass += scene->species[s].share * dem_species_mass(&scene->species[s]);
+    const double most = dem_stream_most_rate(scene);
+    if (isnan(fill->rate) && isnan(fill->mass_rate))
+        fill->rate = fmin(dem_stream_rate(scene, USUAL_SOLID, fill->impact_speed), most);
+    const bool by_mass = !isnan(fill->mass_rate);
+    scene->stream.rate = by_mass ? fill->mass_rate / mass : fill->rate;
+    if (scene->stream.rate <= most) return;
+    if (by_mass)
+        problem_list_add(problems, "/inputs/stream/mass_rate",
+                         "is %g kg/s, at which the inlet clogs; must be at most %.4g kg/s for this inlet and speed",
+                         fill->mass_rate, most * mass);
+    else if (scene->stream.rate > most)
+        problem_list_add(problems, "/inputs/stream/rate",
+                         "is %g particles a second, at which the inlet clogs; must be at most %.4g 1/s for this inlet and speed",
+                         fill->rate, most);
+}
+
+static void check_bed(const drum_inputs *inputs, const dem_drum_definition *scene, problem_list *problems)
+{
+    const double level = dem_stream_level(scene, (double)scene->particle_count);
+    const double a_particle = dem_stream_level(scene, 1.0), height = inputs->fill.cylinder_height;
+    if (level > height)
+        problem_list_add(problems, "/inputs/cylinder/height",
+                         "is %g m, but the particles need %.4g m; must be at least that, or the particles at most %.0f", height,
+                         level, floor(height / a_particle));
+}
+
+static void derive_cylinder(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+{
+    scene->container = DEM_CYLINDER;
+    scene->diameter = inputs->fill.cylinder_diameter;
+    scene->ends.friction = inputs->wall_friction;
+    const double widest = scene_of_species(scene, scene_species_width, true);
+    if (scene->diameter < LEAST_CYLINDER_DIAMETERS * widest * (1.0 - 1e-9))
+        problem_list_add(problems, "/inputs/cylinder/diameter",
+                         "is %g m; must be at least %g m, %g of the largest particle diameter", scene->diameter,
+                         LEAST_CYLINDER_DIAMETERS * widest, LEAST_CYLINDER_DIAMETERS);
+    const double least_bed = LEAST_BED_DIAMETERS * widest / dem_stream_level(scene, 1.0);
+    standing_derive_count(inputs, scene, 0.5 * scene->diameter, fmax(8.0, ceil(least_bed)), problems);
+    check_bed(inputs, scene, problems);
+    derive_stream(inputs, scene, problems);
+    derive_rate(inputs, scene, problems);
+    scene->length = dem_stream_inlet_height(scene, (double)scene->particle_count) + widest;
+}
+
+static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
+{
+    drum_inputs *inputs = &spec->inputs;
+    dem_drum_definition *scene = &spec->drum;
+    standing_derive_scene(inputs, scene, seed_if_missing, problems);
+    derive_cylinder(inputs, scene, problems);
+    const double weight = SPEED_OF_WEIGHT * sqrt(scene->gravity * dem_stream_level(scene, (double)scene->particle_count));
+    scene_derive_contact(inputs, fmax(IMPACT_ON_OTHERS * inputs->fill.impact_speed, weight), scene, problems);
+    spec->duration = (double)scene->particle_count / scene->stream.rate + inputs->fill.settling_seconds;
+    standing_complete(spec, "/inputs/duration/settling_seconds", problems);
+}
+
+static job_estimate estimate(const job_spec *spec, const calibration *machine)
+{
+    const double filling = (double)spec->drum.particle_count / spec->drum.stream.rate;
+    const double settling = fmin(SETTLING_EXPECTED, spec->inputs.fill.settling_seconds);
+    /* While it fills, half of the particles are inside on average. */
+    return standing_estimate(spec, machine, filling + settling, 0.0, (0.5 * filling + settling) / (filling + settling));
+}
+
+const process_type fill_process = {
+    .name = "fill",
+    .title = "Filling a cylinder",
+    .description = "A stream of particles falls into a standing cylinder at a given speed: the mound that it leaves, while it "
+                   "runs and at rest, the surface, and the packing of the bed. SI units; angles in degrees.",
+    .inputs = &fill_fields,
+    .inputs_at = offsetof(job_spec, inputs),
+    .apply_rules = apply_rules,
+    .estimate = estimate,
+    .results = &fill_result_fields,
+};

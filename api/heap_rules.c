@@ -1,0 +1,106 @@
+/* From inputs, each within its own range, to a tube on a plate that can be run. Refused inputs are NaN, and no check is
+ * true of NaN. */
+#include <math.h>
+
+#include "dem_rules.h"
+#include "heap_process.h"
+#include "standing_rules.h"
+
+#define LEAST_TUBE_DIAMETERS 5.0 /* of the largest particle: narrower tubes jam */
+#define LEAST_PARTICLES 100.0    /* a heap of fewer has flanks of few particles */
+#define USUAL_PLATE_DIAMETERS 2.0
+#define USUAL_FILL_DIAMETERS 2.0
+#define USUAL_LIFT_SHARE 0.02 /* of sqrt(g D) */
+#define USUAL_RIM_SHARE 0.5   /* of the largest particle */
+/* Room over the bed for the random start, which is looser. */
+#define TUBE_OVER_BED 1.3
+#define SECONDS_AFTER_LIFTING 3.0
+/* Over that of a drum as wide as the bed is high; from overlaps at frictions from 0 to 1. */
+#define FALL_IN_TUBE 1.2
+/* For the estimate: slope of the heap, and how long it takes to come to rest. */
+#define SLOPE_EXPECTED 0.45
+#define REST_EXPECTED 0.3
+
+static void derive_tube(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+{
+    heap_inputs *heap = &inputs->heap;
+    scene->container = DEM_TUBE_ON_PLATE;
+    scene->diameter = heap->tube_diameter;
+    const double widest = scene_of_species(scene, scene_species_width, true);
+    if (scene->diameter < LEAST_TUBE_DIAMETERS * widest * (1.0 - 1e-9))
+        problem_list_add(problems, "/inputs/tube/diameter", "is %g m; must be at least %g m, %g of the largest particle diameter",
+                         scene->diameter, LEAST_TUBE_DIAMETERS * widest, LEAST_TUBE_DIAMETERS);
+    standing_derive_count(inputs, scene, USUAL_FILL_DIAMETERS * scene->diameter, LEAST_PARTICLES, problems);
+    const double needed = TUBE_OVER_BED * standing_bed_height(scene) + 2.0 * widest;
+    if (isnan(heap->tube_height)) heap->tube_height = needed;
+    if (heap->tube_height < needed * (1.0 - 1e-9))
+        problem_list_add(problems, "/inputs/tube/height",
+                         "is %g m, in which the particles don't fit; must be at least %.4g m, or the bed at most %.4g m high",
+                         heap->tube_height, needed, fmax(0.0, (heap->tube_height - 2.0 * widest) / TUBE_OVER_BED));
+    scene->length = heap->tube_height;
+    if (isnan(heap->lift_speed)) heap->lift_speed = USUAL_LIFT_SHARE * sqrt(scene->gravity * scene->diameter);
+    scene->lift = (dem_lift){ .speed = heap->lift_speed };
+}
+
+static void derive_plate(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+{
+    heap_inputs *heap = &inputs->heap;
+    const double widest = scene_of_species(scene, scene_species_width, true);
+    if (isnan(heap->plate_diameter)) heap->plate_diameter = USUAL_PLATE_DIAMETERS * heap->tube_diameter;
+    if (isnan(heap->rim_height)) heap->rim_height = USUAL_RIM_SHARE * widest;
+    scene->plate = (dem_plate){ heap->plate_diameter, heap->rim_height, heap->plate_friction };
+    const double least = scene->diameter + 2.0 * widest;
+    if (heap->plate_diameter < least)
+        problem_list_add(problems, "/inputs/plate/diameter",
+                         "is %g m; must be at least %g m, the tube's diameter and two of the largest particle's",
+                         heap->plate_diameter, least);
+    if (heap->rim_height > 0.25 * heap->plate_diameter)
+        problem_list_add(problems, "/inputs/plate/rim_height",
+                         "is %g m; must be at most %g m, a quarter of the plate's diameter: what is higher is a vessel",
+                         heap->rim_height, 0.25 * heap->plate_diameter);
+}
+
+/* What falls down the height of the bed in the tube, as in a rough drum of that size: the tube makes a smooth bed as
+ * high as a rough one. */
+static double largest_impact(const drum_inputs *inputs, const dem_drum_definition *scene)
+{
+    const double falling = dem_impact_speed(fmax(standing_bed_height(scene), scene->diameter),
+                                            scene_of_species(scene, dem_species_diameter, true), scene->gravity, 1.0, 0.0);
+    return fmax(FALL_IN_TUBE * falling, inputs->heap.lift_speed);
+}
+
+static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
+{
+    drum_inputs *inputs = &spec->inputs;
+    dem_drum_definition *scene = &spec->drum;
+    standing_derive_scene(inputs, scene, seed_if_missing, problems);
+    derive_tube(inputs, scene, problems);
+    derive_plate(inputs, scene, problems);
+    scene_derive_contact(inputs, largest_impact(inputs, scene), scene, problems);
+    if (isnan(inputs->heap.seconds)) inputs->heap.seconds = standing_bed_height(scene) / scene->lift.speed + SECONDS_AFTER_LIFTING;
+    spec->duration = inputs->heap.seconds;
+    standing_complete(spec, "/inputs/duration/at_most_seconds", problems);
+}
+
+/* Until the tube is clear of a cone of that volume. */
+static job_estimate estimate(const job_spec *spec, const calibration *machine)
+{
+    const dem_drum_definition *scene = &spec->drum;
+    const double bed = standing_bed_height(scene), volume = DEM_PI / 4.0 * scene->diameter * scene->diameter * bed;
+    const double cone = cbrt(3.0 * volume * SLOPE_EXPECTED * SLOPE_EXPECTED / DEM_PI);
+    const double height = fmin(cone, 0.5 * SLOPE_EXPECTED * scene->plate.diameter);
+    const double seconds = fmin(height / scene->lift.speed + REST_EXPECTED, spec->duration);
+    return standing_estimate(spec, machine, seconds, dem_settling_time_estimate(fmax(scene->diameter, bed), scene->gravity), 1.0);
+}
+
+const process_type heap_process = {
+    .name = "heap",
+    .title = "Heap below a raised tube",
+    .description = "A tube full of particles, standing on a plate, is raised slowly: the angle of the heap that forms, under four "
+                   "definitions and over 16 azimuths, its shape, and what the plate loses. SI units; angles in degrees.",
+    .inputs = &heap_fields,
+    .inputs_at = offsetof(job_spec, inputs),
+    .apply_rules = apply_rules,
+    .estimate = estimate,
+    .results = &heap_result_fields,
+};

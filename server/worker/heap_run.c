@@ -1,0 +1,45 @@
+#include "heap_run.h"
+
+#include "heap_result.h"
+#include "run_summary.h"
+#include "scene_run.h"
+
+static size_t frame_width(const dem_scene *scene) { return (void)scene, DEM_HEAP_FRAME; }
+
+static dem_status end_at_rest(const scene_run *run, const char **ended_by)
+{
+    if (dem_heap_is_over(run->frames, (size_t)run->next_sample)) *ended_by = "at-rest";
+    return DEM_OK;
+}
+
+static const char *ended_by_time(const job_spec *spec) { return (void)spec, "duration"; }
+
+static dem_status measure_results(const scene_run *run, json_t **document)
+{
+    heap_result result = { .azimuths = DEM_AZIMUTHS, .run = scene_run_facts(run) };
+    const dem_status status = dem_heap_scene_measure(run->scene, &result.measured, &result.standing);
+    if (status == DEM_OK) *document = heap_result_to_json(&result);
+    return status;
+}
+
+enum worker_exit heap_run(const job_context *job)
+{
+    static const scene_test test = {
+        .frame_width = frame_width,
+        .frame_name = dem_heap_frame_name,
+        .frame_measure = dem_heap_frame_measure,
+        .look = end_at_rest,
+        .ended_by_time = ended_by_time,
+        .results = measure_results,
+    };
+    return scene_run_job(job, &test);
+}
+
+void heap_summary(const json_t *result, const char *folder)
+{
+    summary_angle(result);
+    summary_fact(result, "surface", "height", "height", "m");
+    summary_fact(result, "surface", "base_diameter", "base", "m across");
+    summary_fact(result, "heap", "lost", "lost", "particles");
+    summary_run(result, folder);
+}
