@@ -43,7 +43,7 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
         .particles = particles,
         .time_step = drum->time_step,
         .stiffness = drum->contact.stiffness,
-        .simulated_seconds = spec->duration + dem_settling_time_estimate(drum->diameter, drum->gravity),
+        .simulated_seconds = spec->duration + (drum->is_placed ? 0.0 : dem_settling_time_estimate(drum->diameter, drum->gravity)),
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);

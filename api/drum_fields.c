@@ -4,6 +4,8 @@
 
 static const char *const ends_choices[] = { "periodic", "walls", NULL };
 
+#define AT_PLACED(member) .offset = offsetof(start_particle, member)
+
 static const spec_field fields[] = {
     { SPEC_INPUTS, "drum", FIELD_OBJECT, SPEC_DRUM, .required = true, .meaning = "the rotating drum" },
     { SPEC_DRUM, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(drum_diameter),
@@ -21,9 +23,35 @@ static const spec_field fields[] = {
     FIELDS_OF_PARTICLES,
 
     { SPEC_INPUTS, "fill_fraction", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 0.95), .fallback = 0.5, .excludes = "particle_count",
-      AT(fill_fraction), .meaning = "share of the cross-section below the free surface, at a bed solid fraction of 0.6" },
-    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes = "fill_fraction",
-      AT(particle_count), .meaning = "number of particles, instead of fill_fraction" },
+      .spared_beside = "start", AT(fill_fraction),
+      .meaning = "share of the cross-section below the free surface, at a bed solid fraction of 0.6. With start: as there" },
+    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(1, 5000000), .fallback = NAN, .excludes = "fill_fraction",
+      AT(particle_count), .meaning = "number of particles, instead of fill_fraction; at least 8, but with start" },
+
+    { SPEC_INPUTS, "start", FIELD_OBJECT_OR_NULL, SPEC_START, AT(start.given),
+      .meaning = "a bed that was made before, from which rotation begins at once; null: a bed is made" },
+    { SPEC_START, "job", FIELD_TEXT, .unit = "", RANGE(1, 27), AT(start.job),
+      .meaning = "id of the job whose bed it is: of the same drum and particles; all else may differ" },
+    { SPEC_START, "snapshot", FIELD_INTEGER, .unit = "", RANGE(0, 1e9), .fallback = NAN, AT(start.snapshot),
+      .meaning = "number of the job's snapshot: places and velocities in single precision, contacts without memory" },
+    { SPEC_START, "checkpoint", FIELD_TRUE, .unit = "", .fallback = NAN, AT(start.checkpoint),
+      .meaning = "the job's newest checkpoint, with what its contacts remember; of a job that is done: its end. The default, where "
+                 "no snapshot is named" },
+    { SPEC_START, "file", FIELD_TEXT, .unit = "", RANGE(1, 1024), AT(start.file),
+      .meaning = "a snapshot or checkpoint file, instead of a job; for repose run alone" },
+    { SPEC_START, "particles", FIELD_LONG_LIST, SPEC_PLACED, RANGE(1, 10000), AT(start.particles),
+      .count_offset = offsetof(drum_inputs, start.particle_count), .entry_size = sizeof(start_particle),
+      .meaning = "every particle, instead of a job" },
+    { SPEC_PLACED, "position", FIELD_PLACE, .required = true, .unit = "m", RANGE(-20.0, 20.0), .fallback = NAN, AT_PLACED(position),
+      .meaning = "centre of mass; the drum's axis is z, its middle 0, y is up" },
+    { SPEC_PLACED, "velocity", FIELD_PLACE, .unit = "m/s", RANGE(-100.0, 100.0), .fallback = 0.0, AT_PLACED(velocity),
+      .meaning = "its velocity" },
+    { SPEC_PLACED, "angular_velocity", FIELD_PLACE, .unit = "rad/s", RANGE(-1e5, 1e5), .fallback = 0.0, AT_PLACED(angular_velocity),
+      .meaning = "its spin, along the drum's axes" },
+    { SPEC_PLACED, "orientation", FIELD_TURN, .unit = "", RANGE(-1.0, 1.0), .fallback = NAN, AT_PLACED(orientation),
+      .meaning = "of a cluster, as snapshots have it: w, x, y, z of the turn from its principal axes. Default: not turned" },
+    { SPEC_PLACED, "species", FIELD_INTEGER, .unit = "", RANGE(0, DEM_MAXIMUM_SPECIES - 1), .fallback = 0, AT_PLACED(species),
+      .meaning = "which of the kinds of particles" },
 
     FIELDS_OF_CONTACT,
 

@@ -8,9 +8,11 @@
 #include "dem_rules.h"
 #include "drum_process.h"
 #include "scene_rules.h"
+#include "start_rules.h"
 
 #define SAMPLES_PER_REVOLUTION 40.0
 #define LEAST_DRUM_DIAMETERS 8.0   /* a bed a few particles deep has no surface to speak of */
+#define LEAST_PARTICLES 8.0        /* fewer make no bed; they may be placed one by one */
 #define LEAST_LENGTH_DIAMETERS 3.0 /* below, a particle would feel its own periodic image */
 
 /* Asked for by revolutions, seconds, or by the error wanted. */
@@ -132,10 +134,23 @@ static void check_room_beside_lifters(const drum_inputs *inputs, const dem_drum_
                          "makes a fill of %g; must be at most %.3g beside these lifters", fill, most);
 }
 
+static void check_least(const drum_inputs *inputs, double count, problem_list *problems)
+{
+    const bool starts = !isnan(inputs->start.given);
+    if (starts && isnan(count) && isnan(inputs->fill_fraction) && problem_list_is_empty(problems))
+        problem_list_add(problems, "/inputs/particle_count",
+                         "is missing; must be given where the bed that start names is not at hand to be counted");
+    if (!starts && count < LEAST_PARTICLES)
+        problem_list_add(problems, "/inputs/particle_count", "is %.0f; must be in [%g, %.0f]", count, LEAST_PARTICLES,
+                         SCENE_MOST_PARTICLES);
+}
+
 static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
+    if (start_count_particles(inputs, drum, problems)) return;
     double count = inputs->particle_count;
     drum->fill_fraction = inputs->fill_fraction;
+    check_least(inputs, count, problems);
     if (!isnan(count)) {
         drum->fill_fraction = dem_fill_of_particles(drum->diameter, drum->length, count, drum->species, drum->species_count);
         if (drum->fill_fraction > 0.95)
@@ -175,6 +190,7 @@ static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_
         .length = inputs->drum_length,
         .rotation_rate = inputs->rotation_rate,
         .gravity = inputs->gravity,
+        .is_placed = !isnan(inputs->start.given),
         .corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes,
         .seed = isnan(inputs->seed) ? 0 : (uint64_t)inputs->seed,
         .threads = isnan(inputs->threads) ? 1 : (int)inputs->threads,
@@ -197,8 +213,9 @@ static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_
 void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
     drum_inputs *inputs = &spec->inputs;
+    json_t *origin = start_find(spec, problems);
     derive_duration(inputs, spec, problems);
-    scene_share_out(inputs, problems);
+    if (inputs->start.particle_count == 0) scene_share_out(inputs, problems);
     set_dependent_defaults(inputs, spec->duration, seed_if_missing);
     derive_drum(inputs, &spec->drum, problems);
     scene_set_common(spec);
@@ -207,4 +224,7 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
                         : isnan(inputs->revolutions)     ? "/inputs/duration/seconds"
                                                          : "/inputs/duration/revolutions",
                         problems);
+    start_check_particles(inputs, &spec->drum, problems);
+    start_compare(spec, origin, problems);
+    json_decref(origin);
 }

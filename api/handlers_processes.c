@@ -73,7 +73,8 @@ static bool read_spec(api_service *service, const process_type *type, const http
         http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
     } else {
         set_default_threads(service, type, document);
-        good = job_spec_parse(type->name, document, choose_seed(), spec, &problems);
+        const start_source beds = store_beds(service->store);
+        good = job_spec_parse_with(&beds, type->name, document, choose_seed(), spec, &problems);
         if (!good)
             http_respond_json(response, 400,
                               problem_json(400, "about:blank", "The specification can't be run",

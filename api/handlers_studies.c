@@ -53,7 +53,9 @@ void create_study(api_service *service, const http_request *request, http_respon
 {
     json_t *document = parse_body(request, response);
     if (!document) return;
-    const study_options options = { .seed_if_missing = choose_seed(),
+    const start_source beds = store_beds(service->store);
+    const study_options options = { .beds = &beds,
+                                    .seed_if_missing = choose_seed(),
                                     .default_threads = service->default_threads,
                                     .most_jobs = store_queue_limit(service->store) };
     problem_list problems;

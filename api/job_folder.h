@@ -1,6 +1,7 @@
 /* The names of what a job folder holds: the whole contract between the daemon and a worker.
  *
  *   spec.json        canonical spec, written by the daemon before the worker starts
+ *   start.hdf        where the run starts from another's bed: that run's snapshot or checkpoint, under a name of its own
  *   events.ndjson    append-only, one JSON object a line; every line ends in \n (a last line without it is not
  *                    yet written). Each has "event" and, but for start, "step" and "time" (s since rotation
  *                    began, negative before):
@@ -30,6 +31,7 @@
 #ifndef JOB_FOLDER_H
 #define JOB_FOLDER_H
 
+#define JOB_START_FILE "start.hdf"
 #define JOB_SPEC_FILE "spec.json"
 #define JOB_EVENTS_FILE "events.ndjson"
 #define JOB_SNAPSHOT_FOLDER "snapshots"

@@ -66,6 +66,12 @@ static json_t *read_label(const json_t *label, problem_list *problems)
 
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
 {
+    return job_spec_parse_with(NULL, process, request, seed_if_missing, spec, problems);
+}
+
+bool job_spec_parse_with(const start_source *beds, const char *process, const json_t *request, uint64_t seed_if_missing,
+                         job_spec *spec, problem_list *problems)
+{
     static const char *const known[] = { "process", "inputs", "label", NULL };
     memset(spec, 0, sizeof *spec);
     if (!json_is_object(request)) {
@@ -73,6 +79,7 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
         return false;
     }
     refuse_unknown_members(request, "", known, problems);
+    spec->beds = beds;
     spec->type = read_process(process, request, problems);
     if (spec->type) spec->process = spec->type->name;
 
@@ -86,6 +93,8 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
         spec->type->apply_rules(spec, seed_if_missing, problems);
     }
 
+    spec->beds = NULL;
+
     spec->label = read_label(json_object_get(request, "label"), problems);
     if (problem_list_is_empty(problems) && !spec->label) problem_list_add(problems, "/label", "could not be kept: out of memory");
     if (problem_list_is_empty(problems)) return true;
@@ -96,6 +105,7 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
 void job_spec_clear(job_spec *spec)
 {
     json_decref(spec->label);
+    if (spec->type) spec_inputs_clear(spec->type->inputs, (char *)spec + spec->type->inputs_at);
     memset(spec, 0, sizeof *spec);
 }
 
@@ -103,6 +113,17 @@ json_t *job_spec_to_json(const job_spec *spec)
 {
     return json_pack("{s:s, s:o, s:O}", "process", spec->process, "inputs",
                      spec_inputs_write(spec->type->inputs, (const char *)spec + spec->type->inputs_at), "label", spec->label);
+}
+
+char *job_spec_to_brief(const job_spec *spec)
+{
+    json_t *document = job_spec_to_json(spec);
+    json_t *start = json_object_get(json_object_get(document, "inputs"), "start");
+    json_t *particles = json_object_get(start, "particles");
+    if (particles) json_object_set_new(start, "particles", json_integer((json_int_t)json_array_size(particles)));
+    char *text = json_text_write(document);
+    json_decref(document);
+    return text;
 }
 
 char *job_spec_to_text(const job_spec *spec)

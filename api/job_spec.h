@@ -24,6 +24,23 @@ typedef struct species_inputs {
     dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
 } species_inputs;
 
+/* A particle of a bed that is given particle by particle. */
+typedef struct start_particle {
+    double position[3], velocity[3], angular_velocity[3];
+    double orientation[4]; /* w, x, y, z; NaN: not given */
+    double species;
+} start_particle;
+
+/* Where a bed that was made before comes from: one of job, file, particles. */
+typedef struct start_inputs {
+    double given;                /* NaN: from nowhere; a bed is made */
+    char job[28], file[1025];    /* "": not given */
+    double snapshot, checkpoint; /* of the job: number; 1: its newest checkpoint */
+    double bed_particles;        /* how many the bed has; NaN: not known */
+    size_t particle_count;
+    start_particle *particles; /* (particle_count) owned */
+} start_inputs;
+
 /* What a share counts: particles, volume or mass. */
 typedef enum share_basis { SHARE_BY_NUMBER, SHARE_BY_VOLUME, SHARE_BY_MASS } share_basis;
 
@@ -58,6 +75,7 @@ typedef struct drum_inputs {
     double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
     double seed, threads, gravity, corrector_passes;
+    start_inputs start;
     fill_inputs fill;
     heap_inputs heap;
 } drum_inputs;
@@ -69,11 +87,20 @@ typedef struct granule_inputs {
 
 typedef struct process_type process_type; /* process_type.h */
 
+/* Who knows the beds that a spec can start from: the daemon its jobs, a worker a file. */
+typedef struct start_source {
+    /* The canonical spec that the bed was made by (new reference), and its number of particles; NULL: there is no such bed,
+     * and a problem says so. */
+    json_t *(*find)(void *context, const start_inputs *start, double *particles, problem_list *problems);
+    void *context;
+} start_source;
+
 typedef struct job_spec {
     const process_type *type;
-    const char *process; /* its name, "drum" */
-    int threads;         /* of the worker */
-    json_t *label;       /* object of strings and numbers, owned; never NULL */
+    const char *process;      /* its name, "drum" */
+    const start_source *beds; /* while it is parsed */
+    int threads;              /* of the worker */
+    json_t *label;            /* object of strings and numbers, owned; never NULL */
 
     /* Of all that advance a scene: */
     drum_inputs inputs;          /* as asked for */
@@ -99,12 +126,18 @@ typedef struct job_estimate {
  * False when there are problems, all of them listed; the spec is then cleared.
  * seed_if_missing: what to use where the request gives no seed (its low 53 bits). */
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);
+/* The same, and what it starts from is looked up and held against it. Without, a start is taken for good: so is that of a
+ * spec that was looked at before. */
+bool job_spec_parse_with(const start_source *beds, const char *process, const json_t *request, uint64_t seed_if_missing,
+                         job_spec *spec, problem_list *problems);
 void job_spec_clear(job_spec *spec);
 
 /* {"process", "inputs", "label"}: canonical. New reference; NULL: no memory. */
 json_t *job_spec_to_json(const job_spec *spec);
 /* The canonical text, as spec.json holds it. To be freed; NULL: no memory. */
 char *job_spec_to_text(const job_spec *spec);
+/* The same, but for a start's particles one by one, of which it has the number alone: what files of the run carry. */
+char *job_spec_to_brief(const job_spec *spec);
 
 /* machine: how fast this one is; NULL takes cautious built-in figures. */
 job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine);

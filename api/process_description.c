@@ -34,6 +34,14 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
     case FIELD_REAL:
     case FIELD_INTEGER: schema = number_schema(field); break;
     case FIELD_CHOICE: schema = choice_schema(field); break;
+    case FIELD_TRUE: schema = json_pack("{s:b}", "const", 1); break;
+    case FIELD_TEXT:
+        schema = json_pack("{s:s, s:I, s:I}", "type", "string", "minLength", (json_int_t)field->minimum, "maxLength",
+                           (json_int_t)field->maximum);
+        break;
+    case FIELD_TURN:
+        schema = json_pack("{s:s, s:i, s:i, s:o}", "type", "array", "minItems", 4, "maxItems", 4, "items", number_schema(field));
+        break;
     case FIELD_PLACE:
         schema = json_pack("{s:s, s:i, s:i, s:o}", "type", "array", "minItems", 3, "maxItems", 3, "items", number_schema(field));
         break;
@@ -41,6 +49,7 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
         schema = json_pack("{s:[o, o]}", "oneOf", choice_schema(field), group_schema(table, field->child));
         break;
     case FIELD_LIST:
+    case FIELD_LONG_LIST:
         schema = json_pack("{s:s, s:I, s:I, s:o}", "type", "array", "minItems", (json_int_t)field->minimum, "maxItems",
                            (json_int_t)field->maximum, "items", group_schema(table, field->child));
         break;

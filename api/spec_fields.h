@@ -24,18 +24,24 @@ typedef enum spec_group {
     SPEC_STREAM,
     SPEC_TUBE,
     SPEC_PLATE,
-    SPEC_INTEGRATION
+    SPEC_INTEGRATION,
+    SPEC_START,
+    SPEC_PLACED
 } spec_group;
 
 typedef enum field_kind {
     FIELD_REAL,
     FIELD_INTEGER,
     FIELD_CHOICE,           /* one of a few words; kept as its index */
+    FIELD_TRUE,             /* true, kept as 1; there is no false, which is said by leaving it out */
+    FIELD_TEXT,             /* kept as bytes that end with 0; "": not given. Its range is that of its length */
     FIELD_PLACE,            /* a list of three numbers, kept as three doubles */
+    FIELD_TURN,             /* a list of four numbers, kept as four doubles */
     FIELD_CHOICE_OR_OBJECT, /* a word, or an object whose members are kept beside it; the object's index follows the words' */
     FIELD_OBJECT,
     FIELD_OBJECT_OR_NULL, /* null, the default: none */
-    FIELD_LIST            /* of objects */
+    FIELD_LIST,           /* of objects */
+    FIELD_LONG_LIST       /* the same, kept in memory of its own: see spec_inputs_clear */
 } field_kind;
 
 typedef struct spec_field {
@@ -51,9 +57,11 @@ typedef struct spec_field {
     double fallback;            /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
     const char *excludes;       /* the member that may be given instead */
     const char *excludes_too;   /* another such member */
+    const char *spared_beside;  /* the member beside which there is no default */
     const char *const *choices; /* ends with NULL */
     size_t offset;              /* of the double in the process's struct, or in the list's entry. Lists: of their first
-                                 * entry. Objects or null: of a double that is NaN where there is none */
+                                 * entry; long ones: of the pointer to it. Objects or null: of a double that is NaN where
+                                 * there is none */
     size_t count_offset;        /* lists: of the size_t that counts the entries */
     size_t entry_size;          /* lists: bytes from entry to entry; there is room for `maximum` */
     const char *meaning;

@@ -138,6 +138,13 @@ void refuse_unknown_members(const json_t *object, const char *pointer, const cha
     }
 }
 
+/* A pointer to entries of its own is not read as the entries themselves. */
+static char *list_memory(const spec_field *field, size_t count, char *place)
+{
+    if (field->kind == FIELD_LIST) return place + field->offset;
+    return *(void **)(place + field->offset) = calloc(count, field->entry_size);
+}
+
 /* object: NULL reads the defaults. place: the struct that the offsets of the group's fields count from. */
 static void read_group(const spec_table *table, spec_group group, const json_t *object, const char *pointer, char *place,
                        problem_list *problems);
@@ -156,6 +163,11 @@ static void read_list(const spec_table *table, const spec_field *field, const js
         problem_list_add(problems, pointer, "has %zu entries; must have %.0f to %.0f", count, field->minimum, field->maximum);
         return;
     }
+    char *first = list_memory(field, count, place);
+    if (!first) {
+        problem_list_add(problems, pointer, "could not be read: out of memory");
+        return;
+    }
     for (size_t s = 0; s < count; s++) {
         char entry[LONGEST_POINTER];
         snprintf(entry, sizeof entry, "%.200s/%zu", pointer, s);
@@ -165,7 +177,7 @@ static void read_list(const spec_table *table, const spec_field *field, const js
             problem_list_add(problems, entry, "is %s; must be an object", seen);
             continue;
         }
-        read_group(table, field->child, object, entry, place + field->offset + s * field->entry_size, problems);
+        read_group(table, field->child, object, entry, first + s * field->entry_size, problems);
     }
     *(size_t *)(place + field->count_offset) = count;
 }
@@ -174,6 +186,8 @@ static void read_object(const spec_table *table, const spec_field *field, const 
                         problem_list *problems)
 {
     if (field->kind == FIELD_OBJECT_OR_NULL && (!value || json_is_null(value))) return;
+    if (field->kind == FIELD_OBJECT_OR_NULL)
+        *(double *)(place + field->offset) = 1.0; /* until a member that is kept there says it */
     if (value && !json_is_object(value)) {
         char seen[LONGEST_VALUE];
         json_value_text(value, seen, sizeof seen);
@@ -184,40 +198,74 @@ static void read_object(const spec_table *table, const spec_field *field, const 
     read_group(table, field->child, value, pointer, place, problems);
 }
 
+static bool is_given(const json_t *object, const char *name)
+{
+    const json_t *value = name ? json_object_get(object, name) : NULL;
+    return value && !json_is_null(value);
+}
+
+static double read_true(const json_t *value, const char *pointer, problem_list *problems)
+{
+    if (json_is_true(value)) return 1.0;
+    char seen[LONGEST_VALUE];
+    json_value_text(value, seen, sizeof seen);
+    problem_list_add(problems, pointer, "is %s; must be true, or be left out", seen);
+    return NAN;
+}
+
 /* A member that has a number or a word; the other of two alternatives stays NaN. */
 static double read_scalar(const spec_field *field, const json_t *object, const char *pointer, problem_list *problems)
 {
     const json_t *value = json_object_get(object, field->name);
-    const char *other = field->excludes && json_object_get(object, field->excludes)           ? field->excludes
-                        : field->excludes_too && json_object_get(object, field->excludes_too) ? field->excludes_too
-                                                                                              : NULL;
+    const char *other = is_given(object, field->excludes)       ? field->excludes
+                        : is_given(object, field->excludes_too) ? field->excludes_too
+                                                                : NULL;
     const bool excluded = other != NULL;
     if (value && excluded && isnan(field->fallback)) {
         problem_list_add(problems, pointer, "is given beside %s; give one of the two", other);
         return NAN;
     }
     if (value && field->kind == FIELD_CHOICE) return read_choice(field, value, pointer, problems);
+    if (value && field->kind == FIELD_TRUE) return read_true(value, pointer, problems);
     if (value) return read_number(field, value, pointer, problems);
     if (field->required && !(field->spared_by && json_is_object(json_object_get(object, field->spared_by)))) {
         char range[120];
         range_text(field, range, sizeof range);
         problem_list_add(problems, pointer, "is missing; must be a number in %s", range);
     }
-    return excluded ? NAN : field->fallback;
+    return excluded || is_given(object, field->spared_beside) ? NAN : field->fallback;
 }
 
-/* Three numbers of the field's range. */
-static void read_place(const spec_field *field, const json_t *value, const char *pointer, double place[3], problem_list *problems)
+static void read_text(const spec_field *field, const json_t *value, const char *pointer, char *text, problem_list *problems)
 {
+    char seen[LONGEST_VALUE];
+    *text = '\0';
+    if (!value && !field->required) return;
+    const size_t length = json_string_length(value);
+    json_value_text(value, seen, sizeof seen);
+    if (!json_is_string(value))
+        problem_list_add(problems, pointer, "is %s; must be a text of %g to %g bytes", value ? seen : "missing", field->minimum,
+                         field->maximum);
+    else if ((double)length < field->minimum || (double)length > field->maximum)
+        problem_list_add(problems, pointer, "has %zu bytes; must have %g to %g", length, field->minimum, field->maximum);
+    else memcpy(text, json_string_value(value), length + 1);
+}
+
+/* Three or four numbers of the field's range. */
+static void read_place(const spec_field *field, const json_t *value, const char *pointer, double *place, problem_list *problems)
+{
+    const size_t numbers = field->kind == FIELD_TURN ? 4 : 3;
     char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
     range_text(field, range, sizeof range);
-    for (int c = 0; c < 3; c++) place[c] = NAN;
-    if (json_array_size(value) != 3) {
+    for (size_t c = 0; c < numbers; c++) place[c] = field->required ? NAN : field->fallback;
+    if (!value && !field->required) return;
+    if (json_array_size(value) != numbers) {
         json_value_text(value, seen, sizeof seen);
-        problem_list_add(problems, pointer, "is %s; must be a list of three numbers, each in %s", value ? seen : "missing", range);
+        problem_list_add(problems, pointer, "is %s; must be a list of %s numbers, each in %s", value ? seen : "missing",
+                         numbers == 4 ? "four" : "three", range);
         return;
     }
-    for (size_t c = 0; c < 3; c++) {
+    for (size_t c = 0; c < numbers; c++) {
         snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
         place[c] = read_number(field, json_array_get(value, c), entry, problems);
     }
@@ -249,10 +297,14 @@ static void read_group(const spec_table *table, spec_group group, const json_t *
         const json_t *value = json_object_get(object, field->name);
         if (field->kind >= FIELD_OBJECT && field->required && !value) {
             problem_list_add(problems, member, "is missing; must be %s",
-                             field->kind == FIELD_LIST ? "a list of objects" : "an object");
+                             field->kind >= FIELD_LIST ? "a list of objects" : "an object");
+        } else if (field->kind == FIELD_LONG_LIST) {
+            if (value) read_list(table, field, value, member, place, problems);
         } else if (field->kind == FIELD_LIST) {
             read_list(table, field, value, member, place, problems);
-        } else if (field->kind == FIELD_PLACE) {
+        } else if (field->kind == FIELD_TEXT) {
+            read_text(field, value, member, place + field->offset, problems);
+        } else if (field->kind == FIELD_PLACE || field->kind == FIELD_TURN) {
             read_place(field, value, member, (double *)(place + field->offset), problems);
         } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {
             read_choice_or_object(table, field, value, member, place, problems);
@@ -271,7 +323,13 @@ static void set_nothing_given(const spec_table *table, spec_group group, char *p
         const spec_field *field = &table->field[f];
         if (field->group != group) continue;
         if (field->kind == FIELD_CHOICE_OR_OBJECT) set_nothing_given(table, field->child, place);
-        if (field->kind < FIELD_OBJECT) *(double *)(place + field->offset) = NAN;
+        if (field->kind == FIELD_OBJECT_OR_NULL) *(double *)(place + field->offset) = NAN;
+        if (field->kind == FIELD_TEXT) {
+            place[field->offset] = '\0';
+        } else if (field->kind == FIELD_LONG_LIST) {
+            *(void **)(place + field->offset) = NULL;
+            *(size_t *)(place + field->count_offset) = 0;
+        } else if (field->kind < FIELD_OBJECT) *(double *)(place + field->offset) = NAN;
         else if (field->kind < FIELD_LIST) set_nothing_given(table, field->child, place);
         else {
             *(size_t *)(place + field->count_offset) = 0;
@@ -285,4 +343,14 @@ void spec_inputs_read(const spec_table *table, const json_t *object, void *input
 {
     set_nothing_given(table, SPEC_INPUTS, inputs);
     read_group(table, SPEC_INPUTS, object, "/inputs", inputs, problems);
+}
+
+void spec_inputs_clear(const spec_table *table, void *inputs)
+{
+    for (size_t f = 0; f < table->count; f++) {
+        if (table->field[f].kind != FIELD_LONG_LIST) continue;
+        void **memory = (void **)((char *)inputs + table->field[f].offset);
+        free(*memory);
+        *memory = NULL;
+    }
 }

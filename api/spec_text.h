@@ -11,6 +11,9 @@
  * that are false for NaN, stay silent about it. object: the request's "inputs"; inputs: the process's struct. */
 void spec_inputs_read(const spec_table *table, const json_t *object, void *inputs, problem_list *problems);
 
+/* Frees what reading allocated: long lists, which stand in the inputs' own struct and not in a list's entries. */
+void spec_inputs_clear(const spec_table *table, void *inputs);
+
 /* New reference; NULL: no memory. */
 json_t *spec_inputs_write(const spec_table *table, const void *inputs);
 

@@ -8,6 +8,7 @@ static json_t *write_scalar(const spec_field *field, double value)
 {
     if (field->kind == FIELD_INTEGER) return json_integer((json_int_t)value);
     if (field->kind == FIELD_CHOICE) return json_string(field->choices[(size_t)value]);
+    if (field->kind == FIELD_TRUE) return json_true();
     return json_real(value);
 }
 
@@ -18,8 +19,10 @@ static json_t *write_list(const spec_table *table, const spec_field *field, cons
 {
     json_t *list = json_array();
     const size_t count = *(const size_t *)(place + field->count_offset);
+    const char *first = place + field->offset;
+    if (field->kind == FIELD_LONG_LIST) first = *(const char *const *)first;
     for (size_t s = 0; list && s < count; s++) {
-        const char *entry = place + field->offset + s * field->entry_size;
+        const char *entry = first + s * field->entry_size;
         if (json_array_append_new(list, write_group(table, field->child, entry)) != 0) {
             json_decref(list);
             return NULL;
@@ -30,7 +33,7 @@ static json_t *write_list(const spec_table *table, const spec_field *field, cons
 
 static json_t *write_member(const spec_table *table, const spec_field *field, const char *place)
 {
-    if (field->kind == FIELD_LIST) return write_list(table, field, place);
+    if (field->kind >= FIELD_LIST) return write_list(table, field, place);
     if (field->kind == FIELD_OBJECT_OR_NULL && isnan(*(const double *)(place + field->offset))) return json_null();
     return write_group(table, field->child, place);
 }
@@ -42,7 +45,16 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
         const spec_field *field = &table->field[f];
         if (field->group != group) continue;
         json_t *member;
-        if (field->kind == FIELD_PLACE) {
+        if (field->kind == FIELD_TEXT) {
+            if (!place[field->offset]) continue;
+            member = json_string(place + field->offset);
+        } else if (field->kind == FIELD_LONG_LIST && *(const size_t *)(place + field->count_offset) == 0) {
+            continue;
+        } else if (field->kind == FIELD_TURN) {
+            const double *q = (const double *)(place + field->offset);
+            if (isnan(q[0])) continue;
+            member = json_pack("[f, f, f, f]", q[0], q[1], q[2], q[3]);
+        } else if (field->kind == FIELD_PLACE) {
             const double *x = (const double *)(place + field->offset);
             member = json_pack("[f, f, f]", x[0], x[1], x[2]);
         } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {

@@ -57,6 +57,8 @@ typedef struct job_filter {
     int64_t limit;
 } job_filter;
 
+/* The beds that jobs left, for specs that start from one. The source is good as long as the store. */
+start_source store_beds(job_store *store);
 /* Returns after the commit, with spec.json safe on the disk. */
 store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE]);
 /* STORE_CONFLICT: it has already ended. */

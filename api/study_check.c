@@ -92,8 +92,8 @@ static void add_estimate(const study_spec *study, const job_spec *spec, const ca
 }
 
 /* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
-static void check_case(const study_spec *study, size_t index, const calibration *machine, const problem_list *of_base, study_estimate *estimate,
-                       problem_list *problems)
+static void check_case(const study_spec *study, size_t index, const calibration *machine, const problem_list *of_base,
+                       study_estimate *estimate, problem_list *problems)
 {
     job_spec spec;
     problem_list found;
@@ -105,7 +105,7 @@ static void check_case(const study_spec *study, size_t index, const calibration 
         json_decref(request);
         return;
     }
-    if (job_spec_parse(NULL, request, 0, &spec, &found)) {
+    if (job_spec_parse_with(study->beds, NULL, request, 0, &spec, &found)) {
         add_estimate(study, &spec, machine, estimate);
         job_spec_clear(&spec);
     } else {
@@ -124,7 +124,7 @@ bool study_check(const study_spec *study, const calibration *machine, study_esti
         problem_list_add(problems, "", "could not be checked: out of memory");
         return false;
     }
-    if (job_spec_parse(NULL, json_object_get(study->document, "base"), 0, &spec, &of_base)) job_spec_clear(&spec);
+    if (job_spec_parse_with(study->beds, NULL, json_object_get(study->document, "base"), 0, &spec, &of_base)) job_spec_clear(&spec);
     for (size_t i = 0; i < study->cases && json_array_size(problems->errors) < ENOUGH_PROBLEMS; i++)
         check_case(study, i, machine, &of_base, estimate, problems);
     problem_list_clear(&of_base);

@@ -61,6 +61,11 @@ static void read_repeats(study_spec *study, problem_list *problems)
         problem_list_add(problems, "/repeats",
                          "is %lld; must be 1, because the process \"%s\" has no seed and gives the same each time",
                          (long long)json_integer_value(repeats), study->process);
+    else if (json_integer_value(repeats) > 1
+             && json_is_object(json_object_get(json_object_get(json_object_get(study->document, "base"), "inputs"), "start")))
+        problem_list_add(problems, "/repeats",
+                         "is %lld; must be 1, because runs that start from the same bed are the same whatever their seed",
+                         (long long)json_integer_value(repeats));
     else study->repeats = (int)json_integer_value(repeats);
 }
 
@@ -224,7 +229,7 @@ static void read_all(study_spec *study, const study_options *options, problem_li
 
 bool study_spec_parse(const json_t *document, const study_options *options, study_spec *study, problem_list *problems)
 {
-    *study = (study_spec){ .repeats = 1 };
+    *study = (study_spec){ .repeats = 1, .beds = options->beds };
     if (!json_is_object(document)) {
         problem_list_add(problems, "",
                          "must be an object with \"base\" and, if wanted, \"name\", \"cases\" or \"vary\", and \"repeats\"");

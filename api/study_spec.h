@@ -24,13 +24,15 @@ typedef struct study_spec {
     json_t *columns;  /* (n) pointers below /inputs, as "contact/friction", in which cases differ; owned */
     size_t cases;
     int repeats;
-    bool has_seed; /* the process begins at random, so that repeats differ */
+    const start_source *beds; /* what its jobs may start from; NULL: starts are taken for good */
+    bool has_seed;            /* the process begins at random, so that repeats differ */
 } study_spec;
 
 typedef struct study_options {
     uint64_t seed_if_missing; /* its low 53 bits */
     int default_threads;      /* of a job that does not ask */
     int64_t most_jobs;
+    const start_source *beds; /* lives as long as the study */
 } study_options;
 
 /* Looks at the document's shape alone; study_check looks at each job. False: problems say why, with pointers into the

@@ -30,6 +30,17 @@ static inline void dem_cluster_of_shape(dem_cluster *cluster, dem_shape shape, d
     }
 }
 
+/* r turned by w, x, y, z of a quaternion of any length but 0: r + 2 w (u x r) + 2 u x (u x r), u its vector part. */
+static inline void dem_turn(const double wxyz[4], const double r[3], double turned[3])
+{
+    double q[4] = { 1, 0, 0, 0 }, t[3];
+    const double size = sqrt(wxyz[0] * wxyz[0] + wxyz[1] * wxyz[1] + wxyz[2] * wxyz[2] + wxyz[3] * wxyz[3]);
+    for (int c = 0; c < 4 && size > 0; c++) q[c] = wxyz[c] / size;
+    for (int c = 0; c < 3; c++) t[c] = 2 * (q[1 + (c + 1) % 3] * r[(c + 2) % 3] - q[1 + (c + 2) % 3] * r[(c + 1) % 3]);
+    for (int c = 0; c < 3; c++)
+        turned[c] = r[c] + q[0] * t[c] + q[1 + (c + 1) % 3] * t[(c + 2) % 3] - q[1 + (c + 2) % 3] * t[(c + 1) % 3];
+}
+
 static inline double dem_cluster_distance(const dem_cluster_sphere *a, const dem_cluster_sphere *b)
 {
     const double x = b->position[0] - a->position[0], y = b->position[1] - a->position[1], z = b->position[2] - a->position[2];

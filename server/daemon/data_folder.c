@@ -110,12 +110,50 @@ bool job_folder_create(const data_folder *data, const char *id, const char *spec
     return good;
 }
 
+static bool copy(int from, int to)
+{
+    for (;;) {
+        const ssize_t moved = copy_file_range(from, NULL, to, NULL, 1 << 30, 0);
+        if (moved < 0 && errno == EINTR) continue;
+        if (moved <= 0) return moved == 0;
+    }
+}
+
+/* By way of a temporary name, as everything that must be whole. */
+static bool copy_durably(int from, int folder, const char *name)
+{
+    char temporary[64];
+    snprintf(temporary, sizeof temporary, "%s.tmp", name);
+    const int to = openat(folder, temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC | O_NOFOLLOW, 0600);
+    bool good = to >= 0 && copy(from, to) && fsync(to) == 0;
+    if (to >= 0) good = close(to) == 0 && good;
+    return good && renameat(folder, temporary, folder, name) == 0;
+}
+
+bool job_folder_add_start(const data_folder *data, const char *id, const char *from, const char *folder, const char *name)
+{
+    if (mkdirat(data->jobs, id, 0700) != 0 && errno != EEXIST) return false;
+    char path[200];
+    snprintf(path, sizeof path, "%s%s%s/%s", from, folder ? "/" : "", folder ? folder : "", name);
+    const int file = job_file_open(data, from, folder, name), to = job_folder_open(data, id);
+    bool good = file >= 0 && to >= 0;
+    if (good && linkat(data->jobs, path, to, JOB_START_FILE, 0) != 0 && errno != EEXIST)
+        good = copy_durably(file, to, JOB_START_FILE);
+    const int reason = errno;
+    if (file >= 0) close(file);
+    if (to >= 0) close(to);
+    errno = reason;
+    return good;
+}
+
 void job_folder_discard(const data_folder *data, const char *id)
 {
     const int folder = job_folder_open(data, id);
     if (folder < 0) return;
     unlinkat(folder, JOB_SPEC_FILE, 0);
     unlinkat(folder, JOB_SPEC_FILE ".tmp", 0);
+    unlinkat(folder, JOB_START_FILE, 0);
+    unlinkat(folder, JOB_START_FILE ".tmp", 0);
     close(folder);
     unlinkat(data->jobs, id, AT_REMOVEDIR); /* refuses unless empty */
 }
@@ -160,3 +198,5 @@ double data_folder_free_bytes(const data_folder *data)
     struct statvfs disk;
     return fstatvfs(data->jobs, &disk) == 0 ? (double)disk.f_bavail * (double)disk.f_frsize : 0.0;
 }
+
+bool data_folder_sync(const data_folder *data) { return syncfs(data->jobs) == 0; }

@@ -19,6 +19,10 @@ void data_folder_close(data_folder *data);
 /* Makes jobs/<id> with this spec.json, all of it safe on the disk on return; keeps a folder that has it already.
  * False: errno says why. */
 bool job_folder_create(const data_folder *data, const char *id, const char *spec);
+/* Gives jobs/<id>, made if need be, another job's file as start.hdf: a second name for it, or a copy where the file system has
+ * no such thing. Safe on the disk after job_folder_create or
+ * data_folder_sync. folder: in the other job's, NULL: that itself. False: errno says why. */
+bool job_folder_add_start(const data_folder *data, const char *id, const char *from, const char *folder, const char *name);
 /* Takes back what job_folder_create made; leaves anything else. */
 void job_folder_discard(const data_folder *data, const char *id);
 
@@ -27,6 +31,7 @@ int job_folder_open(const data_folder *data, const char *id); /* descriptor, -1 
 int job_file_open(const data_folder *data, const char *id, const char *folder, const char *name);
 /* Whole text of a file up to `limit` bytes, for free(); NULL: not there, or larger. */
 char *job_file_read(const data_folder *data, const char *id, const char *name, size_t limit);
+bool data_folder_sync(const data_folder *data); /* all that was written so far is safe on the disk */
 double data_folder_free_bytes(const data_folder *data);
 
 #endif

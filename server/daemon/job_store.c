@@ -2,6 +2,7 @@
 #include "job_store.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -131,13 +132,23 @@ store_status store_insert_job(job_store *store, const job_spec *spec, const char
     return status;
 }
 
+bool store_bring_start(job_store *store, const job_spec *spec, const char *id)
+{
+    const start_inputs *start = &spec->inputs.start;
+    if (strcmp(spec->process, "drum") != 0 || !*start->job) return true;
+    char name[32] = JOB_CHECKPOINT_FILE;
+    const bool snapshot = !isnan(start->snapshot);
+    if (snapshot) snprintf(name, sizeof name, JOB_SNAPSHOT_FILE_FORMAT, (long long)start->snapshot);
+    return job_folder_add_start(store->data, id, start->job, snapshot ? JOB_SNAPSHOT_FOLDER : NULL, name);
+}
+
 static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
 {
     static const study_place of_no_study = { 0, 0, 0 };
     uint32_t bits;
     if (!text || !store_random_bits(&bits)) return STORE_FAILED;
     store_write_id(id, time(NULL), bits);
-    if (!job_folder_create(store->data, id, text)) {
+    if (!store_bring_start(store, spec, id) || !job_folder_create(store->data, id, text)) {
         const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
         log_line("job %s: its folder can't be written: %s", id, strerror(errno));
         job_folder_discard(store->data, id);

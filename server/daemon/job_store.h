@@ -43,6 +43,9 @@ typedef struct study_place {
     int64_t study, index, repeat;
 } study_place;
 /* Between begin and end: one job's rows. text: its canonical specification. */
+/* What the spec starts from, into the folder of the job; true where it starts from nothing. Safe on the disk after
+ * job_folder_create or data_folder_sync. False: errno says why. */
+bool store_bring_start(job_store *store, const job_spec *spec, const char *id);
 store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
                               const calibration *machine);
 /* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */

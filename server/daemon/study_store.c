@@ -55,15 +55,25 @@ static store_status insert_job_of_study(job_store *store, const study_spec *stud
     json_t *request = study_job_request(study, (size_t)place->index, (int)place->repeat);
     job_spec spec;
     store_status status = STORE_FAILED; /* it was good when it was checked: only memory can be missing */
-    if (request && job_spec_parse(NULL, request, 0, &spec, &problems)) {
+    if (request && job_spec_parse_with(study->beds, NULL, request, 0, &spec, &problems)) {
         char *text = job_spec_to_text(&spec);
-        if (text) status = store_insert_job(store, &spec, id, text, place, machine);
+        if (text && store_bring_start(store, &spec, id)) status = store_insert_job(store, &spec, id, text, place, machine);
         free(text);
         job_spec_clear(&spec);
     }
     json_decref(request);
     problem_list_clear(&problems);
     return status;
+}
+
+/* False: nothing of the study brings a file into a folder. */
+static bool has_start(const study_spec *study)
+{
+    const json_t *base = json_object_get(json_object_get(study->document, "base"), "inputs");
+    bool found = json_is_object(json_object_get(base, "start"));
+    for (size_t c = 0; c < json_array_size(study->columns) && !found; c++)
+        found = strncmp(json_string_value(json_array_get(study->columns, c)), "start", 5) == 0;
+    return found;
 }
 
 /* First each case once, then each case again: the whole table is seen early. Ids follow one another, because among
@@ -98,6 +108,8 @@ store_status store_add_study(job_store *store, const study_spec *study, const st
     if (status == STORE_OK) status = insert_study(store, study, estimate, id, &number);
     for (size_t i = 0; i < study->cases && status == STORE_OK; i++) status = insert_case(store, study, number, i);
     if (status == STORE_OK) status = insert_jobs(store, study, number, second, bits, &machine);
+    /* beds must be safe in their folders before the jobs that start from them are */
+    if (status == STORE_OK && has_start(study) && !data_folder_sync(store->data)) status = STORE_FAILED;
     return store_end(store, status);
 }
 

@@ -78,9 +78,10 @@ static bool read_state_array(hid_t file, size_t place, dem_state_array *array)
     return array->name && array->data && (count == 0 || hdf_read_array(file, path, memory_type(array->element), array->data));
 }
 
-static bool read_state(hid_t file, dem_state *state)
+bool checkpoint_read_state(hid_t file, dem_state *state)
 {
     int64_t count;
+    memset(state, 0, sizeof *state);
     if (!hdf_read_integer_attribute(file, "/state", "arrays", &count) || count < 0 || count > DEM_STATE_ARRAYS) return false;
     for (int64_t a = 0; a < count; a++) {
         state->array_count = (size_t)a + 1; /* counted before it is whole, so that clearing frees what there is */
@@ -117,7 +118,8 @@ bool checkpoint_read(checkpoint *saved, const char *params)
 {
     memset(saved, 0, sizeof *saved);
     const hid_t file = H5Fopen(JOB_CHECKPOINT_FILE, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const bool read = file >= 0 && read_run(file, saved, params) && read_frames(file, saved) && read_state(file, &saved->state);
+    const bool read =
+        file >= 0 && read_run(file, saved, params) && read_frames(file, saved) && checkpoint_read_state(file, &saved->state);
     if (file >= 0) H5Fclose(file);
     if (read) return true;
     worker_warn("%s can't be read or is of another run: starting anew", JOB_CHECKPOINT_FILE);
@@ -125,12 +127,18 @@ bool checkpoint_read(checkpoint *saved, const char *params)
     return false;
 }
 
+void checkpoint_clear_state(dem_state *state)
+{
+    for (size_t a = 0; a < state->array_count; a++) {
+        free((char *)state->array[a].name);
+        free(state->array[a].data);
+    }
+    memset(state, 0, sizeof *state);
+}
+
 void checkpoint_clear(checkpoint *saved)
 {
-    for (size_t a = 0; a < saved->state.array_count; a++) {
-        free((char *)saved->state.array[a].name);
-        free(saved->state.array[a].data);
-    }
+    checkpoint_clear_state(&saved->state);
     free(saved->frames);
     memset(saved, 0, sizeof *saved);
 }

@@ -2,6 +2,7 @@
 #ifndef CHECKPOINT_FILE_H
 #define CHECKPOINT_FILE_H
 
+#include <hdf5.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -23,5 +24,9 @@ bool checkpoint_write(const checkpoint *saved, const char *params);
  * frames and the state's arrays. */
 bool checkpoint_read(checkpoint *saved, const char *params);
 void checkpoint_clear(checkpoint *saved);
+
+/* The scene's state alone, of any run's checkpoint that is open. False: not whole; to be cleared either way. */
+bool checkpoint_read_state(hid_t file, dem_state *state);
+void checkpoint_clear_state(dem_state *state);
 
 #endif

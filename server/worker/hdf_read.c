@@ -61,3 +61,14 @@ bool hdf_read_array(hid_t file, const char *path, hid_t memory, void *data)
     const bool read = H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
     return H5Dclose(set) >= 0 && read;
 }
+
+bool hdf_read_exactly(hid_t file, const char *path, hid_t memory, size_t count, void *data)
+{
+    const hid_t set = H5Dopen2(file, path, H5P_DEFAULT);
+    if (set < 0) return false;
+    const hid_t space = H5Dget_space(set);
+    const bool fits = space >= 0 && H5Sget_simple_extent_npoints(space) == (hssize_t)count;
+    const bool read = fits && H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
+    if (space >= 0) H5Sclose(space);
+    return H5Dclose(set) >= 0 && read;
+}

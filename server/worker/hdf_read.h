@@ -14,6 +14,8 @@ bool hdf_read_real_attribute(hid_t file, const char *path, const char *name, dou
 
 /* rows, columns of a dataset of two dimensions. */
 bool hdf_read_extent(hid_t file, const char *path, size_t *rows, size_t *columns);
+/* The same for a dataset that must have so many numbers in all. */
+bool hdf_read_exactly(hid_t file, const char *path, hid_t memory, size_t count, void *data);
 /* The dataset as `memory` type; data: room for all of it. */
 bool hdf_read_array(hid_t file, const char *path, hid_t memory, void *data);
 

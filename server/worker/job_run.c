@@ -16,6 +16,7 @@
 #include "json_text.h"
 #include "run_folder.h"
 #include "run_summary.h"
+#include "start_file.h"
 #include "worker_log.h"
 
 typedef struct job_runner {
@@ -71,14 +72,15 @@ enum worker_exit job_run_write_result(event_log *events, json_t *document)
     return written ? WORKER_DONE : failure_report_disk(events, JOB_RESULT_FILE);
 }
 
-static enum worker_exit run_in_folder(const job_runner *runner, const job_context *job)
+static enum worker_exit run_in_folder(const job_runner *runner, const job_context *job, const char *text)
 {
     const bool complete = access(JOB_RESULT_FILE, F_OK) == 0;
-    if (complete && !run_folder_is_of(job->params)) {
+    if (complete && !run_folder_is_of(text)) {
         worker_warn("the folder holds the results of another spec, which are kept: name another folder or remove this one");
         return WORKER_BAD_SPEC;
     }
-    if (!run_folder_claim(job->params, job->events)) return WORKER_DISK;
+    if (!run_folder_claim(text, job->events)) return WORKER_DISK;
+    if (!complete && job->options->start && !start_file_bring(job->options->start)) return WORKER_DISK;
     if (complete) {
         worker_log("%s is there already: this run is complete", JOB_RESULT_FILE);
         return WORKER_DONE;
@@ -89,14 +91,15 @@ static enum worker_exit run_in_folder(const job_runner *runner, const job_contex
 enum worker_exit job_run(const job_spec *spec, const char *folder, const run_options *options)
 {
     const job_runner *runner = runner_of(spec->process);
-    char *params = job_spec_to_text(spec);
+    char *text = job_spec_to_text(spec), *brief = job_spec_to_brief(spec);
     event_log events = { .fd = -1 };
     enum worker_exit exit = WORKER_FAULT;
-    if (!params) worker_warn("out of memory");
+    if (!text || !brief) worker_warn("out of memory");
     else if (!runner) worker_warn("no runner for the process %s", spec->process);
-    else if (run_folder_enter(folder, &events)) exit = run_in_folder(runner, &(job_context){ spec, options, params, &events });
+    else if (run_folder_enter(folder, &events)) exit = run_in_folder(runner, &(job_context){ spec, options, brief, &events }, text);
     event_log_close(&events);
-    free(params);
+    free(text);
+    free(brief);
     return exit;
 }
 

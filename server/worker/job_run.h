@@ -13,13 +13,14 @@ typedef struct run_options {
     double checkpoint_seconds; /* wall time between checkpoints */
     bool on_terminal;          /* show a progress line */
     bool profile;              /* write what the time went into */
+    const char *start;         /* the file that the spec starts from, absolute; NULL: none, or it is in the folder already */
 } run_options;
 
 /* What a process's runner is given. The job folder is the working directory, and this worker's alone. */
 typedef struct job_context {
     const job_spec *spec;
     const run_options *options;
-    const char *params; /* the canonical spec */
+    const char *params; /* the canonical spec, in brief: what files carry */
     event_log *events;
 } job_context;
 

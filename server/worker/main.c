@@ -17,6 +17,7 @@
 #include "run_profile.h"
 #include "run_summary.h"
 #include "spec_file.h"
+#include "start_file.h"
 #include "study_report.h"
 #include "version.h"
 #include "worker_log.h"
@@ -146,7 +147,7 @@ static enum worker_exit load_spec(const char *name, const char *folder, job_spec
 {
     problem_list problems;
     problem_list_init(&problems);
-    const bool loaded = spec_file_load(path_of(name), seed_if_missing(folder), spec, &problems);
+    const bool loaded = spec_file_load(path_of(name), &start_files, seed_if_missing(folder), spec, &problems);
     const enum worker_exit exit = loaded ? WORKER_DONE : refuse(&problems);
     problem_list_clear(&problems);
     return exit;
@@ -157,7 +158,7 @@ static json_t *check_document(const json_t *document, const calibration *machine
 {
     if (study_report_is_study(document)) return study_report(document, random_seed(), machine, problems);
     job_spec spec;
-    if (!job_spec_parse(NULL, document, random_seed(), &spec, problems)) return NULL;
+    if (!job_spec_parse_with(&start_files, NULL, document, random_seed(), &spec, problems)) return NULL;
     const job_estimate estimate = job_spec_estimate(&spec, machine);
     json_t *report = json_pack("{s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate));
     job_spec_clear(&spec);
@@ -238,6 +239,8 @@ static enum worker_exit run(int argc, char **argv)
     worker_log_only_warnings(line.run.on_terminal && isatty(STDERR_FILENO));
     hdf_init();
     job_run_catch_signals();
+    char start[PATH_MAX];
+    if (*spec.inputs.start.file) line.run.start = realpath(spec.inputs.start.file, start);
     exit = job_run(&spec, line.out, &line.run);
     if (line.run.on_terminal) terminal_end_progress();
     if (exit == WORKER_DONE && (line.json || line.run.on_terminal)) print_result(&line, &spec);

@@ -57,7 +57,7 @@ bool run_folder_is_of(const char *params)
     problem_list problems;
     if (access(JOB_SPEC_FILE, F_OK) != 0 || !problem_list_init(&problems)) return false;
     bool same = false;
-    if (spec_file_load(JOB_SPEC_FILE, 0, &spec, &problems)) {
+    if (spec_file_load(JOB_SPEC_FILE, NULL, 0, &spec, &problems)) {
         char *text = job_spec_to_text(&spec);
         same = text && strcmp(text, params) == 0;
         free(text);
@@ -72,6 +72,7 @@ bool run_folder_claim(const char *params, event_log *events)
     if (run_folder_is_of(params)) return true;
     unlink(JOB_RESULT_FILE);
     unlink(JOB_CHECKPOINT_FILE);
+    unlink(JOB_START_FILE);
     unlink(JOB_SERIES_FILE);
     remove_snapshots();
     return event_log_empty(events) && file_write(JOB_SPEC_FILE, params, strlen(params));

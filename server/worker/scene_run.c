@@ -18,6 +18,7 @@
 #include "json_text.h"
 #include "run_summary.h"
 #include "snapshot_file.h"
+#include "start_file.h"
 #include "worker_log.h"
 
 #define SERIES_SECONDS 2.0       /* between rewrites of a long series */
@@ -308,13 +309,14 @@ static bool resume(scene_run *r, double *earlier_seconds)
 }
 
 /* A new scene, in place of the one there may be. */
-static dem_status prepare_scene(scene_run *r)
+static dem_status prepare_scene(scene_run *r, bool with_start)
 {
     dem_scene_free(r->scene);
     free(r->frames);
     free(r->tally);
     r->frames = r->tally = NULL;
-    const dem_status status = dem_scene_create(&r->spec->drum, &r->scene);
+    dem_status status = dem_scene_create(&r->spec->drum, &r->scene);
+    if (status == DEM_OK && r->spec->drum.is_placed && with_start) status = start_scene(r->spec, r->scene);
     if (status != DEM_OK) return status;
     r->frame_width = r->test->frame_width(r->scene);
     r->frames = calloc((size_t)r->plan.samples, r->frame_width * sizeof *r->frames);
@@ -323,14 +325,26 @@ static dem_status prepare_scene(scene_run *r)
     return r->frames && r->tally ? DEM_OK : DEM_NO_MEMORY;
 }
 
+/* A checkpoint is also saved at the very end: an attempt that finds it, but no result, has nothing to do but to see once
+ * more that it was the end. */
+static enum worker_exit end_again(scene_run *r)
+{
+    const bool sampled_now =
+        is_rotating(r) && r->next_sample > 0 && schedule_sample_step(&r->plan, r->next_sample - 1) == rotation_step(r);
+    const int64_t snapshots = r->next_snapshot;
+    const enum worker_exit exit = sampled_now ? end_when_over(r) : WORKER_DONE;
+    if (exit == WORKER_DONE && r->ended_by) r->plan.snapshots = snapshots;
+    return exit;
+}
+
 static enum worker_exit begin(scene_run *r)
 {
-    dem_status status = prepare_scene(r);
-    if (status != DEM_OK) return fail(r, status);
     double earlier_seconds = 0.0;
     const bool has_checkpoint = access(JOB_CHECKPOINT_FILE, F_OK) == 0;
+    dem_status status = prepare_scene(r, !has_checkpoint);
+    if (status != DEM_OK) return fail(r, status);
     const bool resumed = has_checkpoint && resume(r, &earlier_seconds);
-    if (has_checkpoint && !resumed) status = prepare_scene(r);
+    if (has_checkpoint && !resumed) status = prepare_scene(r, true);
     if (status != DEM_OK) return fail(r, status);
     progress_init(&r->progress, r->spec, &r->plan, r->scene, earlier_seconds);
     r->last_checkpoint = monotonic_seconds();
@@ -343,7 +357,8 @@ static enum worker_exit begin(scene_run *r)
     json_t *event = json_pack("{s:i, s:b, s:I, s:f, s:I}", "attempt", r->options->attempt, "resumed", resumed, "particles",
                               (json_int_t)dem_scene_particle_count(r->scene), "time_step", r->spec->drum.time_step, "total_steps",
                               (json_int_t)estimate.steps);
-    return add_event(r, "start", event) ? WORKER_DONE : WORKER_DISK;
+    if (!add_event(r, "start", event)) return WORKER_DISK;
+    return resumed ? end_again(r) : WORKER_DONE;
 }
 
 enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
@@ -357,6 +372,8 @@ enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
                     .plan = schedule_of(job->spec) };
     enum worker_exit exit = begin(&r);
     if (exit == WORKER_DONE) exit = run_to_the_end(&r);
+    if (exit == WORKER_DONE && job->spec->drum.container == DEM_DRUM)
+        exit = save_checkpoint(&r); /* another run may start from here */
     if (exit == WORKER_DONE && !write_profile(&r)) exit = fail_for_disk(&r, JOB_PROFILE_FILE);
     if (exit == WORKER_DONE) exit = write_result(&r);
     if (exit == WORKER_DONE) worker_log("done in %.1f s", progress_wall_seconds(&r.progress));

@@ -3,7 +3,7 @@
  *            refuses any other kind of string)
  *     NumberOfPoints NumberOfCells NumberOfConnectivityIds  int64[1] = N
  *     Points f4[N,3]  Connectivity i8[N] = 0..N-1  Offsets i8[N+1] = 0..N  Types u1[N] = 1 (vertex)
- *     PointData/...   CellData/   FieldData/{time[1], step[1]}
+ *     PointData/...   CellData/   FieldData/{time[1], step[1], drum_angle[1]}
  *   /particles/position = hard link to Points    /run @params_json
  */
 #include "snapshot_file.h"
@@ -103,6 +103,9 @@ static bool write_file(const char *name, const dem_scene *scene, const char *par
     add_cells(&file, dem_scene_sphere_count(scene), rising, vertices);
     add_spheres(&file, scene, reals, integers);
     hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/time", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &time }, HDF_PLAIN);
+    const double turned = dem_scene_turned(scene);
+    hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/drum_angle", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &turned },
+                  HDF_PLAIN);
     add_one(&file, "/VTKHDF/FieldData/step", dem_scene_step_count(scene));
     hdf_add_hard_link(&file, "/VTKHDF/Points", "/particles/position");
     return hdf_publish(&file);

@@ -7,7 +7,7 @@
 #include "file_publish.h"
 #include "json_text.h"
 
-enum { LONGEST_SPEC = 1000000 };
+enum { LONGEST_SPEC = 20000000 }; /* a bed of ten thousand particles, each in full, is some 6 MB */
 
 json_t *spec_file_read(const char *name, problem_list *problems)
 {
@@ -15,7 +15,7 @@ json_t *spec_file_read(const char *name, problem_list *problems)
     errno = 0;
     char *text = file_read(name, LONGEST_SPEC, &length);
     if (!text) {
-        problem_list_add(problems, "", "can't read %.200s: %s", name, errno ? strerror(errno) : "it is longer than 1 MB");
+        problem_list_add(problems, "", "can't read %.200s: %s", name, errno ? strerror(errno) : "it is longer than 20 MB");
         return NULL;
     }
     json_t *document = json_text_load(text, length, problems);
@@ -23,10 +23,10 @@ json_t *spec_file_read(const char *name, problem_list *problems)
     return document;
 }
 
-bool spec_file_load(const char *name, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
+bool spec_file_load(const char *name, const start_source *beds, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
 {
     json_t *request = spec_file_read(name, problems);
-    const bool read = request && job_spec_parse(NULL, request, seed_if_missing, spec, problems);
+    const bool read = request && job_spec_parse_with(beds, NULL, request, seed_if_missing, spec, problems);
     json_decref(request);
     return read;
 }

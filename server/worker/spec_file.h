@@ -4,10 +4,10 @@
 
 #include "job_spec.h"
 
-/* The JSON of a file of at most 1 MB. New reference; NULL: problems say why. */
+/* The JSON of a file of at most 20 MB. New reference; NULL: problems say why. */
 json_t *spec_file_read(const char *name, problem_list *problems);
 
-/* False when it can't be read or has problems, which are listed. */
-bool spec_file_load(const char *name, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);
+/* False when it can't be read or has problems, which are listed. beds: as job_spec_parse_with has them. */
+bool spec_file_load(const char *name, const start_source *beds, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);
 
 #endif

@@ -1,5 +1,6 @@
 #include "study_report.h"
 
+#include "start_file.h"
 #include "study_spec.h"
 
 enum { MOST_JOBS = 1000000 }; /* a daemon's own limit may be lower */
@@ -19,7 +20,9 @@ static json_t *cases_of(const study_spec *study)
 
 json_t *study_report(const json_t *document, uint64_t seed_if_missing, const calibration *machine, problem_list *problems)
 {
-    const study_options options = { .seed_if_missing = seed_if_missing, .default_threads = 1, .most_jobs = MOST_JOBS };
+    const study_options options = {
+        .seed_if_missing = seed_if_missing, .default_threads = 1, .most_jobs = MOST_JOBS, .beds = &start_files
+    };
     study_spec study;
     study_estimate estimate;
     json_t *report = NULL;

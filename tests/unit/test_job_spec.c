@@ -260,7 +260,8 @@ static void a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own(vo
         "/inputs/drum/lifters/width: is 0.017 m; must be at most 0.0164857 m, for that many bars of that height to lie within "
         "the drum and apart\n");
     expect_problem("drum/lifters", "{\"count\": 65, \"height\": 0.004}",
-                   "/inputs/drum/lifters/count: is 65; must be in [1, 64]\n/inputs/drum/lifters/width: is missing; must be a number in [1e-05, 10] m\n");
+                   "/inputs/drum/lifters/count: is 65; must be in [1, 64]\n/inputs/drum/lifters/width: is missing; must be a "
+                   "number in [1e-05, 10] m\n");
     json_t *both = minimal_with("drum/lifters", "{\"count\": 2, \"height\": 0.004, \"width\": 0.003}");
     json_object_set_new(json_object_get(both, "inputs"), "wall", json_pack("{s:{s:f}}", "lining", "diameter", 0.003));
     char *problems = problems_of(both);
@@ -579,6 +580,137 @@ static void corrector_passes_are_one_unless_asked_for(void **state)
     expect_problem("integration", "{\"corrector_passes\": 0}", "/inputs/integration/corrector_passes: is 0; must be in [1, 10]\n");
 }
 
+/* Two kinds in a drum of 50 by 20 mm; `list` in the place of particles one by one. */
+static json_t *starting_with(const char *list)
+{
+    json_t *request = minimal_with("particles", "[{\"diameter\": 0.004}, {\"shape\": \"dumbbell\", \"diameter\": 0.003}]");
+    json_t *start = json_pack("{s:o}", "particles", json_loads(list, JSON_DECODE_ANY, NULL));
+    json_object_set_new(json_object_get(request, "inputs"), "start", start);
+    return request;
+}
+
+static void a_list_of_particles_says_how_many_there_are_of_each(void **state)
+{
+    (void)state;
+    job_spec spec = parse_or_fail(starting_with("[{\"position\": [0, -0.01, 0]}, {\"position\": [0.01, 0, 0], \"species\": 1, "
+                                                "\"orientation\": [1, 0, 0, 1]}, {\"position\": [0, 0, 0.009]}]"));
+    assert_true(spec.drum.is_placed);
+    assert_int_equal(spec.drum.particle_count, 3);
+    assert_true(spec.drum.species[0].share == 2.0 / 3 && spec.drum.species[1].share == 1.0 / 3);
+    assert_true(spec.inputs.start.particles[1].orientation[3] == 1 && isnan(spec.inputs.start.particles[0].orientation[0]));
+    char *text = job_spec_to_text(&spec), *brief = job_spec_to_brief(&spec);
+    job_spec again = parse_or_fail(load(text));
+    char *same = job_spec_to_text(&again);
+    assert_string_equal(text, same);
+    assert_non_null(strstr(brief, "\"particles\": 3"));
+    free(text);
+    free(same);
+    free(brief);
+    job_spec_clear(&again);
+    job_spec_clear(&spec);
+}
+
+static void expect_problems_of_start(const char *list, const char *expected)
+{
+    char *problems = problems_of(starting_with(list));
+    if (strcmp(problems, expected) != 0) fail_msg("%s gives:\n%sexpected:\n%s", list, problems, expected);
+    free(problems);
+}
+
+/* The drum's radius is 25 mm; 5 % of 4 mm are 0.2 mm. A dumbbell along x has its spheres 1.5 mm to either side; turned by
+ * a quarter about z, above and below. */
+static void particles_outside_the_drum_or_within_each_other_are_all_told(void **state)
+{
+    (void)state;
+    expect_problems_of_start(
+        "[{\"position\": [0, -0.0233, 0]}, {\"position\": [0, 0, 0]}, {\"position\": [0.0037, 0, 0]}, {\"position\": [0, 0, 0.02], "
+        "\"velocity\": [0, 200, 0]}, {\"position\": [0, 0.01], \"species\": 2}]",
+        "/inputs/start/particles/3/velocity/1: is 200 m/s; must be in [-100, 100] m/s\n"
+        "/inputs/start/particles/4/position: is a list; must be a list of three numbers, each in [-20, 20] m\n"
+        "/inputs/start/particles/4/species: is 2; must be in [0, 1]: particles has 2 kinds\n"
+        "/inputs/start/particles/0/position: puts a sphere of 0.004 m at 0.0233 m from the axis; must be at most 0.0232 m, inside "
+        "the drum\n"
+        "/inputs/start/particles/3/position: overlaps particle 1 by 0.004 m; must be at most 0.0002 m, 0.05 of the smaller "
+        "diameter\n"
+        "/inputs/start/particles/2/position: overlaps particle 1 by 0.0003 m; must be at most 0.0002 m, 0.05 of the smaller "
+        "diameter\n"
+        "/inputs/start/particles/3/position: overlaps particle 2 by 0.0003 m; must be at most 0.0002 m, 0.05 of the smaller "
+        "diameter\n");
+    expect_problems_of_start("[{\"position\": [0, 0, 0], \"species\": 1}, {\"position\": [0, 0.0034, 0]}]",
+                             ""); /* 3.7 mm from either of its spheres to the sphere's centre, of 3.5 needed */
+    expect_problems_of_start(
+        "[{\"position\": [0, 0, 0], \"species\": 1, \"orientation\": [1, 0, 0, 1]}, {\"position\": [0, 0.0034, 0]}]",
+        "/inputs/start/particles/1/position: overlaps particle 0 by 0.0016 m; must be at most 0.00015 m, 0.05 of the smaller "
+        "diameter\n");
+}
+
+static void a_start_is_one_thing_and_leaves_nothing_unsaid(void **state)
+{
+    (void)state;
+    expect_problem("start", "{}", "/inputs/start: names 0 of job, file and particles; must name one of them\n");
+    expect_problem("start", "{\"job\": \"x\", \"file\": \"y\"}",
+                   "/inputs/start: names 2 of job, file and particles; must name one of them\n"
+                   "/inputs/start/job: is \"x\"; must be the id of a job, as 20261122-014455-3f9a2c71\n");
+    expect_problem("start", "{\"job\": \"20261122-014455-3f9a2c71\", \"snapshot\": 1, \"checkpoint\": true}",
+                   "/inputs/start/snapshot: is given beside checkpoint; give one of the two\n");
+    expect_problem("start", "{\"job\": \"20261122-014455-3f9a2c71\", \"checkpoint\": false}",
+                   "/inputs/start/checkpoint: is false; must be true, or be left out\n");
+    expect_problem("start", "{\"file\": \"a.hdf\", \"snapshot\": 1}",
+                   "/inputs/start/snapshot: is given without a job; a file is what it is\n");
+    expect_problem("start", "{\"job\": \"20261122-014455-3f9a2c71\"}",
+                   "/inputs/particle_count: is missing; must be given where the bed that start names is not at hand to be "
+                   "counted\n");
+    expect_problem("start", "{\"particles\": [{\"position\": [0, 0, 0]}], \"job\": \"20261122-014455-3f9a2c71\"}",
+                   "/inputs/start: names 2 of job, file and particles; must name one of them\n");
+    expect_fine("start", "null");
+}
+
+/* A source with one bed: 100 particles of the minimal drum, which was made with another rate and friction. */
+static json_t *find_the_bed(void *context, const start_inputs *start, double *particles, problem_list *problems)
+{
+    (void)context, (void)start, (void)problems;
+    json_t *request = minimal_with("drum/rotation_rate", "1");
+    job_spec spec = parse_or_fail(request);
+    json_t *canonical = job_spec_to_json(&spec);
+    job_spec_clear(&spec);
+    *particles = 100;
+    return canonical;
+}
+
+static void what_a_run_starts_from_must_be_of_the_same_drum_and_particles(void **state)
+{
+    (void)state;
+    const start_source beds = { .find = find_the_bed };
+    for (int differs = 0; differs < 2; differs++) {
+        json_t *request = minimal_with("start", "{\"job\": \"20261122-014455-3f9a2c71\", \"snapshot\": 4}");
+        json_t *inputs = json_object_get(request, "inputs");
+        json_object_set_new(inputs, "contact", json_pack("{s:f}", "friction", 0.7));
+        if (differs) {
+            json_object_set_new(json_object_get(inputs, "drum"), "length", json_real(0.021));
+            json_object_set_new(json_array_get(json_object_get(inputs, "particles"), 0), "density", json_real(1000));
+            json_object_set_new(inputs, "wall", json_pack("{s:{s:f}}", "lining", "diameter", 0.002));
+        }
+        job_spec spec;
+        problem_list problems;
+        problem_list_init(&problems);
+        const bool good = job_spec_parse_with(&beds, "drum", request, 1, &spec, &problems);
+        assert_int_equal(good, !differs);
+        if (good) {
+            assert_int_equal(spec.drum.particle_count, 100);
+            assert_true(spec.drum.is_placed && spec.drum.contact.friction == 0.7);
+            job_spec_clear(&spec);
+        } else {
+            assert_int_equal(json_array_size(problems.errors), 3);
+            const json_t *second = json_array_get(problems.errors, 1);
+            assert_string_equal(json_string_value(json_object_get(second, "pointer")), "/inputs/particles/0/density");
+            assert_string_equal(json_string_value(json_object_get(second, "detail")),
+                                "is 1000; must be 2500, as in the bed that it starts from");
+        }
+        problem_list_clear(&problems);
+        json_decref(request);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -586,6 +718,10 @@ int main(void)
         cmocka_unit_test(shares_by_volume_and_mass_become_shares_by_number),
         cmocka_unit_test(variable_unloading_takes_its_slope_from_the_restitution_or_the_other_way_round),
         cmocka_unit_test(corrector_passes_are_one_unless_asked_for),
+        cmocka_unit_test(a_list_of_particles_says_how_many_there_are_of_each),
+        cmocka_unit_test(particles_outside_the_drum_or_within_each_other_are_all_told),
+        cmocka_unit_test(a_start_is_one_thing_and_leaves_nothing_unsaid),
+        cmocka_unit_test(what_a_run_starts_from_must_be_of_the_same_drum_and_particles),
         cmocka_unit_test(a_canonical_spec_is_read_and_written_with_the_same_bytes),
         cmocka_unit_test(a_number_out_of_range_is_named_with_value_unit_and_range),
         cmocka_unit_test(the_ends_of_a_range_are_inside_or_not_as_written),

@@ -1,0 +1,256 @@
+#include "start_rules.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "dem_cluster.h"
+#include "process_type.h"
+#include "spec_text.h"
+
+/* Of the smaller diameter: as far as spheres may overlap when a run begins, the most that maximum_overlap can ask for. */
+#define MOST_START_OVERLAP 0.05
+enum { ENOUGH_OVERLAPS = 20 };
+/* As job ids are written. */
+#define ID_PATTERN "20261122-014455-3f9a2c71"
+
+/* --- which bed --- */
+
+static bool is_job_id(const char *id)
+{
+    if (strlen(id) != strlen(ID_PATTERN)) return false;
+    for (size_t k = 0; id[k]; k++) {
+        const bool dash = k == 8 || k == 15;
+        const char *allowed = k < 15 ? "0123456789" : "0123456789abcdef";
+        if (dash ? id[k] != '-' : !strchr(allowed, id[k])) return false;
+    }
+    return true;
+}
+
+/* One of job, file and particles; snapshot or checkpoint of a job alone. False: a problem says why not. */
+static bool check_choice(start_inputs *start, problem_list *problems)
+{
+    const size_t before = json_array_size(problems->errors);
+    const int given = (*start->job != 0) + (*start->file != 0) + (start->particle_count > 0);
+    if (given != 1)
+        problem_list_add(problems, "/inputs/start", "names %d of job, file and particles; must name one of them", given);
+    if (*start->job && !is_job_id(start->job))
+        problem_list_add(problems, "/inputs/start/job", "is \"%s\"; must be the id of a job, as " ID_PATTERN, start->job);
+    if (!isnan(start->snapshot) && !isnan(start->checkpoint))
+        problem_list_add(problems, "/inputs/start/snapshot", "is given beside checkpoint; give one of the two");
+    if (!*start->job && (!isnan(start->snapshot) || !isnan(start->checkpoint)))
+        problem_list_add(problems, isnan(start->snapshot) ? "/inputs/start/checkpoint" : "/inputs/start/snapshot",
+                         "is given without a job; a file is what it is");
+    if (*start->job && isnan(start->snapshot)) start->checkpoint = 1.0;
+    return json_array_size(problems->errors) == before;
+}
+
+json_t *start_find(job_spec *spec, problem_list *problems)
+{
+    drum_inputs *inputs = &spec->inputs;
+    inputs->start.bed_particles = NAN;
+    if (isnan(inputs->start.given) || !check_choice(&inputs->start, problems) || inputs->start.particle_count > 0) return NULL;
+    double particles = NAN;
+    json_t *origin = spec->beds ? spec->beds->find(spec->beds->context, &inputs->start, &particles, problems) : NULL;
+    inputs->start.bed_particles = particles;
+    if (isnan(inputs->particle_count) && isnan(inputs->fill_fraction)) inputs->particle_count = particles;
+    return origin;
+}
+
+/* --- particles given one by one --- */
+
+bool start_count_particles(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+{
+    const start_inputs *start = &inputs->start;
+    const double count = (double)start->particle_count;
+    double of_species[DEM_MAXIMUM_SPECIES] = { 0 };
+    if (start->particle_count == 0) return false;
+    for (size_t p = 0; p < start->particle_count; p++) {
+        const double species = start->particles[p].species;
+        char pointer[80];
+        snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/species", p);
+        if (species >= (double)inputs->species_count)
+            problem_list_add(problems, pointer, "is %g; must be in [0, %zu]: particles has %zu kinds", species,
+                             inputs->species_count - 1, inputs->species_count);
+        else if (species >= 0) of_species[(size_t)species] += 1.0;
+    }
+    for (size_t s = 0; s < inputs->species_count; s++) {
+        char pointer[60];
+        snprintf(pointer, sizeof pointer, "/inputs/particles/%zu/share", s);
+        drum->species[s].share = of_species[s] / count;
+        if (!isnan(inputs->species[s].share))
+            problem_list_add(problems, pointer, "is %g, but start/particles says how many there are of each; leave it out",
+                             inputs->species[s].share);
+    }
+    if (!isnan(inputs->fill_fraction) || (!isnan(inputs->particle_count) && inputs->particle_count != count))
+        problem_list_add(problems, isnan(inputs->fill_fraction) ? "/inputs/particle_count" : "/inputs/fill_fraction",
+                         "is %g, but start/particles has %.0f particles; leave it out",
+                         isnan(inputs->fill_fraction) ? inputs->particle_count : inputs->fill_fraction, count);
+    drum->particle_count = start->particle_count;
+    drum->fill_fraction = dem_fill_of_particles(drum->diameter, drum->length, count, drum->species, drum->species_count);
+    return true;
+}
+
+typedef struct placed_sphere {
+    double x[3], radius;
+    size_t particle;
+} placed_sphere;
+
+/* Not one that was refused. */
+static bool has_place(const start_particle *particle, const dem_drum_definition *drum)
+{
+    return !isnan(particle->position[0] + particle->position[1] + particle->position[2])
+           && particle->species < (double)drum->species_count;
+}
+
+/* Every sphere of every particle that has a place, for free(); NULL: no memory. */
+static placed_sphere *all_spheres(const start_inputs *start, const dem_drum_definition *drum, size_t *count)
+{
+    size_t room = 1;
+    for (size_t p = 0; p < start->particle_count; p++)
+        if (has_place(&start->particles[p], drum))
+            room += 1 + drum->species[(size_t)start->particles[p].species].cluster.sphere_count;
+    placed_sphere *spheres = calloc(room, sizeof *spheres), *next = spheres;
+    for (size_t p = 0; spheres && p < start->particle_count; p++) {
+        const start_particle *particle = &start->particles[p];
+        if (!has_place(particle, drum)) continue;
+        const dem_species *species = &drum->species[(size_t)particle->species];
+        const size_t of_each = species->cluster.sphere_count;
+        for (size_t k = 0; k < (of_each ? of_each : 1); k++, next++) {
+            double r[3] = { 0 };
+            if (of_each && !isnan(particle->orientation[0]))
+                dem_turn(particle->orientation, species->cluster.sphere[k].position, r);
+            else if (of_each) memcpy(r, species->cluster.sphere[k].position, sizeof r);
+            *next = (placed_sphere){ .radius = 0.5 * (of_each ? species->cluster.sphere[k].diameter : species->diameter),
+                                     .particle = p };
+            for (int c = 0; c < 3; c++) next->x[c] = particle->position[c] + r[c];
+        }
+    }
+    *count = spheres ? (size_t)(next - spheres) : 0;
+    return spheres;
+}
+
+static void check_inside(const placed_sphere *s, const dem_drum_definition *drum, problem_list *problems)
+{
+    const double most = MOST_START_OVERLAP * 2 * s->radius, from_axis = sqrt(s->x[0] * s->x[0] + s->x[1] * s->x[1]);
+    const double room = 0.5 * drum->diameter - s->radius + most;
+    /* across periodic ends a cluster may reach by its own size */
+    const double along = drum->ends.are_walls ? 0.5 * drum->length - s->radius + most : drum->length;
+    char pointer[80];
+    snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/position", s->particle);
+    if (from_axis > room)
+        problem_list_add(problems, pointer,
+                         "puts a sphere of %g m at %.6g m from the axis; must be at most %.6g m, inside the drum", 2 * s->radius,
+                         from_axis, room);
+    if (fabs(s->x[2]) > along)
+        problem_list_add(problems, pointer, "puts a sphere of %g m at %.6g m along the axis; must be in [%.6g, %.6g] m",
+                         2 * s->radius, s->x[2], -along, along);
+}
+
+static int by_x(const void *a, const void *b)
+{
+    const placed_sphere *p = a, *q = b;
+    if (p->x[0] != q->x[0]) return p->x[0] > q->x[0] ? 1 : -1;
+    return (p->particle > q->particle) - (p->particle < q->particle);
+}
+
+/* m; negative: apart. Along the axis across the periodic ends, too. */
+static double overlap_of(const placed_sphere *a, const placed_sphere *b, const dem_drum_definition *drum)
+{
+    double z = a->x[2] - b->x[2];
+    if (!drum->ends.are_walls) z = remainder(z, drum->length);
+    const double x = a->x[0] - b->x[0], y = a->x[1] - b->x[1];
+    return a->radius + b->radius - sqrt(x * x + y * y + z * z);
+}
+
+static void check_overlaps(placed_sphere *spheres, size_t count, const dem_drum_definition *drum, problem_list *problems)
+{
+    size_t found = 0;
+    double largest = 0.0;
+    for (size_t i = 0; i < count; i++) largest = fmax(largest, spheres[i].radius);
+    qsort(spheres, count, sizeof *spheres, by_x);
+    for (size_t i = 0; i < count; i++) {
+        for (size_t j = i + 1; j < count && spheres[j].x[0] - spheres[i].x[0] < spheres[i].radius + largest; j++) {
+            const placed_sphere *a = &spheres[i], *b = &spheres[j];
+            const double overlap = overlap_of(a, b, drum), most = MOST_START_OVERLAP * 2 * fmin(a->radius, b->radius);
+            if (a->particle == b->particle || !(overlap > most) || ++found > ENOUGH_OVERLAPS) continue;
+            const size_t low = a->particle < b->particle ? a->particle : b->particle, high = a->particle + b->particle - low;
+            char pointer[80];
+            snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/position", high);
+            problem_list_add(problems, pointer,
+                             "overlaps particle %zu by %.3g m; must be at most %.3g m, %g of the smaller diameter", low, overlap,
+                             most, MOST_START_OVERLAP);
+        }
+    }
+    if (found > ENOUGH_OVERLAPS) problem_list_add(problems, "/inputs/start/particles", "have %zu such overlaps in all", found);
+}
+
+void start_check_particles(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+{
+    size_t count;
+    if (inputs->start.particle_count == 0) return;
+    placed_sphere *spheres = all_spheres(&inputs->start, drum, &count);
+    if (!spheres) {
+        problem_list_add(problems, "/inputs/start/particles", "could not be looked at: out of memory");
+        return;
+    }
+    for (size_t i = 0; i < count; i++) check_inside(&spheres[i], drum, problems);
+    check_overlaps(spheres, count, drum, problems);
+    free(spheres);
+}
+
+/* --- against the spec that made the bed --- */
+
+/* What may differ of the container and the particles: how they move and rub, and how their number was said. */
+static bool may_differ(const char *name)
+{
+    return strcmp(name, "rotation_rate") == 0 || strcmp(name, "share") == 0 || strstr(name, "friction");
+}
+
+static void compare_values(const json_t *now, const json_t *then, const char *pointer, problem_list *problems)
+{
+    char member[LONGEST_POINTER], seen[60], before[60];
+    const char *name;
+    json_t *value;
+    if (json_is_object(now) && json_is_object(then)) {
+        json_object_foreach((json_t *)then, name, value)
+        {
+            pointer_to_member(member, pointer, name);
+            if (!may_differ(name)) compare_values(json_object_get(now, name), value, member, problems);
+        }
+    } else if (json_is_array(now) && json_is_array(then) && json_array_size(now) == json_array_size(then)) {
+        for (size_t k = 0; k < json_array_size(now); k++) {
+            snprintf(member, sizeof member, "%.200s/%zu", pointer, k);
+            compare_values(json_array_get(now, k), json_array_get(then, k), member, problems);
+        }
+    } else if (json_is_array(now) && json_is_array(then)) {
+        problem_list_add(problems, pointer, "has %zu entries; must have %zu, as the bed that it starts from", json_array_size(now),
+                         json_array_size(then));
+    } else if (json_is_number(now) && json_is_number(then) ? json_number_value(now) != json_number_value(then)
+                                                           : !json_equal(now, then)) {
+        json_value_text(now, seen, sizeof seen);
+        json_value_text(then, before, sizeof before);
+        problem_list_add(problems, pointer, "is %s; must be %s, as in the bed that it starts from", now ? seen : "not given",
+                         before);
+    }
+}
+
+void start_compare(const job_spec *spec, const json_t *origin, problem_list *problems)
+{
+    static const char *const compared[] = { "drum", "particles", "wall" };
+    const json_t *then = json_object_get(origin, "inputs");
+    const double asked = (double)spec->drum.particle_count, there = spec->inputs.start.bed_particles;
+    if (asked > there || asked < there)
+        problem_list_add(problems, isnan(spec->inputs.particle_count) ? "/inputs/fill_fraction" : "/inputs/particle_count",
+                         "makes %.0f particles; must be left out, or make %.0f, as many as the bed that it starts from has", asked,
+                         there);
+    if (!then || json_array_size(problems->errors) > (asked != there)) return; /* what was refused can't be written */
+    json_t *now = spec_inputs_write(spec->type->inputs, (const char *)spec + spec->type->inputs_at);
+    for (size_t k = 0; now && k < sizeof compared / sizeof compared[0]; k++) {
+        char pointer[40];
+        snprintf(pointer, sizeof pointer, "/inputs/%s", compared[k]);
+        compare_values(json_object_get(now, compared[k]), json_object_get(then, compared[k]), pointer, problems);
+    }
+    json_decref(now);
+}

@@ -1,0 +1,213 @@
+#include "start_file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "checkpoint_file.h"
+#include "dem_cluster.h"
+#include "file_publish.h"
+#include "hdf_file.h"
+#include "hdf_read.h"
+#include "job_folder.h"
+#include "json_text.h"
+#include "worker_log.h"
+
+/* --- a file named in a spec --- */
+
+static bool is_there(hid_t file, const char *path) { return H5Lexists(file, path, H5P_DEFAULT) > 0; }
+
+static json_t *spec_of_file(const char *name)
+{
+    const hid_t file = H5Fopen(name, H5F_ACC_RDONLY, H5P_DEFAULT);
+    if (file < 0) return NULL;
+    const bool ours = is_there(file, "run") && (is_there(file, "state") || is_there(file, "VTKHDF"));
+    char *text = ours ? hdf_read_text_attribute(file, "/run", "params_json") : NULL;
+    json_t *document = text ? json_loads(text, JSON_REJECT_DUPLICATES, NULL) : NULL;
+    free(text);
+    H5Fclose(file);
+    return document;
+}
+
+static json_t *find_file(void *context, const start_inputs *start, double *particles, problem_list *problems)
+{
+    (void)context;
+    if (!*start->file) return NULL;
+    json_t *origin = access(start->file, R_OK) == 0 ? spec_of_file(start->file) : NULL;
+    problem_list none;
+    job_spec made_by;
+    if (!origin) {
+        problem_list_add(problems, "/inputs/start/file", "is \"%.300s\", which %s", start->file,
+                         access(start->file, R_OK) == 0 ? "is no snapshot or checkpoint of a run" : strerror(errno));
+        return NULL;
+    }
+    /* A bed that was itself placed particle by particle does not tell its number here: the spec must. */
+    if (problem_list_init(&none) && job_spec_parse(NULL, origin, 0, &made_by, &none)) {
+        *particles = (double)made_by.drum.particle_count;
+        job_spec_clear(&made_by);
+    }
+    problem_list_clear(&none);
+    return origin;
+}
+
+const start_source start_files = { .find = find_file };
+
+/* --- into the job folder --- */
+
+static bool copy(int from, int to)
+{
+    char bytes[65536];
+    for (;;) {
+        const ssize_t got = read(from, bytes, sizeof bytes);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return got == 0;
+        for (ssize_t done = 0; done < got;) {
+            const ssize_t written = write(to, bytes + done, (size_t)(got - done));
+            if (written < 0 && errno != EINTR) return false;
+            if (written > 0) done += written;
+        }
+    }
+}
+
+/* Never changed once written, so that a second name for the same file is as good as a copy. */
+bool start_file_bring(const char *path)
+{
+    if (access(JOB_START_FILE, F_OK) == 0 || link(path, JOB_START_FILE) == 0) return true;
+    const int from = open(path, O_RDONLY | O_CLOEXEC),
+              to = open(JOB_START_FILE ".tmp", O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    bool good = from >= 0 && to >= 0 && copy(from, to);
+    if (from >= 0) close(from);
+    if (to >= 0) good = close(to) == 0 && good;
+    if (good) return file_publish(JOB_START_FILE);
+    worker_warn("can't bring %s here as %s: %s", path, JOB_START_FILE, strerror(errno));
+    return false;
+}
+
+/* --- into the scene --- */
+
+typedef struct snapshot_arrays {
+    float *position, *velocity, *spin, *orientation; /* (n,3), orientation (n,4) or NULL */
+    int32_t *species, *cluster;                      /* (n) */
+    size_t count;
+    double turned; /* rad */
+} snapshot_arrays;
+
+static void *read_column(hid_t file, const char *path, hid_t memory, size_t size, size_t count, bool *good)
+{
+    void *data = *good ? calloc(count ? count : 1, size) : NULL;
+    *good = *good && data && hdf_read_exactly(file, path, memory, count, data);
+    return data;
+}
+
+static bool read_snapshot(hid_t file, snapshot_arrays *s)
+{
+    size_t columns;
+    bool good = hdf_read_extent(file, "/VTKHDF/Points", &s->count, &columns) && columns == 3 && s->count < INT32_MAX;
+    s->position = read_column(file, "/VTKHDF/Points", H5T_NATIVE_FLOAT, sizeof(float), 3 * s->count, &good);
+    s->velocity = read_column(file, "/VTKHDF/PointData/velocity", H5T_NATIVE_FLOAT, sizeof(float), 3 * s->count, &good);
+    s->spin = read_column(file, "/VTKHDF/PointData/angular_velocity", H5T_NATIVE_FLOAT, sizeof(float), 3 * s->count, &good);
+    s->species = read_column(file, "/VTKHDF/PointData/species", H5T_NATIVE_INT32, sizeof(int32_t), s->count, &good);
+    s->cluster = read_column(file, "/VTKHDF/PointData/cluster", H5T_NATIVE_INT32, sizeof(int32_t), s->count, &good);
+    if (good && is_there(file, "/VTKHDF/PointData/orientation"))
+        s->orientation = read_column(file, "/VTKHDF/PointData/orientation", H5T_NATIVE_FLOAT, sizeof(float), 4 * s->count, &good);
+    return good && hdf_read_exactly(file, "/VTKHDF/FieldData/drum_angle", H5T_NATIVE_DOUBLE, 1, &s->turned);
+}
+
+static void snapshot_clear(snapshot_arrays *s)
+{
+    free(s->position);
+    free(s->velocity);
+    free(s->spin);
+    free(s->orientation);
+    free(s->species);
+    free(s->cluster);
+}
+
+/* The particle that sphere i, the first of its own, is or is a part of: from the sphere's place, velocity and turn. */
+static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const dem_species *species)
+{
+    dem_placed_particle p = { .orientation = { 1, 0, 0, 0 }, .species = s->species[i] };
+    double r[3] = { 0 };
+    for (int c = 0; c < 3; c++) {
+        p.position[c] = (double)s->position[3 * i + (size_t)c];
+        p.velocity[c] = (double)s->velocity[3 * i + (size_t)c];
+        p.angular_velocity[c] = (double)s->spin[3 * i + (size_t)c];
+    }
+    if (species->cluster.sphere_count == 0) return p;
+    for (int c = 0; c < 4; c++) p.orientation[c] = s->orientation ? (double)s->orientation[4 * i + (size_t)c] : p.orientation[c];
+    dem_turn(p.orientation, species->cluster.sphere[0].position, r);
+    const double *w = p.angular_velocity;
+    for (int c = 0; c < 3; c++) {
+        const int d = (c + 1) % 3, e = (c + 2) % 3;
+        p.position[c] -= r[c];
+        p.velocity[c] -= w[d] * r[e] - w[e] * r[d];
+    }
+    return p;
+}
+
+static dem_status place_snapshot(const snapshot_arrays *s, const dem_drum_definition *drum, dem_scene *scene)
+{
+    dem_placed_particle *particles = calloc(s->count ? s->count : 1, sizeof *particles);
+    size_t count = 0;
+    if (!particles) return DEM_NO_MEMORY;
+    dem_status status = DEM_OK;
+    for (size_t i = 0; i < s->count && status == DEM_OK; i++) {
+        if (i > 0 && s->cluster[i] == s->cluster[i - 1]) continue; /* a cluster's spheres stand together */
+        const bool known = s->species[i] >= 0 && (size_t)s->species[i] < drum->species_count;
+        if (known) particles[count++] = particle_of(s, i, &drum->species[s->species[i]]);
+        else status = DEM_STATE_MISMATCH;
+    }
+    if (status == DEM_OK) status = dem_scene_place(scene, particles, count, s->turned);
+    free(particles);
+    return status;
+}
+
+static dem_status start_from_file(const job_spec *spec, dem_scene *scene)
+{
+    const hid_t file = H5Fopen(JOB_START_FILE, H5F_ACC_RDONLY, H5P_DEFAULT);
+    dem_status status = DEM_STATE_MISMATCH;
+    if (file < 0) {
+        worker_warn("%s, from which the run is to start, can't be opened", JOB_START_FILE);
+        return status;
+    }
+    if (is_there(file, "state")) {
+        dem_state state;
+        if (checkpoint_read_state(file, &state)) status = dem_scene_continue(scene, &state);
+        checkpoint_clear_state(&state);
+    } else {
+        snapshot_arrays snapshot = { .count = 0 };
+        if (read_snapshot(file, &snapshot)) status = place_snapshot(&snapshot, &spec->drum, scene);
+        snapshot_clear(&snapshot);
+    }
+    H5Fclose(file);
+    if (status == DEM_STATE_MISMATCH) worker_warn("%s is not whole, or not a rotating bed of these particles", JOB_START_FILE);
+    return status;
+}
+
+static dem_status start_from_list(const start_inputs *start, dem_scene *scene)
+{
+    dem_placed_particle *particles = calloc(start->particle_count, sizeof *particles);
+    if (!particles) return DEM_NO_MEMORY;
+    for (size_t p = 0; p < start->particle_count; p++) {
+        const start_particle *from = &start->particles[p];
+        particles[p] = (dem_placed_particle){ .orientation = { 1, 0, 0, 0 }, .species = (int32_t)from->species };
+        memcpy(particles[p].position, from->position, sizeof from->position);
+        memcpy(particles[p].velocity, from->velocity, sizeof from->velocity);
+        memcpy(particles[p].angular_velocity, from->angular_velocity, sizeof from->angular_velocity);
+        if (!isnan(from->orientation[0])) memcpy(particles[p].orientation, from->orientation, sizeof from->orientation);
+    }
+    const dem_status status = dem_scene_place(scene, particles, start->particle_count, 0.0);
+    free(particles);
+    return status;
+}
+
+dem_status start_scene(const job_spec *spec, dem_scene *scene)
+{
+    const start_inputs *start = &spec->inputs.start;
+    return start->particle_count ? start_from_list(start, scene) : start_from_file(spec, scene);
+}

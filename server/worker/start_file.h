@@ -1,0 +1,19 @@
+/* Starting from a bed that was made before: start.hdf in the job folder, a snapshot or a checkpoint of another run, or the
+ * particles that the spec itself has. */
+#ifndef START_FILE_H
+#define START_FILE_H
+
+#include "dem.h"
+#include "job_spec.h"
+
+/* Knows the beds of files that a spec names; of jobs it knows nothing, and takes them for good. */
+extern const start_source start_files;
+
+/* The file that the spec names as start.hdf of the job folder, which is the working directory: linked, or copied. path:
+ * absolute. False: logged. */
+bool start_file_bring(const char *path);
+
+/* A new scene's particles. DEM_STATE_MISMATCH: the file is not there, not whole, or of other particles (logged). */
+dem_status start_scene(const job_spec *spec, dem_scene *scene);
+
+#endif
