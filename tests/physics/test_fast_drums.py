@@ -18,7 +18,11 @@ def fast(omega2, revolutions=16, **inputs):
 
 
 def fallen_and_lag(result):
-    return result["regime"]["evidence"]["fallen_fraction"], result["regime"]["evidence"]["surface_lag"]
+    """Both of the last four revolutions, as the other code has them; a result's own lag is the mean over its whole window."""
+    samples = result["samples"]
+    turn = 2 * math.pi / math.sqrt(result["regime"]["omega2_outer"] * 9.81 / 0.063)
+    late = [s["surface_lag"] for s in samples if s["time"] > samples[-1]["time"] - 4 * turn]
+    return result["regime"]["evidence"]["fallen_fraction"], sum(late) / len(late)
 
 
 def test_below_the_boundary_it_rains(record, drums):
