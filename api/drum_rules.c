@@ -191,7 +191,6 @@ static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_
         .rotation_rate = inputs->rotation_rate,
         .gravity = inputs->gravity,
         .is_placed = !isnan(inputs->start.given),
-        .corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes,
         .seed = isnan(inputs->seed) ? 0 : (uint64_t)inputs->seed,
         .threads = isnan(inputs->threads) ? 1 : (int)inputs->threads,
     };

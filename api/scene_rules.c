@@ -249,4 +249,5 @@ void scene_set_common(job_spec *spec)
     spec->sample_interval = inputs->sample_interval;
     spec->snapshot_interval = inputs->snapshot_interval;
     spec->threads = spec->drum.threads;
+    spec->drum.corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes;
 }

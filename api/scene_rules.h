@@ -27,7 +27,7 @@ void scene_check_size_ratio(const dem_drum_definition *scene, problem_list *prob
 void scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems);
 /* Steps, samples and snapshots, once all else is derived. duration: pointer to the input that bounds the run. */
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems);
-/* What is kept beside the scene itself: intervals, threads. */
+/* What is kept beside the scene itself: intervals, threads; and how it is stepped. */
 void scene_set_common(job_spec *spec);
 
 #endif

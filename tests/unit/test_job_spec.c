@@ -577,6 +577,11 @@ static void corrector_passes_are_one_unless_asked_for(void **state)
     spec = parse_or_fail(minimal_with("integration", "{\"corrector_passes\": 3}"));
     assert_int_equal(spec.drum.corrector_passes, 3);
     job_spec_clear(&spec);
+    spec =
+        parse_or_fail(load("{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.03}, \"plate\": {\"diameter\": 0.06},"
+                           " \"particles\": [{\"diameter\": 0.003}], \"integration\": {\"corrector_passes\": 2}}}"));
+    assert_int_equal(spec.drum.corrector_passes, 2);
+    job_spec_clear(&spec);
     expect_problem("integration", "{\"corrector_passes\": 0}", "/inputs/integration/corrector_passes: is 0; must be in [1, 10]\n");
 }
 
