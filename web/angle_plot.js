@@ -59,11 +59,11 @@ function axes(x, y, times, angles, width) {
     ticks(...times, width > 500 ? 8 : 4).map(time => [
       svg('line', { x1: x(time), x2: x(time), y1: bottom, y2: bottom + 4 }),
       svg('text', { x: x(time), y: bottom + 17, 'text-anchor': 'middle' }, `${time}`)]).flat(),
-    svg('text', { x: width - RIGHT, y: HEIGHT - 4, 'text-anchor': 'end' }, 'time since rotation began, s'));
+    svg('text', { x: width - RIGHT, y: HEIGHT - 4, 'text-anchor': 'end' }, 'time since the test began, s'));
 }
 
 function measuringWindow(repose, x, y, times) {
-  if (!repose || typeof repose.angle_deg !== 'number') return null;
+  if (!repose?.window || typeof repose.angle_deg !== 'number') return null; // of a heap only the last state counts
   const from = x(Math.max(repose.window?.start ?? times[0], times[0]));
   const to = x(Math.min(repose.window?.end ?? times[1], times[1]));
   const error = repose.standard_error_deg ?? 0;

@@ -73,6 +73,12 @@ export function inputsInWords(summary) {
   }
   if (has('radius')) add(`R ${millimetres(summary.radius)}`, 'radius of the particle’s circle');
   if (has('drum_diameter')) add(`drum Ø ${millimetres(summary.drum_diameter)}`, 'inner diameter of the drum');
+  if (has('cylinder_diameter')) add(`cylinder Ø ${millimetres(summary.cylinder_diameter)}`, 'inner diameter of the cylinder');
+  if (has('impact_speed')) add(`${significant(summary.impact_speed)} m/s`, 'speed of impact on the bed');
+  if (has('rate')) add(`${significant(summary.rate)} a second`, 'particles that enter a second');
+  if (has('tube_diameter')) add(`tube Ø ${millimetres(summary.tube_diameter)}`, 'inner diameter of the tube');
+  if (has('lift_speed')) add(`${significant(1e3 * summary.lift_speed)} mm/s`, 'speed at which the tube is raised');
+  if (has('plate_diameter')) add(`plate Ø ${millimetres(summary.plate_diameter)}`, 'diameter of the plate');
   if (has('particles') && summary.species > 1)
     add(`${count(summary.particles)} of ${summary.species} kinds`, 'particles of several kinds');
   else if (has('particles') && has('diameter'))

@@ -75,7 +75,7 @@ function showAnswer(cell, job) {
   replaceIfChanged(cell, [words, fill_fraction, steady, job.status], () => {
     if (words === null) return nothing();
     const isAngle = typeof angle_deg === 'number';
-    return [isAngle ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
+    return [isAngle && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
       h('span', { class: 'value', title: isAngle ? 'angle of repose' : 'least rate that keeps the particle on the wall' }, words,
         isAngle ? null : h('small', { class: 'quiet' }, `ω²R/g ${significant(minimum_omega2, 4)}`),
         steady === false ? h('small', null, 'not steady') : null)];

@@ -1,7 +1,7 @@
 // The results of a run in readable form. Fields known by name get a wording; a field added later shows
 // under its own name rather than not at all.
 import { h } from './dom.js';
-import { count, degrees, duration, percent, significant } from './format.js';
+import { count, degrees, duration, millimetres, percent, significant } from './format.js';
 import { drumPicture } from './drum_picture.js';
 
 const METHODS = {
@@ -11,6 +11,13 @@ const METHODS = {
   'theil-sen': 'Theil-Sen line through the tops of columns',
   'upper-chord': 'upper half of the chord alone',
   'lower-chord': 'lower half of the chord alone',
+  'azimuthal-fit': 'line through the flank between 80 and 20 % of the height, over azimuths',
+  'apex-to-base': 'cone of the height and the base',
+  'equal-volume-cone': 'cone of the volume and the base',
+  'silhouette': 'triangle of the outline’s area and base, from all sides',
+  'radial-fit': 'line through the surface between 20 and 80 % of the radius, over azimuths',
+  'center-to-wall': 'from the middle to the wall',
+  'area-fit': 'line through the whole surface',
 };
 
 const micro = metres => `${significant(1e6 * metres)} µm`;
@@ -51,6 +58,11 @@ const WORDS = {
   period: ['period', value => `${significant(value)} s`], period_standard_error: ['its error', value => `${significant(value)} s`],
   start_standard_error_deg: ['its error', degrees], stop_standard_error_deg: ['its error', degrees],
   size_standard_error_deg: ['its error', degrees],
+  height: ['height', millimetres], center_height: ['height in the middle', millimetres], wall_height: ['height at the wall', millimetres],
+  base_diameter: ['base', value => `${millimetres(value)} across`],
+  volume: ['volume', value => `${significant(1e6 * value)} cm³`],
+  static_cohesive_index: ['static cohesive index', micro], azimuths: ['azimuths', count],
+  inside: ['in the bed', count], apart: ['apart from it', count], lost: ['lost', count], waiting: ['never entered', count],
   airborne_fraction: ['airborne', percent], wall_coverage: ['wall covered', percent],
   fallen_fraction: ['lately fallen', percent],
 };
@@ -79,7 +91,7 @@ export function section(title, object, ...extra) {
   return h('section', null, h('h3', null, title), ...extra, facts(plain));
 }
 
-function angleTable(repose) {
+export function angleTable(repose) {
   const errors = repose.other_methods_standard_error_deg ?? {};
   const rows = [[repose.method, repose.angle_deg, repose.standard_error_deg],
     ...Object.entries(repose.other_methods ?? {})

@@ -14,6 +14,7 @@ from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
+from test_heap_and_fill import SPECS
 
 FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
          "--disable-background-networking", "--disable-component-update", "--disable-sync",
@@ -112,6 +113,28 @@ def test_a_job_is_followed_to_its_angle(daemon, browser):
     assert requests.get(snapshot.get_attribute("href")).content[:4] == b"\x89HDF"
     browser.refresh()  # the opened row is part of the view in the URL
     until(browser, lambda b: find(b, f"#detail-{job} .answer strong").is_displayed())
+
+
+@pytest.mark.parametrize("process, words", [("heap", ("tube Ø 20 mm", "50 mm/s", "plate Ø 36 mm", "μ 0.5")),
+                                            ("fill", ("cylinder Ø 30 mm", "0.9 m/s", "800 a second", "μ 0.3"))])
+def test_heaps_and_fills_show_their_angles(daemon, browser, process, words):
+    answer = requests.post(f"{daemon.url}/processes/{process}/execution", timeout=30, json={"inputs": SPECS[process]})
+    job = answer.json()["jobID"]
+    assert daemon.ended(job)["status"] == "successful"
+    browser.get(daemon.url)
+    row = row_of(browser, job)
+    results = daemon.get(f"/jobs/{job}/results").json()
+    repose = results["repose"]
+    # shown with the digits that its error leaves
+    assert float(re.match(r"[\d.]+", find(row, ".angle .value").text)[0]) == pytest.approx(repose["angle_deg"], abs=0.5)
+    inputs = find(row, "td.inputs").text
+    assert all(word in inputs for word in words) and "drum" not in inputs
+    find(row, ".opener").click()
+    shown = until(browser, lambda b: find(b, f"#detail-{job} .answer").text)
+    assert "16 azimuths" in shown and "at rest" in shown and {"heap": "lost", "fill": "while the stream ran"}[process] in shown
+    until(browser, lambda b: find(b, f"#detail-{job} .plot .line"))
+    methods = {cell.text.splitlines()[0] for cell in find_all(browser, ".methods tbody th")}
+    assert methods == {repose["method"], *repose["other_methods"]}
 
 
 def test_a_granule_shows_its_least_rate(daemon, browser):

@@ -1,0 +1,35 @@
+// The results of a heap and of a filled cylinder in readable form.
+import { h } from './dom.js';
+import { degrees, millimetres, percent } from './format.js';
+import { angleTable, section } from './results.js';
+
+function steepness(repose) {
+  return [h('strong', null, degrees(repose.angle_deg, repose.standard_error_deg)),
+    h('span', null, repose.angle_deg === null ? 'too few particles for an angle'
+      : `from ${degrees(repose.minimum_deg)} to ${degrees(repose.maximum_deg)} over ${repose.azimuths} azimuths`)];
+}
+
+export function heapAnswer({ repose = {}, surface = {}, heap = {} }) {
+  return h('section', { class: 'answer' }, h('p', null, ...steepness(repose),
+    h('span', null, `${millimetres(surface.height)} high on a base of ${millimetres(surface.base_diameter)}`),
+    h('span', null, [heap.lost ? `${heap.lost} particles lost from the plate` : 'nothing lost',
+      heap.at_rest ? 'at rest' : 'not at rest yet'].join(', '))));
+}
+
+export function fillAnswer({ repose = {}, packing = {}, fill = {} }) {
+  const before = repose.while_filling ?? {};
+  return h('section', { class: 'answer' }, h('p', null, ...steepness(repose),
+    before.angle_deg === null ? null
+      : h('span', null, `${degrees(before.angle_deg, before.standard_error_deg)} while the stream ran`),
+    packing.solid_fraction === null ? null : h('span', null, `${percent(packing.solid_fraction)} solid in the core`),
+    h('span', null, fill.at_rest ? 'at rest' : 'not at rest yet')));
+}
+
+const OUTPUTS = { surface: 'Surface', packing: 'Packing', heap: 'Particles', fill: 'Particles', run: 'Run' };
+
+export function standingInWords({ repose = {}, ...others }) {
+  return h('div', { class: 'results' },
+    section('Angle', { azimuths: repose.azimuths }, angleTable(repose)),
+    repose.while_filling ? section('While the stream ran', repose.while_filling) : null,
+    Object.entries(others).map(([name, value]) => section(OUTPUTS[name] ?? name, value)));
+}
