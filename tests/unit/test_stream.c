@@ -1,6 +1,7 @@
 /* Claims about the stream that fills a cylinder: who enters when, where and how fast, and that it can be taken up again. */
 #include "dem_cluster.h"
 #include "dem_stream.h"
+#include "grounded.h"
 #include "scene.h"
 #include "small_drum.h"
 
@@ -170,6 +171,27 @@ static void a_fill_has_the_same_bits_for_any_threads_and_after_a_restart(void **
     }
 }
 
+/* A tower of three on the floor, the third a twentieth of a grain above the second, and one a grain above it in flight. */
+static void what_rests_on_the_floor_is_told_from_what_falls(void **state)
+{
+    (void)state;
+    dem_drum_definition d = small_fill(4, 1e6);
+    d.stream.diameter = 0.03;
+    stiffen(&d);
+    dem_scene *scene = drum_scene(&d);
+    while (dem_scene_particle_count(scene) < 4) run(scene, 1);
+    const double r = 0.0015, height[4] = { 8.15 * r, r, 3 * r, 5.1 * r };
+    for (size_t p = 0; p < 4; p++) sphere_set_place(&scene->spheres, p, (double[3]){ 0.001, 0.002, height[p] });
+    bool is_grounded[4];
+    assert_int_equal(grounded_find(scene, 2 * r, is_grounded), DEM_OK);
+    assert_true(!is_grounded[0] && is_grounded[1] && is_grounded[2] && is_grounded[3]);
+    /* Without the second nothing holds the third. */
+    sphere_set_place(&scene->spheres, 2, (double[3]){ 0.008, 0.002, 3 * r });
+    assert_int_equal(grounded_find(scene, 2 * r, is_grounded), DEM_OK);
+    assert_true(is_grounded[1] && !is_grounded[0] && !is_grounded[2] && !is_grounded[3]);
+    dem_scene_free(scene);
+}
+
 static void streams_that_make_no_sense_are_refused(void **state)
 {
     (void)state;
@@ -194,6 +216,7 @@ int main(void)
         cmocka_unit_test(nobody_enters_into_another_and_all_arrive),
         cmocka_unit_test(species_come_mixed_in_proportion),
         cmocka_unit_test(a_fill_has_the_same_bits_for_any_threads_and_after_a_restart),
+        cmocka_unit_test(what_rests_on_the_floor_is_told_from_what_falls),
         cmocka_unit_test(streams_that_make_no_sense_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
