@@ -2,35 +2,29 @@
 
 #include "contact_block.h"
 
-/* Order of a sphere's row behind its place. */
-enum { RADIUS = 0, VELOCITY = 1, R_OMEGA = 4, OMEGA = 7 };
-
-static void gather_spheres(contact_block *restrict block, const sphere_row *restrict row, const int32_t *restrict first,
-                           const int32_t *restrict second, const container *drum)
+static void gather_spheres(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
+                           const int32_t *restrict second)
 {
-    /* of two rows: sums, but for the velocity, of which the difference */
-    static const float sign[16] = { [7] = -0.0f, -0.0f, -0.0f };
-    const wide_double period = wide_double_all(drum->period), inverse_period = wide_double_all(drum->inverse_period);
+    double unit[3];
+    spheres_ring_unit(s, unit);
     for (int k = 0; k < BLOCK; k += LANES) {
-        wide sum[ROW_NUMBERS];
-        wide_double dx[HALVES], dy[HALVES], dz[HALVES], d2[HALVES], gap2[HALVES], radii[HALVES];
-        wide_row_sums(row, sizeof *row, first + k, second + k, sign, sum);
-        wide_to_doubles(sum[RADIUS], radii);
+        wide_pairs pairs;
+        wide_double radii[HALVES], d2[HALVES], gap2[HALVES];
+        wide_row_pairs(s->row, first + k, second + k, unit, &pairs);
+        wide_to_doubles(pairs.radii, radii);
         for (int h = 0; h < HALVES; h++) {
-            wide_place_differences(row, sizeof *row, first + k + 8 * h, second + k + 8 * h, &dx[h], &dy[h], &dz[h]);
-            dz[h] -= period * wide_double_rint(dz[h] * inverse_period);
-            d2[h] = wide_double_fused(dz[h], dz[h], wide_double_fused(dy[h], dy[h], dx[h] * dx[h]));
+            const wide_double x = pairs.x[0][h], y = pairs.x[1][h], z = pairs.x[2][h];
+            d2[h] = wide_double_fused(z, z, wide_double_fused(y, y, x * x));
             gap2[h] = wide_double_fused(radii[h], radii[h], -d2[h]);
         }
-        const wide d[3] = { wide_from_doubles(dx), wide_from_doubles(dy), wide_from_doubles(dz) };
-        store_vector(block->n, k, d);
+        store_vector(block->n, k, pairs.n);
         wide_store(block->distance2 + k, wide_from_doubles(d2));
         wide_store(block->gap2 + k, wide_from_doubles(gap2));
-        wide_store(block->reach + k, sum[RADIUS]);
-        wide_store(block->radii + k, sum[RADIUS]);
-        store_vector(block->v, k, sum + VELOCITY);
-        store_vector(block->r_omega, k, sum + R_OMEGA);
-        store_vector(block->omega, k, sum + OMEGA);
+        wide_store(block->reach + k, pairs.radii);
+        wide_store(block->radii + k, pairs.radii);
+        store_vector(block->v, k, pairs.v);
+        store_vector(block->r_omega, k, pairs.r_omega);
+        store_vector(block->omega, k, pairs.omega);
     }
 }
 
@@ -69,80 +63,63 @@ static void displacements(contact_block *restrict block, real time_step)
     }
 }
 
-/* f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
- * spheres grow, radii are below full size, but then there is no friction, hence no moment.) */
-static void write_rows(const contact_block *restrict block, const real *restrict first_radius, contact_row *restrict row)
+/* f on the first = T - N n, and n x f = n x T. */
+static void write_rows(const contact_block *restrict block, contact_row *restrict row)
 {
     const wide half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide t[3] = { wide_load(block->force[0] + k), wide_load(block->force[1] + k), wide_load(block->force[2] + k) };
-        const wide f_n = -wide_load(block->f_n + k), less = half * wide_load(block->overlap + k);
-        const wide r_first = wide_load(first_radius + k);
-        const wide r_a = r_first - less, r_b = wide_load(block->radii + k) - r_first - less;
+        const wide f_n = -wide_load(block->f_n + k);
         wide f[3], q[3];
         for (int c = 0; c < 3; c++) {
             f[c] = wide_fused(f_n, n[c], t[c]);
             q[c] = cross(n, t, c);
         }
-        const wide on_first[3] = { r_a * q[0], r_a * q[1], r_a * q[2] }, on_second[3] = { r_b * q[0], r_b * q[1], r_b * q[2] };
-        wide_store_ends((real *)(row + k), f, on_first, on_second);
+        wide_store_rows(row + k, f, half * wide_load(block->overlap + k), q);
     }
 }
 
-static wide block_largest_overlap(const contact_block *block, real *restrict overlap)
+static void keep_overlaps(const contact_block *restrict block, real *restrict overlap, wide *largest)
 {
-    wide largest = wide_all(0);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide here = wide_load(block->overlap + k);
         wide_store(overlap + k, here);
-        largest = wide_greater(largest, here);
+        *largest = wide_greater(*largest, here);
     }
-    return largest;
 }
 
-static double largest_lane(wide x)
-{
-    double largest = 0.0;
-    for (int k = 0; k < LANES; k++) largest = (double)x[k] > largest ? (double)x[k] : largest;
-    return largest;
-}
-
-double contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
-                            bool is_wall, double dt)
+void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact, bool is_wall,
+                          double dt, wide *largest)
 {
     normals(block);
     displacements(block, (real)dt);
     if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
-    write_rows(block, list->first_radius + start, list->row + start);
-    return largest_lane(block_largest_overlap(block, list->overlap + start));
+    write_rows(block, list->row + start);
+    keep_overlaps(block, list->overlap + start, largest);
 }
 
-double contact_forces_between_spheres(contact_list *pairs, const spheres *s, const container *drum,
-                                      const dem_contact_parameters *contact, double dt, int threads)
+double contact_forces_between_spheres(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact, double dt,
+                                      int threads)
 {
     double largest = 0.0;
-    const size_t count = round_up_to_block(pairs->count);
+    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
 #pragma omp parallel for schedule(static) reduction(max : largest) num_threads(threads) if (threads > 1)
-    for (size_t start = 0; start < count; start += BLOCK) {
-        contact_block block;
-        gather_spheres(&block, s->row, pairs->first + start, pairs->second + start, drum);
-        largest = fmax(largest, contact_block_forces(pairs, start, &block, contact, false, dt));
+    for (int part = 0; part < threads; part++) {
+        wide largest_here = wide_all(0);
+        for (size_t b = part_start(blocks, part, threads); b < part_start(blocks, part + 1, threads); b++) {
+            contact_block block;
+            gather_spheres(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
+            contact_block_forces(pairs, b * BLOCK, &block, contact, false, dt, &largest_here);
+        }
+        largest = fmax(largest, wide_largest_lane(largest_here));
     }
     return largest;
 }
 
-void contact_forces_sum(const neighbor_list *list, spheres *s, int threads)
+void contact_forces_sum(const neighbor_list *list, spheres *s, size_t from, int threads)
 {
-    const row8 *restrict end = list->rows->end;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        row8 load = { 0 };
-        /* Whole groups, the last filled up with rows of zeros: almost every sphere has one group, so that the
-         * processor foresees the end of the loop. */
-        for (size_t k = list->ends_start[i]; k < list->ends_start[i + 1]; k += ENDS_A_GROUP)
-            for (size_t m = 0; m < ENDS_A_GROUP; m++) load += end[list->ends[k + m]];
-        s->load[i] = load;
-    }
+    for (size_t i = from; i < s->mobile_count; i++) s->load[i] = contact_forces_of(list, i, s->row[i].radius);
 }

@@ -11,10 +11,10 @@
 #include "dem_types.h"
 #include "wide.h"
 
-/* What a contact gives to its two spheres, ready to be added: force N, 0, torque N m, 0. */
-typedef struct contact_row {
-    row8 end[2]; /* on the first, on the second */
-} contact_row;
+/* What a contact gives to both its spheres: f on the first (N), half the overlap (m), n x f (N), 0. The second has -f; the
+ * moment about either centre is its lever, radius less half the overlap, times n x f. */
+typedef row8 contact_row;
+enum { ROW_HALF_OVERLAP = 3 };
 
 typedef struct contact_list {
     size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */

@@ -189,15 +189,10 @@ void container_turn_lining(const container *drum, spheres *s)
 {
     const double c = cos(drum->angle), sine = sin(drum->angle);
     for (size_t k = 0; k < s->lining_count; k++) {
-        sphere_row *row = &s->row[s->mobile_count + k];
         const vector4 place = s->lining_place[k];
-        row->x[0] = c * place[0] - sine * place[1];
-        row->x[1] = sine * place[0] + c * place[1];
-        row->x[2] = place[2];
-        row->v[0] = (real)(-drum->rotation_rate * row->x[1]);
-        row->v[1] = (real)(drum->rotation_rate * row->x[0]);
-        row->omega[2] = (real)drum->rotation_rate;
-        row->r_omega[2] = row->radius * row->omega[2];
+        const vector4 x = { c * place[0] - sine * place[1], sine * place[0] + c * place[1], place[2] };
+        sphere_set(s, s->mobile_count + k, x, (vector4){ -drum->rotation_rate * x[1], drum->rotation_rate * x[0] },
+                   (vector4){ 0, 0, drum->rotation_rate });
     }
 }
 

@@ -18,8 +18,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s)
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
     list->ends_start = array_create(n + 1, sizeof *list->ends_start);
-    list->ends_filled = array_create(n, sizeof *list->ends_filled);
-    bool enough = list->start && list->built_at && list->picked_velocity && list->ends_start && list->ends_filled;
+    list->ends_second = array_create(n + 1, sizeof *list->ends_second);
+    bool enough = list->start && list->built_at && list->picked_velocity && list->ends_start && list->ends_second;
     contact_list *const all[] = { &list->pairs, &list->pairs_before, &list->walls, &list->walls_before };
     for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n) == DEM_OK && enough;
     if (enough) return DEM_OK;
@@ -38,7 +38,7 @@ void neighbor_list_clear(neighbor_list *list)
     free(list->picked_velocity);
     free(list->rows);
     free(list->ends_start);
-    free(list->ends_filled);
+    free(list->ends_second);
     free(list->ends);
     cell_grid_clear(&list->grid);
     contact_list_clear(&list->pairs);
@@ -69,8 +69,6 @@ static inline double squared_distance(const double a[3], const double b[3], doub
     const double dx = b[0] - a[0], dy = b[1] - a[1], dz = wrap_axial(b[2] - a[2], period, inverse_period);
     return dx * dx + dy * dy + dz * dz;
 }
-
-static inline vector4 place_of(const sphere_row *row) { return (vector4){ row->x[0], row->x[1], row->x[2] }; }
 
 static void sort_ascending(int32_t *x, size_t count)
 {
@@ -131,7 +129,7 @@ static dem_status outer_part(neighbor_list *list, const spheres *s, int which, i
     for (size_t i = from; i < to; i++) {
         const dem_status status = append_neighbors(&list->part[which], s, &list->grid, i, list->skin, &list->start[i + 1]);
         if (status != DEM_OK) return status;
-        list->built_at[i] = place_of(&s->row[i]);
+        list->built_at[i] = s->place[i];
     }
     return DEM_OK;
 }
@@ -207,7 +205,7 @@ static outlook outlook_measure(const neighbor_list *list, const spheres *s, cons
     double displacement2 = 0.0, speed2 = 0.0;
     for (size_t i = 0; i < s->mobile_count; i++) {
         const vector4 v = s->velocity[i];
-        const double moved2 = squared_distance((const double *)&list->built_at[i], s->row[i].x, drum->period, drum->inverse_period);
+        const double moved2 = squared_distance((const double *)&list->built_at[i], sphere_place(s, i), drum->period, drum->inverse_period);
         const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         displacement2 = moved2 > displacement2 ? moved2 : displacement2;
         speed2 = v2 > speed2 ? v2 : speed2;
@@ -231,25 +229,14 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
 /* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths? Along the line
  * of centres now, the distance is never less than gap + duration * (parting speed): a bound from below. In contact
  * arithmetic, whose rounding `margin` is widened for. */
-static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, const container *drum,
-                               real duration)
+static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, const double unit[3], real duration)
 {
-    static const float sign[16] = { [7] = -0.0f, -0.0f, -0.0f };
-    const int32_t *first = list->first + pair, *second = list->second + pair;
-    const wide_double period = wide_double_all(drum->period), inverse_period = wide_double_all(drum->inverse_period);
-    wide sum[ROW_NUMBERS];
-    wide_double x[HALVES], y[HALVES], z[HALVES];
-    wide_row_sums(s->row, sizeof *s->row, first, second, sign, sum);
-    for (int h = 0; h < HALVES; h++) {
-        wide_place_differences(s->row, sizeof *s->row, first + 8 * h, second + 8 * h, &x[h], &y[h], &z[h]);
-        z[h] -= period * wide_double_rint(z[h] * inverse_period);
-    }
-    const wide dx = wide_from_doubles(x), dy = wide_from_doubles(y), dz = wide_from_doubles(z);
-    const wide distance2 = dx * dx + dy * dy + dz * dz, to_unit = wide_inverse_root(distance2);
-    const wide parting = (sum[1] * dx + sum[2] * dy + sum[3] * dz) * to_unit;
+    wide_pairs p;
+    wide_row_pairs(s->row, list->first + pair, list->second + pair, unit, &p);
+    const wide distance2 = wide_dot(p.n, p.n), to_unit = wide_inverse_root(distance2), parting = wide_dot(p.v, p.n) * to_unit;
     const wide nearest = distance2 * to_unit + wide_all(duration) * wide_lesser(parting, wide_all(0));
     /* at full size, also while they grow */
-    const wide radii = sum[0] * wide_all((real)((1 + 4e-6) / s->scale));
+    const wide radii = p.radii * wide_all((real)((1 + 4e-6) / s->scale));
     return wide_mask_bits(wide_exceeds(radii + wide_all((real)(2 * list->margin)), nearest));
 }
 
@@ -257,9 +244,11 @@ static void mark_in_reach(neighbor_list *list, const spheres *s, const container
 {
     const size_t groups = (list->pair_count + LANES - 1) / LANES;
     const wall_outlook ahead = { duration, list->margin };
+    double unit[3];
+    spheres_ring_unit(s, unit);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t g = 0; g < groups; g++)
-        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, drum, (real)duration);
+        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, (real)duration);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t i = 0; i < s->mobile_count; i++) {
         list->walls.start[i + 1] = wall_reach_count(s, drum, ahead, i);
@@ -295,7 +284,7 @@ static dem_status rows_reserve(neighbor_list *list)
     }
     list->pairs.row = list->rows;
     list->walls.row = list->rows + pairs;
-    list->rows[needed - 1] = (contact_row){ .end = { { 0 } } };
+    list->rows[needed - 1] = (contact_row){ 0 };
     return DEM_OK;
 }
 
@@ -310,31 +299,39 @@ static dem_status ends_reserve(neighbor_list *list, size_t count)
     return DEM_OK;
 }
 
-/* Ends in a fixed order: contacts with spheres of lower id, then of higher id, then the wall. */
-static dem_status ends_build(neighbor_list *list, size_t n)
+/* Of a sphere's k-th end on one side, among its ends. */
+static inline uint32_t end_place(uint32_t k) { return k / ENDS_A_SIDE * 2 * ENDS_A_SIDE + k % ENDS_A_SIDE; }
+
+/* For each sphere, in a fixed order: contacts with spheres of lower id; with those of higher id, then walls. */
+static dem_status ends_build(neighbor_list *list, const spheres *s)
 {
     const contact_list *pairs = &list->pairs, *walls = &list->walls;
-    size_t *start = list->ends_start, *filled = list->ends_filled;
-    memset(filled, 0, n * sizeof *filled);
+    const size_t n = s->mobile_count, wall_rows = round_up_to_block(pairs->count);
+    const int32_t zeros = (int32_t)(wall_rows + round_up_to_block(walls->count));
+    size_t *start = list->ends_start;
+    uint32_t *second = list->ends_second;
+    memset(second, 0, n * sizeof *second);
     for (size_t k = 0; k < pairs->count; k++)
-        if ((size_t)pairs->second[k] < n) filled[pairs->second[k]]++;
+        if ((size_t)pairs->second[k] < n) second[pairs->second[k]]++;
     start[0] = 0;
     for (size_t i = 0; i < n; i++) {
-        const size_t ends = filled[i] + (pairs->start[i + 1] - pairs->start[i]) + (walls->start[i + 1] - walls->start[i]);
-        const size_t groups = ends ? (ends + ENDS_A_GROUP - 1) / ENDS_A_GROUP : 1;
-        start[i + 1] = start[i] + groups * ENDS_A_GROUP;
-        filled[i] = start[i];
+        const size_t first = pairs->start[i + 1] - pairs->start[i] + walls->start[i + 1] - walls->start[i];
+        const size_t longer = first > second[i] ? first : second[i], groups = longer ? (longer + ENDS_A_SIDE - 1) / ENDS_A_SIDE : 1;
+        start[i + 1] = start[i] + groups * 2 * ENDS_A_SIDE;
     }
     if (ends_reserve(list, start[n]) != DEM_OK) return DEM_NO_MEMORY;
     int32_t *ends = list->ends;
-    for (size_t k = 0; k < pairs->count; k++)
-        if ((size_t)pairs->second[k] < n) ends[filled[pairs->second[k]]++] = (int32_t)(2 * k + 1);
-    const size_t wall_rows = round_up_to_block(pairs->count), zeros = wall_rows + round_up_to_block(walls->count);
+    for (size_t k = 0; k < start[n]; k++) ends[k] = zeros;
+    memset(second, 0, n * sizeof *second);
+    for (size_t k = 0; k < pairs->count; k++) {
+        const size_t j = (size_t)pairs->second[k];
+        if (j < n) ends[start[j] + end_place(second[j]++)] = (int32_t)k;
+    }
     for (size_t i = 0; i < n; i++) {
-        size_t at = filled[i];
-        for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) ends[at++] = (int32_t)(2 * k);
-        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) ends[at++] = (int32_t)(2 * (wall_rows + k));
-        while (at < start[i + 1]) ends[at++] = (int32_t)(2 * zeros);
+        int32_t *own = ends + start[i] + ENDS_A_SIDE;
+        uint32_t count = 0;
+        for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) own[end_place(count++)] = (int32_t)k;
+        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) own[end_place(count++)] = (int32_t)(wall_rows + k);
     }
     return DEM_OK;
 }
@@ -364,6 +361,8 @@ static void fill_slots_of(neighbor_list *list, const spheres *s, const container
 {
     contact_list *pairs = &list->pairs, *walls = &list->walls;
     const wall_outlook ahead = { duration, list->margin };
+    double unit[3];
+    spheres_ring_unit(s, unit);
     const double own = s->inverse_mass[i];
     for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
         const bool between_mobile = (size_t)pairs->second[k] < s->mobile_count;
@@ -396,7 +395,7 @@ static dem_status inner_pick(neighbor_list *list, const spheres *s, const contai
     list->inner_valid = true;
     list->inner_picks++;
     status = rows_reserve(list);
-    return status == DEM_OK ? ends_build(list, n) : status;
+    return status == DEM_OK ? ends_build(list, s) : status;
 }
 
 dem_status neighbor_list_update(neighbor_list *list, const spheres *s, const container *drum, const dem_contact_parameters *contact,
@@ -425,13 +424,13 @@ void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, c
     for (size_t k = 0; k < list->pairs.count; k++) {
         const int32_t i = list->pairs.first[k], j = list->pairs.second[k];
         const double radii = (double)s->row[i].radius + (double)s->row[j].radius;
-        if (squared_distance(s->row[i].x, s->row[j].x, drum->period, drum->inverse_period) >= radii * radii) continue;
+        if (squared_distance(sphere_place(s, (size_t)i), sphere_place(s, (size_t)j), drum->period, drum->inverse_period) >= radii * radii) continue;
         contacts[i]++;
         if ((size_t)j < s->mobile_count) contacts[j]++;
     }
     for (size_t k = 0; k < list->walls.count; k++) {
         const int32_t i = list->walls.first[k];
         const container_wall *w = &drum->wall[list->walls.second[k]];
-        contacts[i] += wall_seen_from(w, s->row[i].x).distance < (double)s->row[i].radius;
+        contacts[i] += wall_seen_from(w, sphere_place(s, (size_t)i)).distance < (double)s->row[i].radius;
     }
 }

@@ -11,7 +11,7 @@
 #include "contact_list.h"
 #include "container.h"
 
-enum { ENDS_A_GROUP = 8 };
+enum { ENDS_A_SIDE = 4 };
 enum { HORIZON = 24 }; /* steps between two picks of the inner list, at most */
 
 enum { MOST_PARTS = 64 };
@@ -42,10 +42,10 @@ typedef struct neighbor_list {
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
     contact_row *rows;                /* of pairs, then of walls, then one of zeros */
     size_t row_capacity;
-    /* the ends of contacts at each sphere, for its sum: indices into the rows' ends, by id of the other sphere, the
-     * wall last, filled up to whole groups with the row of zeros */
+    /* the rows of each sphere's contacts, for its sum: in groups of ENDS_A_SIDE where it is second, by id of the first,
+     * and as many where it is first, by id of the second, then walls; filled up with the row of zeros */
     size_t *ends_start;  /* (mobile + 1) */
-    size_t *ends_filled; /* (mobile) */
+    uint32_t *ends_second; /* (mobile + 1) contacts in which a sphere is second */
     int32_t *ends;
     size_t ends_capacity;
     int64_t outer_builds, inner_picks;

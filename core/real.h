@@ -13,9 +13,16 @@
 
 #ifdef DEM_DOUBLE
 typedef double real;
+typedef double ring;
 #else
 typedef float real;
+typedef int32_t ring;
 #endif
+/* ring: a coordinate modulo a length, in fixed point of 2^32 parts of it (DEM_DOUBLE: in shares of it). Differences are
+ * exact, and come out as the way round that is shorter: a periodic axis needs nothing more. */
+#define RING_UNITS (sizeof(real) == sizeof(float) ? 4294967296.0 : 1.0)
+/* Adding this to a double leaves its nearest whole number in the lowest bits. */
+#define RING_SHIFT 6755399441055744.0
 
 /* Contacts are computed in blocks of this many: a multiple of every vector width, so that each contact goes
  * through the same instructions wherever it stands in the list, and small enough that a block's intermediate
@@ -23,6 +30,9 @@ typedef float real;
 enum { BLOCK = 64, ALIGNMENT = 64 };
 
 static inline size_t round_up_to_block(size_t count) { return (count + BLOCK - 1) / BLOCK * BLOCK; }
+
+/* Where part k of `parts` begins among `count`. */
+static inline size_t part_start(size_t count, int part, int parts) { return count * (size_t)part / (size_t)parts; }
 
 static inline real greater(real a, real b) { return a > b ? a : b; }
 static inline real lesser(real a, real b) { return a < b ? a : b; }

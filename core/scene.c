@@ -20,6 +20,7 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     scene->rotation_start = -1;
     container_init(&scene->drum, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
+    if (status == DEM_OK) spheres_set_period(&scene->spheres, definition, scene->drum.period);
     if (status == DEM_OK && definition->is_placed) filling_leave_out(&scene->filling, &scene->spheres, definition);
     else if (status == DEM_OK && has_stream(definition)) status = stream_init(scene);
     else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);

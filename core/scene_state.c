@@ -154,17 +154,11 @@ static void restore_spheres(dem_scene *scene, const double *position, const doub
 {
     spheres *s = &scene->spheres;
     const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
+    spheres_set_period(s, &scene->definition, scene->drum.period);
     spheres_set_scale(s, filling_scale(&scene->filling, grown));
     for (size_t i = 0; i < s->mobile_count; i++) {
-        sphere_row *row = &s->row[i];
-        for (size_t c = 0; c < 3; c++) {
-            row->x[c] = position[3 * i + c];
-            s->velocity[i][c] = velocity[3 * i + c];
-            s->angular_velocity[i][c] = spin[3 * i + c];
-            row->v[c] = (real)velocity[3 * i + c];
-            row->omega[c] = (real)spin[3 * i + c];
-            row->r_omega[c] = row->radius * row->omega[c];
-        }
+        const double *x = position + 3 * i, *v = velocity + 3 * i, *w = spin + 3 * i;
+        sphere_set(s, i, (vector4){ x[0], x[1], x[2] }, (vector4){ v[0], v[1], v[2] }, (vector4){ w[0], w[1], w[2] });
         s->fallen_time[i] = fallen[i];
     }
 }

@@ -32,6 +32,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->lining_count = lining_count;
     const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->row = array_create(all + 2, sizeof *s->row);
+    s->place = array_create(all + 2, sizeof *s->place);
     s->species = array_create(n, sizeof *s->species);
     s->full_radius = array_create(all, sizeof *s->full_radius);
     s->velocity = array_create(n, sizeof *s->velocity);
@@ -41,12 +42,11 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->inverse_inertia = array_create(singles, sizeof *s->inverse_inertia);
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
-    if (status != DEM_OK || !s->row || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity || !s->load
+    if (status != DEM_OK || !s->row || !s->place || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity || !s->load
         || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }
-    s->row[sphere_far_away(s)].x[0] = 1e6;
     for (size_t i = 0; i < n; i++) s->fallen_time[i] = -1e300;
     return DEM_OK;
 }
@@ -55,6 +55,7 @@ void spheres_clear(spheres *s)
 {
     clusters_clear(&s->clusters);
     free(s->row);
+    free(s->place);
     free(s->species);
     free(s->full_radius);
     free(s->velocity);
@@ -65,6 +66,27 @@ void spheres_clear(spheres *s)
     free(s->fallen_time);
     free(s->lining_place);
     memset(s, 0, sizeof *s);
+}
+
+static double largest_sphere(const dem_drum_definition *definition)
+{
+    double largest = definition->lining.diameter;
+    for (size_t k = 0; k < definition->species_count; k++) {
+        const dem_species *species = &definition->species[k];
+        if (species->cluster.sphere_count == 0) largest = fmax(largest, species->diameter);
+        for (size_t m = 0; m < species->cluster.sphere_count; m++) largest = fmax(largest, species->cluster.sphere[m].diameter);
+    }
+    return largest;
+}
+
+void spheres_set_period(spheres *s, const dem_drum_definition *definition, double period)
+{
+    /* Listed pairs stay within two diameters: half a ring is twice that. */
+    const double least = 8 * largest_sphere(definition), along = period > 0 ? period / fmax(1, floor(period / least)) : least;
+    s->ring_units = (vector4){ RING_UNITS / least, RING_UNITS / least, RING_UNITS / along };
+    const vector4 nothing = { 0 }, half_way_round = { 0.49 * RING_UNITS };
+    sphere_row_store(&s->row[sphere_of_zeros(s)], nothing, nothing, nothing);
+    sphere_row_store(&s->row[sphere_far_away(s)], half_way_round, nothing, nothing);
 }
 
 void spheres_set_scale(spheres *s, double scale)

@@ -6,26 +6,27 @@
 
 #include "cluster.h"
 
-/* What a contact reads of a sphere: one cache line in single precision. wide.h reads rows by this order. */
+/* What a contact reads of a sphere: one cache line in single precision, in quarters. wide.h reads rows by this order. */
 typedef struct sphere_row {
-    double x[3];     /* m */
-    real radius;     /* m, now (smaller while growing) */
-    real v[3];       /* m/s, half a step behind x */
+    ring place[3];
+    real radius; /* m, now (smaller while growing) */
+    real v[3];   /* m/s, half a step behind the place */
+    real unused_v;
     real r_omega[3]; /* m/s: radius times spin */
-    real omega[3];   /* rad/s, half a step behind x */
+    real unused_r_omega;
+    real omega[3]; /* rad/s, half a step behind the place */
+    real unused_omega;
 } __attribute__((aligned(64))) sphere_row;
 
-/* Place, velocity and spin of a step, in four stores; the radius stays. */
-static inline void sphere_row_store(sphere_row *row, vector4 x, vector4 v, vector4 omega)
+/* Place (in ring units), velocity and spin of a step; the radius stays. */
+static inline void sphere_row_store(sphere_row *row, vector4 place, vector4 v, vector4 omega)
 {
-    const half_row w = half_row_of(omega);
-    half_row front, middle;
-    half_row_weave(row->radius, half_row_of(v), row->radius * w, w, &front, &middle);
-    memcpy(row->x, &x, sizeof x);                  /* runs over the radius, which the next store mends */
-    memcpy(&row->radius, &front, sizeof front);    /* radius, v */
-    memcpy(&row->r_omega, &middle, sizeof middle); /* R omega, first of omega */
-    row->omega[1] = w[1];
-    row->omega[2] = w[2];
+    const real radius = row->radius;
+    const half_row w = half_row_of(omega), front = half_row_place(place, radius), v_row = half_row_of(v), r_omega = radius * w;
+    memcpy(row->place, &front, sizeof front); /* and the radius */
+    memcpy(row->v, &v_row, sizeof v_row);
+    memcpy(row->r_omega, &r_omega, sizeof r_omega);
+    memcpy(row->omega, &w, sizeof w);
 }
 
 typedef struct spheres {
@@ -33,6 +34,8 @@ typedef struct spheres {
     size_t single_count;                        /* of the mobile: particles by themselves */
     clusters clusters;                          /* the bodies that the other mobile spheres make up */
     sphere_row *row;                            /* (mobile + lining + 2) */
+    vector4 *place;                             /* (mobile + lining + 2) m, z within one period */
+    vector4 ring_units;                         /* 1/m: of a row's place */
     int32_t *species;                           /* (mobile) */
     double *full_radius;                        /* (mobile + lining) m, rounded to real */
     vector4 *velocity;                          /* (mobile) m/s at the half step */
@@ -51,8 +54,21 @@ dem_status spheres_init(spheres *spheres, const dem_drum_definition *definition,
 void spheres_clear(spheres *spheres);
 size_t spheres_count(const spheres *spheres); /* mobile and lining */
 /* How rows are laid out is the business of the step's own files; all others ask here. */
-static inline const double *sphere_place(const spheres *s, size_t i) { return s->row[i].x; } /* (3) m */
-static inline void sphere_set_place(spheres *s, size_t i, const double x[3]) { memcpy(s->row[i].x, x, 3 * sizeof *x); }
+static inline const double *sphere_place(const spheres *s, size_t i) { return (const double *)&s->place[i]; } /* (3) m */
+static inline void sphere_set(spheres *s, size_t i, vector4 x, vector4 v, vector4 omega)
+{
+    s->place[i] = x;
+    if (i < s->mobile_count) {
+        s->velocity[i] = v;
+        s->angular_velocity[i] = omega;
+    }
+    sphere_row_store(&s->row[i], x * s->ring_units, v, omega);
+}
+static inline void sphere_set_place(spheres *s, size_t i, const double x[3])
+{
+    const vector4 place = { x[0], x[1], x[2] };
+    sphere_set(s, i, place, s->velocity[i], s->angular_velocity[i]);
+}
 static inline double sphere_radius(const spheres *s, size_t i) { return (double)s->row[i].radius; } /* m, now */
 static inline int32_t sphere_of_zeros(const spheres *s) { return (int32_t)(s->mobile_count + s->lining_count); }
 static inline int32_t sphere_far_away(const spheres *s) { return sphere_of_zeros(s) + 1; }
@@ -81,6 +97,13 @@ static inline size_t particle_of_sphere(const spheres *s, size_t i)
 
 /* How many particles a species has: shares by number, every species within one of its share, the total exact. */
 size_t species_particles(const dem_drum_definition *definition, size_t species);
+/* Before any place is set: rows tell places apart modulo the period along z (m; 0: none) and lengths that no listed pair
+ * comes near. */
+void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
+static inline void spheres_ring_unit(const spheres *s, double unit[3]) /* m */
+{
+    for (int c = 0; c < 3; c++) unit[c] = 1 / s->ring_units[c];
+}
 /* Radii of the mobile spheres at `scale` of their full size, in the rows. */
 void spheres_set_scale(spheres *spheres, double scale);
 double spheres_kinetic_energy(const spheres *spheres); /* J */

@@ -2,41 +2,30 @@
 
 #include "contact_block.h"
 
-/* Order of a sphere's row behind its place. */
-enum { RADIUS = 0, VELOCITY = 1, R_OMEGA = 4, OMEGA = 7 };
-
-/* Most contacts with walls are with a drum's cylinder: LANES at a time. */
-static void gather_cylinder(contact_block *restrict block, const sphere_row *restrict row, const int32_t *restrict first,
-                            int32_t origin, double radius, real rotation_rate)
+/* Most contacts with walls are with a drum's cylinder. */
+static void gather_cylinder(contact_block *restrict block, const spheres *s, const int32_t *restrict first, double radius,
+                            double rotation_rate)
 {
-    static const float as_it_is[16] = { 0 };
-    int32_t nothing[LANES];
-    for (int k = 0; k < LANES; k++) nothing[k] = origin;
-    for (int k = 0; k < BLOCK; k += LANES) {
-        wide own[ROW_NUMBERS];
-        wide_double x[HALVES], y[HALVES], z[HALVES], rho2[HALVES], beyond2[HALVES], r[HALVES];
-        wide_row_sums(row, sizeof *row, nothing, first + k, as_it_is, own);
-        wide_to_doubles(own[RADIUS], r);
-        for (int h = 0; h < HALVES; h++) {
-            wide_place_differences(row, sizeof *row, nothing, first + k + 8 * h, &x[h], &y[h], &z[h]);
-            const wide_double room = wide_double_all(radius) - r[h];
-            rho2[h] = x[h] * x[h] + y[h] * y[h];
-            beyond2[h] = rho2[h] - room * room; /* overlap = rho - (R - r) */
-        }
-        const wide outward[3] = { wide_from_doubles(x), wide_from_doubles(y), wide_all(0) };
-        const wide rate = wide_all(rotation_rate);
+    for (int k = 0; k < BLOCK; k++) {
+        const double *x = sphere_place(s, (size_t)first[k]);
+        const sphere_row *row = &s->row[first[k]];
+        const double rho2 = x[0] * x[0] + x[1] * x[1], room = radius - (double)row->radius;
         /* the wall's velocity at the place of the contact: omega x r, at the wall rather than at the centre */
-        const wide widen = wide_all((real)radius) * wide_inverse_root(wide_from_doubles(rho2));
-        const wide v[3] = { -rate * widen * outward[1] - own[VELOCITY], rate * widen * outward[0] - own[VELOCITY + 1],
-                            -own[VELOCITY + 2] };
-        store_vector(block->n, k, outward);
-        wide_store(block->distance2 + k, wide_from_doubles(rho2));
-        wide_store(block->gap2 + k, wide_from_doubles(beyond2));
-        wide_store(block->reach + k, wide_all((real)radius) - own[RADIUS]);
-        wide_store(block->radii + k, own[RADIUS]);
-        store_vector(block->v, k, v);
-        store_vector(block->r_omega, k, own + R_OMEGA);
-        store_vector(block->omega, k, own + OMEGA);
+        const real widen = (real)(rotation_rate * radius) * inverse_root((real)rho2);
+        block->n[0][k] = (real)x[0];
+        block->n[1][k] = (real)x[1];
+        block->n[2][k] = 0;
+        block->distance2[k] = (real)rho2;
+        block->gap2[k] = (real)(rho2 - room * room); /* overlap = rho - (R - r) */
+        block->reach[k] = (real)radius - row->radius;
+        block->radii[k] = row->radius;
+        block->v[0][k] = -widen * (real)x[1] - row->v[0];
+        block->v[1][k] = widen * (real)x[0] - row->v[1];
+        block->v[2][k] = -row->v[2];
+        for (int c = 0; c < 3; c++) {
+            block->r_omega[c][k] = row->r_omega[c];
+            block->omega[c][k] = row->omega[c];
+        }
     }
 }
 
@@ -65,7 +54,7 @@ static void gather(contact_block *restrict block, const contact_list *walls, siz
 {
     const int32_t *first = walls->first + start, *second = walls->second + start;
     if (c->wall[0].kind == WALL_CYLINDER)
-        gather_cylinder(block, s->row, first, sphere_of_zeros(s), c->radius, (real)c->wall[0].rotation_rate);
+        gather_cylinder(block, s, first, c->radius, c->wall[0].rotation_rate);
     if (c->wall_count == 1) return;
     const size_t left = walls->count - start;
     for (int k = 0; k < BLOCK; k++) {
@@ -80,12 +69,16 @@ double contact_forces_with_walls(contact_list *walls, const spheres *s, const co
                                  double dt, int threads)
 {
     double largest = 0.0;
-    const size_t count = round_up_to_block(walls->count);
+    const size_t blocks = round_up_to_block(walls->count) / BLOCK;
 #pragma omp parallel for schedule(static) reduction(max : largest) num_threads(threads) if (threads > 1)
-    for (size_t start = 0; start < count; start += BLOCK) {
-        contact_block block;
-        gather(&block, walls, start, s, c);
-        largest = fmax(largest, contact_block_forces(walls, start, &block, contact, true, dt));
+    for (int part = 0; part < threads; part++) {
+        wide largest_here = wide_all(0);
+        for (size_t b = part_start(blocks, part, threads); b < part_start(blocks, part + 1, threads); b++) {
+            contact_block block;
+            gather(&block, walls, b * BLOCK, s, c);
+            contact_block_forces(walls, b * BLOCK, &block, contact, true, dt, &largest_here);
+        }
+        largest = fmax(largest, wide_largest_lane(largest_here));
     }
     return largest;
 }
@@ -98,7 +91,7 @@ wall_load wall_load_of(const contact_list *walls, size_t slot, const spheres *s,
     const wall_sight sight = wall_seen_from(w, x);
     for (int a = 0; a < 3; a++) {
         load.point[a] = x[a] + sight.distance * sight.toward[a];
-        load.force[a] = -(double)walls->row[slot].end[0][a];
+        load.force[a] = -(double)walls->row[slot][a];
     }
     wall_velocity(w, load.point, load.velocity);
     return load;

@@ -24,6 +24,7 @@ typedef double wide_double __attribute__((vector_size(64)));      /* 8 lanes; HA
 typedef real row8 __attribute__((vector_size(8 * sizeof(real)))); /* force, 0, torque, 0 of one body */
 
 typedef real half_row __attribute__((vector_size(4 * sizeof(real))));
+typedef ring ring_row __attribute__((vector_size(4 * sizeof(ring))));
 typedef double vector4 __attribute__((vector_size(32))); /* x, y, z and one unused */
 
 #define WIDE_INLINE static inline __attribute__((always_inline))
@@ -39,8 +40,15 @@ WIDE_INLINE wide wide_load_any(const real *p) /* not aligned */
     return x;
 }
 
-/* Numbers behind the place in a sphere's row: radius, velocity, R omega, omega (spheres.h). */
-enum { ROW_NUMBERS = 10 };
+/* Of LANES pairs of spheres (spheres.h, sphere_row), second less first or the sum of both. */
+typedef struct wide_pairs {
+    wide_double x[3][HALVES]; /* m, between centres */
+    wide n[3];                /* the same in contact arithmetic */
+    wide radii;               /* m, sum */
+    wide v[3];                /* m/s, difference */
+    wide r_omega[3];          /* m/s, sum */
+    wide omega[3];            /* rad/s, sum */
+} wide_pairs;
 
 #if WIDE_AVX512
 
@@ -69,11 +77,6 @@ WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
     to[1] = (wide_double)_mm512_cvtps_pd(_mm512_extractf32x8_ps((__m512)x, 1));
 }
 
-WIDE_INLINE wide_double wide_double_rint(wide_double x)
-{
-    return (wide_double)_mm512_roundscale_pd((__m512d)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
-}
-
 WIDE_INLINE wide wide_inverse_root_guess(wide x)
 {
     const __m512i half = _mm512_srli_epi32(_mm512_castps_si512((__m512)x), 1);
@@ -89,27 +92,6 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
     return (wide)_mm512_castsi512_ps(_mm512_sub_epi32(_mm512_set1_epi32(INVERSE_CUBE_ROOT_MAGIC), _mm512_cvttps_epi32(third)));
 }
 
-/* Two places beside each other: the three doubles of each and whatever follows. */
-WIDE_INLINE __m512d two_places(const char *rows, size_t row_size, int32_t low, int32_t high)
-{
-    const __m512d x = _mm512_castpd256_pd512(_mm256_loadu_pd((const double *)(rows + row_size * (size_t)low)));
-    return _mm512_insertf64x4(x, _mm256_loadu_pd((const double *)(rows + row_size * (size_t)high)), 1);
-}
-
-WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, wide_double *x,
-                                        wide_double *y, wide_double *z)
-{
-    const __m512i lower = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13), upper = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-    __m512d d[4];
-    for (int k = 0; k < 4; k++)
-        d[k] = _mm512_sub_pd(two_places(rows, row_size, b[k], b[k + 4]), two_places(rows, row_size, a[k], a[k + 4]));
-    const __m512d low_01 = _mm512_unpacklo_pd(d[0], d[1]), low_23 = _mm512_unpacklo_pd(d[2], d[3]);
-    const __m512d high_01 = _mm512_unpackhi_pd(d[0], d[1]), high_23 = _mm512_unpackhi_pd(d[2], d[3]);
-    *x = (wide_double)_mm512_permutex2var_pd(low_01, lower, low_23);
-    *z = (wide_double)_mm512_permutex2var_pd(low_01, upper, low_23);
-    *y = (wide_double)_mm512_permutex2var_pd(high_01, lower, high_23);
-}
-
 /* 4 x 4 numbers within each quarter of a vector: to[c] has in quarter L what from[0..3] have at 4 L + c. */
 WIDE_INLINE void transpose_quarters(const __m512 from[4], __m512 to[4])
 {
@@ -123,30 +105,44 @@ WIDE_INLINE void transpose_quarters(const __m512 from[4], __m512 to[4])
     to[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high_01, high_23));
 }
 
-WIDE_INLINE void wide_row_sums(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, const float sign[16],
-                               wide sum[ROW_NUMBERS])
+/* b less a where sign has -1, b plus a where it has 1, the fixed-point places exactly: one row of one pair. */
+WIDE_INLINE __m512 row_pair(const void *rows, int32_t a, int32_t b, __m512 sign)
 {
-    enum { PLACE = 6 }; /* numbers that the place takes in front */
-    const __mmask16 behind_place = (__mmask16)(0xffff & (0xffff << PLACE));
-    const __m512 signs = _mm512_loadu_ps(sign);
-    const char *base = rows;
+    enum { PLACE = 7, OTHERS = 0xfff8 }; /* lanes 0-2; bits of a place, read as a float, might be denormal and slow */
+    const __m512 *row = rows;
+    const __m512 row_a = row[(uint32_t)a], row_b = row[(uint32_t)b], sum = _mm512_maskz_fmadd_ps(OTHERS, row_a, sign, row_b);
+    return _mm512_castsi512_ps(_mm512_mask_sub_epi32(_mm512_castps_si512(sum), PLACE, _mm512_castps_si512(row_b), _mm512_castps_si512(row_a)));
+}
+
+WIDE_INLINE void ring_displacement(__m512i turned, double unit, wide_double x[2], wide *n)
+{
+    const __m512d m = _mm512_set1_pd(unit);
+    x[0] = (wide_double)_mm512_mul_pd(_mm512_cvtepi32_pd(_mm512_castsi512_si256(turned)), m);
+    x[1] = (wide_double)_mm512_mul_pd(_mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(turned, 1)), m);
+    *n = (wide)_mm512_mul_ps(_mm512_cvtepi32_ps(turned), _mm512_set1_ps((float)unit));
+}
+
+WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
+{
+    const __m512 sign = _mm512_setr_ps(1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1);
     __m512 t[4][4]; /* [rows 4g ... 4g+3][column 4L + c in quarter L] */
     for (int g = 0; g < 4; g++) {
         __m512 row[4];
-        for (int k = 0; k < 4; k++) {
-            const __m512 row_a = _mm512_maskz_load_ps(behind_place, base + row_size * (size_t)a[4 * g + k]);
-            const __m512 row_b = _mm512_maskz_load_ps(behind_place, base + row_size * (size_t)b[4 * g + k]);
-            row[k] = _mm512_xor_ps(row_a, signs);
-            row[k] = _mm512_add_ps(row_b, row[k]);
-        }
+        for (int k = 0; k < 4; k++) row[k] = row_pair(rows, a[4 * g + k], b[4 * g + k], sign);
         transpose_quarters(row, t[g]);
     }
     for (int c = 0; c < 4; c++) {
-        const __m512 even_01 = _mm512_shuffle_f32x4(t[0][c], t[1][c], 0x88), odd_01 = _mm512_shuffle_f32x4(t[0][c], t[1][c], 0xdd);
-        const __m512 even_23 = _mm512_shuffle_f32x4(t[2][c], t[3][c], 0x88), odd_23 = _mm512_shuffle_f32x4(t[2][c], t[3][c], 0xdd);
-        if (c >= 2) sum[4 + c - PLACE] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0x88);
-        sum[8 + c - PLACE] = (wide)_mm512_shuffle_f32x4(even_01, even_23, 0xdd);
-        sum[12 + c - PLACE] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0xdd);
+        const __m512 even_01 = _mm512_shuffle_f32x4(t[0][c], t[1][c], 0x88), even_23 = _mm512_shuffle_f32x4(t[2][c], t[3][c], 0x88);
+        const __m512 place = _mm512_shuffle_f32x4(even_01, even_23, 0x88);
+        if (c == 3) {
+            out->radii = (wide)place;
+            break;
+        }
+        const __m512 odd_01 = _mm512_shuffle_f32x4(t[0][c], t[1][c], 0xdd), odd_23 = _mm512_shuffle_f32x4(t[2][c], t[3][c], 0xdd);
+        ring_displacement(_mm512_castps_si512(place), unit[c], out->x[c], &out->n[c]);
+        out->v[c] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0x88);
+        out->r_omega[c] = (wide)_mm512_shuffle_f32x4(even_01, even_23, 0xdd);
+        out->omega[c] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0xdd);
     }
 }
 
@@ -164,27 +160,23 @@ WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from
     return (size_t)__builtin_popcount(bits);
 }
 
-/* Quarter k of each of LANES rows: x, y, z, 0. */
-WIDE_INLINE void store_quarters(real *rows, int quarter, wide x, wide y, wide z)
+/* LANES rows of 8: f, half, q, 0. */
+WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], wide half, const wide q[3])
 {
-    const __m512 from[4] = { (__m512)x, (__m512)y, (__m512)z, _mm512_setzero_ps() };
-    __m512 to[4];
-    transpose_quarters(from, to);
+    const __m512 low[4] = { (__m512)f[0], (__m512)f[1], (__m512)f[2], (__m512)half };
+    const __m512 high[4] = { (__m512)q[0], (__m512)q[1], (__m512)q[2], _mm512_setzero_ps() };
+    const __m512i front = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), back = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
+    __m512 a[4], b[4];
+    transpose_quarters(low, a);
+    transpose_quarters(high, b);
     for (int c = 0; c < 4; c++) {
-        float *at = rows + 16 * c + 4 * quarter;
-        _mm_store_ps(at, _mm512_castps512_ps128(to[c]));
-        _mm_store_ps(at + 64, _mm512_extractf32x4_ps(to[c], 1));
-        _mm_store_ps(at + 128, _mm512_extractf32x4_ps(to[c], 2));
-        _mm_store_ps(at + 192, _mm512_extractf32x4_ps(to[c], 3));
+        const __m512d two = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), front, _mm512_castps_pd(b[c]));
+        const __m512d four = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), back, _mm512_castps_pd(b[c]));
+        rows[c] = (row8)_mm512_castpd512_pd256(two);
+        rows[4 + c] = (row8)_mm512_extractf64x4_pd(two, 1);
+        rows[8 + c] = (row8)_mm512_castpd512_pd256(four);
+        rows[12 + c] = (row8)_mm512_extractf64x4_pd(four, 1);
     }
-}
-
-WIDE_INLINE void wide_store_ends(real *rows, const wide f[3], const wide torque_a[3], const wide torque_b[3])
-{
-    store_quarters(rows, 0, f[0], f[1], f[2]);
-    store_quarters(rows, 1, torque_a[0], torque_a[1], torque_a[2]);
-    store_quarters(rows, 2, -f[0], -f[1], -f[2]);
-    store_quarters(rows, 3, torque_b[0], torque_b[1], torque_b[2]);
 }
 
 #else
@@ -260,11 +252,6 @@ WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
 {
     for (int k = 0; k < LANES; k++) to[k / 8][k % 8] = (double)x[k];
 }
-WIDE_INLINE wide_double wide_double_rint(wide_double x)
-{
-    for (int k = 0; k < 8; k++) x[k] = rint(x[k]);
-    return x;
-}
 WIDE_INLINE wide wide_inverse_root_guess(wide x)
 {
     for (int k = 0; k < LANES; k++) x[k] = inverse_root_guess(x[k]);
@@ -281,48 +268,58 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
     return x;
 }
 
-/* b less a of 8 pairs of rows that begin with three doubles. */
-WIDE_INLINE void wide_place_differences(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, wide_double *x,
-                                        wide_double *y, wide_double *z)
+/* The way round from a to b, in units. */
+WIDE_INLINE double ring_difference(ring a, ring b)
 {
-    for (int k = 0; k < 8; k++) {
-        const double *place_a = (const double *)((const char *)rows + row_size * (size_t)a[k]);
-        const double *place_b = (const double *)((const char *)rows + row_size * (size_t)b[k]);
-        (*x)[k] = place_b[0] - place_a[0];
-        (*y)[k] = place_b[1] - place_a[1];
-        (*z)[k] = place_b[2] - place_a[2];
-    }
+#ifdef DEM_DOUBLE
+    return b - a - rint(b - a);
+#else
+    return (double)(int32_t)((uint32_t)b - (uint32_t)a);
+#endif
 }
 
-/* sum[c] = b's number c plus a's, or less a's where sign[...] is negative, for LANES pairs of rows. */
-WIDE_INLINE void wide_row_sums(const void *rows, size_t row_size, const int32_t *a, const int32_t *b, const float sign[16],
-                               wide sum[ROW_NUMBERS])
+WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
 {
+    typedef struct row {
+        ring place[3];
+        real radius, number[12];
+    } __attribute__((aligned(64))) row;
+    const row *all = rows;
     for (int k = 0; k < LANES; k++) {
-        const real *row_a = (const real *)((const char *)rows + row_size * (size_t)a[k] + 3 * sizeof(double));
-        const real *row_b = (const real *)((const char *)rows + row_size * (size_t)b[k] + 3 * sizeof(double));
-        for (int c = 0; c < ROW_NUMBERS; c++) sum[c][k] = row_b[c] + (signbit(sign[c + 6]) ? -row_a[c] : row_a[c]);
+        const row *row_a = &all[a[k]], *row_b = &all[b[k]];
+        out->radii[k] = row_b->radius + row_a->radius;
+        for (int c = 0; c < 3; c++) {
+            const double turned = ring_difference(row_a->place[c], row_b->place[c]);
+            out->x[c][k / 8][k % 8] = turned * unit[c];
+            out->n[c][k] = (real)turned * (real)unit[c];
+            out->v[c][k] = row_b->number[c] - row_a->number[c];
+            out->r_omega[c][k] = row_b->number[4 + c] + row_a->number[4 + c];
+            out->omega[c][k] = row_b->number[8 + c] + row_a->number[8 + c];
+        }
     }
 }
 
-/* LANES rows of 16: f, 0, torque_a, 0, -f, 0, torque_b, 0. */
-WIDE_INLINE void wide_store_ends(real *rows, const wide f[3], const wide torque_a[3], const wide torque_b[3])
+/* LANES rows of 8: f, half, q, 0. */
+WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], wide half, const wide q[3])
 {
-    for (int k = 0; k < LANES; k++)
-        for (int c = 0; c < 3; c++) {
-            rows[16 * k + c] = f[c][k];
-            rows[16 * k + 4 + c] = torque_a[c][k];
-            rows[16 * k + 8 + c] = -f[c][k];
-            rows[16 * k + 12 + c] = torque_b[c][k];
-        }
+    for (int k = 0; k < LANES; k++) rows[k] = (row8){ f[0][k], f[1][k], f[2][k], half[k], q[0][k], q[1][k], q[2][k], 0 };
 }
 
 #endif
 
+WIDE_INLINE double wide_largest_lane(wide x)
+{
+    double largest = (double)x[0];
+    for (int k = 1; k < LANES; k++) largest = (double)x[k] > largest ? (double)x[k] : largest;
+    return largest;
+}
+
 /* ---- one sphere's vectors ---- */
 
-#if defined(__AVX__) && !defined(DEM_DOUBLE)
+#if defined(__AVX__)
 #include <immintrin.h>
+#endif
+#if defined(__AVX__) && !defined(DEM_DOUBLE)
 WIDE_INLINE vector4 vector4_low(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row)); }
 WIDE_INLINE vector4 vector4_high(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row + 4)); }
 WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row)_mm256_cvtpd_ps((__m256d)x); }
@@ -330,26 +327,46 @@ WIDE_INLINE vector4 vector4_rint(vector4 x)
 {
     return (vector4)_mm256_round_pd((__m256d)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
-/* What follows a place in a row is no double: read as one it may be denormal, and slow. */
-WIDE_INLINE vector4 vector4_place(const double *x) { return (vector4)_mm256_blend_pd(_mm256_loadu_pd(x), _mm256_setzero_pd(), 8); }
-/* radius, v0, v1, v2 and a0, a1, a2, b0. */
-WIDE_INLINE void half_row_weave(real radius, half_row v, half_row a, half_row b, half_row *front, half_row *middle)
-{
-    *front = (half_row)_mm_move_ss(_mm_permute_ps((__m128)v, 0x93), _mm_set_ss(radius));
-    *middle = (half_row)_mm_insert_ps((__m128)a, (__m128)b, 0x30);
-}
 #else
 WIDE_INLINE vector4 vector4_low(const row8 *row) { return (vector4){ (double)(*row)[0], (double)(*row)[1], (double)(*row)[2] }; }
 WIDE_INLINE vector4 vector4_high(const row8 *row) { return (vector4){ (double)(*row)[4], (double)(*row)[5], (double)(*row)[6] }; }
 WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row){ (real)x[0], (real)x[1], (real)x[2], (real)x[3] }; }
 WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint(x[1]), rint(x[2]), rint(x[3]) }; }
-WIDE_INLINE vector4 vector4_place(const double *x) { return (vector4){ x[0], x[1], x[2] }; }
-WIDE_INLINE void half_row_weave(real radius, half_row v, half_row a, half_row b, half_row *front, half_row *middle)
+#endif
+
+/* The front of a sphere's row: its place (ring units), rounded to whole ones in single precision, and its radius. */
+#ifdef DEM_DOUBLE
+WIDE_INLINE half_row half_row_place(vector4 place, real radius) { return (half_row){ place[0], place[1], place[2], radius }; }
+#else
+WIDE_INLINE half_row half_row_place(vector4 place, real radius)
 {
-    *front = (half_row){ radius, v[0], v[1], v[2] };
-    *middle = (half_row){ a[0], a[1], a[2], b[0] };
+    typedef int64_t long4 __attribute__((vector_size(32)));
+    const ring_row whole = __builtin_convertvector((long4)(place + RING_SHIFT), ring_row);
+    half_row front = (half_row)whole;
+    front[3] = radius;
+    return front;
 }
 #endif
+
+/* a b + c, rounded once */
+WIDE_INLINE row8 row8_fused(row8 a, row8 b, row8 c)
+{
+#if defined(__AVX2__) && defined(__FMA__) && !defined(DEM_DOUBLE)
+    return (row8)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#else
+    for (int k = 0; k < 8; k++) c[k] = fused(a[k], b[k], c[k]);
+    return c;
+#endif
+}
+WIDE_INLINE vector4 vector4_fused(vector4 a, vector4 b, vector4 c)
+{
+#if defined(__AVX2__) && defined(__FMA__)
+    return (vector4)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c);
+#else
+    for (int k = 0; k < 4; k++) c[k] = __builtin_fma(a[k], b[k], c[k]);
+    return c;
+#endif
+}
 
 /* ---- powers ---- */
 

@@ -450,9 +450,9 @@ static void set_body(dem_scene *scene, size_t b, const double x[3], const double
     double a[3][3];
     quaternion_matrix(body->orientation, a);
     for (size_t k = 0; k < shape->sphere_count; k++) {
-        sphere_row *row = &scene->spheres.row[(size_t)body->first_sphere + k];
         const vector4 r = cluster_offset(shape, k, a, 1);
-        for (int c = 0; c < 3; c++) row->x[c] = body->x[c] + r[c];
+        const double place[3] = { body->x[0] + r[0], body->x[1] + r[1], body->x[2] + r[2] };
+        sphere_set_place(&scene->spheres, (size_t)body->first_sphere + k, place);
     }
 }
 

@@ -95,7 +95,7 @@ static void a_velocity_that_is_not_a_number_is_found_within_the_horizon(void **u
         dem_scene *scene = drum_scene(&d);
         run(scene, 107);
         if (component < 3) scene->spheres.velocity[17][component] = NAN;
-        else scene->spheres.row[17].x[1] = NAN;
+        else scene->spheres.place[17][1] = NAN;
         const dem_status status = dem_scene_advance(scene, HORIZON + 1);
         assert_int_equal(status, DEM_NOT_A_NUMBER);
         check_description(scene, DEM_NOT_A_NUMBER);
