@@ -63,20 +63,26 @@ static void displacements(contact_block *restrict block, real time_step)
     }
 }
 
-/* f on the first = T - N n, and n x f = n x T. */
-static void write_rows(const contact_block *restrict block, contact_row *restrict row)
+/* f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
+ * spheres grow, radii are below full size, but then there is no friction, hence no moment.) second: may be NULL. */
+static void write_rows(const contact_block *restrict block, const real *restrict first_radius, contact_row *restrict row,
+                       contact_row *restrict second)
 {
     const wide half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide t[3] = { wide_load(block->force[0] + k), wide_load(block->force[1] + k), wide_load(block->force[2] + k) };
-        const wide f_n = -wide_load(block->f_n + k);
+        const wide f_n = -wide_load(block->f_n + k), less = half * wide_load(block->overlap + k);
+        const wide r_first = wide_load(first_radius + k), r_a = r_first - less;
         wide f[3], q[3];
         for (int c = 0; c < 3; c++) {
             f[c] = wide_fused(f_n, n[c], t[c]);
             q[c] = cross(n, t, c);
         }
-        wide_store_rows(row + k, f, half * wide_load(block->overlap + k), q);
+        wide_store_rows(row + k, f, (wide[3]){ r_a * q[0], r_a * q[1], r_a * q[2] });
+        if (!second) continue;
+        const wide r_b = wide_load(block->radii + k) - r_first - less;
+        wide_store_rows(second + k, f, (wide[3]){ r_b * q[0], r_b * q[1], r_b * q[2] });
     }
 }
 
@@ -96,7 +102,7 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     displacements(block, (real)dt);
     if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
-    write_rows(block, list->row + start);
+    write_rows(block, list->first_radius + start, list->row + start, list->second_row ? list->second_row + start : NULL);
     keep_overlaps(block, list->overlap + start, largest);
 }
 
@@ -121,5 +127,5 @@ double contact_forces_between_spheres(contact_list *pairs, const spheres *s, con
 void contact_forces_sum(const neighbor_list *list, spheres *s, size_t from, int threads)
 {
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = from; i < s->mobile_count; i++) s->load[i] = contact_forces_of(list, i, s->row[i].radius);
+    for (size_t i = from; i < s->mobile_count; i++) s->load[i] = contact_forces_of(list, i);
 }

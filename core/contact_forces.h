@@ -11,25 +11,29 @@ double contact_forces_between_spheres(contact_list *pairs, const spheres *sphere
 /* spheres->load of all from `from` on. */
 void contact_forces_sum(const neighbor_list *list, spheres *spheres, size_t from, int threads);
 
-/* Force (N), 0, moment about the centre (N m), 0 of one sphere's contacts, from their rows. Each group has its ends that
- * are second, then those that are first, filled up with rows of zeros: almost every sphere has one group, so that the
- * processor foresees the end of the loop. radius: m, now. */
-static inline row8 contact_forces_of(const neighbor_list *list, size_t i, real radius)
+/* Force (N), 0, moment about the centre (N m), 0 of one sphere's contacts, from their rows: forces with the sign of the
+ * end. One sum after the other: rows of contacts in reach that do not touch, whose number depends on when the list was
+ * made, add zeros. Whole groups of ends, the last filled up with rows of zeros: almost every sphere has one, so that the processor
+ * foresees the end of the loop. */
+static inline row8 contact_forces_of(const neighbor_list *list, size_t i)
 {
-    const contact_row *restrict row = list->rows;
-    row8 as_second = { 0 }, as_first = { 0 }, shorter = { 0 };
-    for (size_t k = list->ends_start[i]; k < list->ends_start[i + 1]; k += 2 * ENDS_A_SIDE) {
-        const int32_t *restrict end = list->ends + k;
-        for (int m = 0; m < ENDS_A_SIDE; m++) {
-            const row8 a = row[end[m]], b = row[end[ENDS_A_SIDE + m]];
-            as_second += a;
-            as_first += b;
-            shorter = row8_fused(a, a[ROW_HALF_OVERLAP] - (row8){ 0 }, shorter);
-            shorter = row8_fused(b, b[ROW_HALF_OVERLAP] - (row8){ 0 }, shorter);
-        }
+#define AS_SECOND { -1, -1, -1, 0, 1, 1, 1, 0 }
+#define AS_FIRST { 1, 1, 1, 0, 1, 1, 1, 0 }
+    static const row8 sign[2 * ENDS_A_GROUP] = { AS_SECOND, AS_SECOND, AS_SECOND, AS_SECOND, AS_SECOND, AS_SECOND,
+                                                 AS_SECOND, AS_SECOND, AS_FIRST,  AS_FIRST,  AS_FIRST,  AS_FIRST,
+                                                 AS_FIRST,  AS_FIRST,  AS_FIRST,  AS_FIRST };
+#undef AS_SECOND
+#undef AS_FIRST
+    const char *restrict rows = (const char *)list->rows;
+    row8 sum = { 0 };
+    int32_t second = list->ends_second[i]; /* of the ends ahead */
+    for (size_t k = list->ends_start[i]; k < list->ends_start[i + 1]; k += ENDS_A_GROUP, second -= ENDS_A_GROUP) {
+        const uint32_t *restrict end = list->ends + k;
+        const row8 *restrict own = sign + ENDS_A_GROUP - (second < 0 ? 0 : second < ENDS_A_GROUP ? second : ENDS_A_GROUP);
+        __asm__("" : "+r"(own)); /* else gcc works out each of the eight addresses anew */
+        for (int m = 0; m < ENDS_A_GROUP; m++) sum = row8_fused(*(const contact_row *)(rows + end[m]), own[m], sum);
     }
-    const row8 force = as_first - as_second, moment = radius * (as_first + as_second) - shorter;
-    return (row8){ force[0], force[1], force[2], 0, moment[4], moment[5], moment[6], 0 };
+    return sum;
 }
 
 #endif

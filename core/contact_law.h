@@ -57,8 +57,9 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
     const real tn = dot(t, n);
     const real u[3] = { fused(-tn, n[0], t[0]), fused(-tn, n[1], t[1]), fused(-tn, n[2], t[2]) };
     const real uu = dot(u, u), turn = uu > TINY_SQUARE ? inverse_root(uu) : 0;
-    /* |T| = sqrt(|u|^2 + tn^2); a contact turns by far less than a radian in a step, so two terms of the root do */
-    const real size = uu * turn, off = tn * turn, magnitude = fused((real)0.5 * size, off * off, size);
+    /* |T| = sqrt(|u|^2 + tn^2); a contact turns by far less than a radian in a step, so two terms of the root do. Of a T
+     * that is rounding's, and lies along the normal, next to nothing stays. */
+    const real size = uu * turn, off = tn * turn, magnitude = fused((real)0.5 * size, lesser(off * off, 1), size);
     const real h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
 
     const real stored = lesser(magnitude, mu_n);

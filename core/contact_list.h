@@ -11,10 +11,9 @@
 #include "dem_types.h"
 #include "wide.h"
 
-/* What a contact gives to both its spheres: f on the first (N), half the overlap (m), n x f (N), 0. The second has -f; the
- * moment about either centre is its lever, radius less half the overlap, times n x f. */
+/* What a contact gives: f on the first (N), 0, moment about a centre (N m), 0. The second has -f, and the same moment
+ * where radii are all the same: then one row serves both ends, else each has a row of its own. */
 typedef row8 contact_row;
-enum { ROW_HALF_OVERLAP = 3 };
 
 typedef struct contact_list {
     size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
@@ -27,6 +26,7 @@ typedef struct contact_list {
     real *t_star;           /* (capacity) */
     real *alpha_0;          /* (capacity) m */
     contact_row *row;       /* (capacity) part of the neighbor list's rows */
+    contact_row *second_row; /* (capacity) likewise, for second ends; NULL: the same as for the first */
     real *overlap;          /* (capacity) m at the last step; negative: apart */
     size_t *start;          /* (spheres + 1) where each first sphere's contacts begin */
 } contact_list;

@@ -1,24 +1,21 @@
 #include "integrator.h"
 
+#include "contact_forces.h"
+
 /* What one step does to every particle alike. */
 typedef struct leap_frog {
     vector4 gravity_dt, period, inverse_period; /* the last two along z alone */
+    vector4 ring_units;
     double dt, keep;
     int corrector_passes;
 } leap_frog;
 
-/* Eqns 3 and 4 for one sphere. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish
- * and its spin advances as its velocity does. */
-static inline void sphere_advance(const leap_frog *leap, const row8 *load, double inverse_mass, double inverse_inertia,
-                                  vector4 *velocity, vector4 *spin, sphere_row *row)
+/* x within one period, and into the row. */
+static inline vector4 sphere_move(const leap_frog *leap, sphere_row *row, vector4 x, vector4 v, vector4 omega)
 {
-    const vector4 v = leap->keep * *velocity + (leap->dt * inverse_mass) * vector4_low(load) - leap->gravity_dt;
-    const vector4 omega = leap->keep * *spin + (leap->dt * inverse_inertia) * vector4_high(load);
-    *velocity = v;
-    *spin = omega;
-    vector4 x = vector4_place(row->x) + leap->dt * v;
     x -= leap->period * vector4_rint(x * leap->inverse_period);
-    sphere_row_store(row, x, v, omega);
+    sphere_row_store(row, x * leap->ring_units, v, omega);
+    return x;
 }
 
 static inline double largest_of(double a, double b) { return a > b ? a : b; }
@@ -82,11 +79,9 @@ static void cluster_advance(const leap_frog *leap, spheres *s, cluster_body *bod
     quaternion_matrix(body->orientation, a);
     for (size_t k = 0; k < shape->sphere_count; k++) {
         const vector4 r = cluster_offset(shape, k, a, scale_next), v_k = v + (r - offset[k]) / leap->dt;
-        vector4 place = x + r;
-        place -= leap->period * vector4_rint(place * leap->inverse_period);
         s->velocity[first + k] = v_k;
         s->angular_velocity[first + k] = omega;
-        sphere_row_store(&s->row[first + k], place, v_k, omega);
+        s->place[first + k] = sphere_move(leap, &s->row[first + k], x + r, v_k, omega);
     }
 }
 
@@ -110,31 +105,69 @@ static double clusters_advance(spheres *s, const leap_frog *leap, double scale_n
     return sqrt(largest_x + largest_y + largest_z);
 }
 
-double integrator_advance(spheres *s, const container *drum, const body_forces *body, const vector4 *picked_velocity, double dt,
+/* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
+ * its spin advances as its velocity does. Returns the largest of each component of (v - picked_velocity)^2. */
+static vector4 some_spheres_advance(const leap_frog *leap, spheres *s, const row8 *restrict load, const vector4 *picked_velocity,
+                                    size_t from, size_t to)
+{
+    const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
+    vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity, *restrict place = s->place;
+    sphere_row *restrict row = s->row;
+    const vector4 keep = leap->keep - (vector4){ 0 }, dt = leap->dt - (vector4){ 0 };
+    vector4 largest = { 0 };
+    for (size_t i = from; i < to; i++) {
+        const vector4 per_mass = leap->dt * inverse_mass[i] - (vector4){ 0 },
+                      per_inertia = leap->dt * inverse_inertia[i] - (vector4){ 0 };
+        const vector4 v =
+            vector4_fused(per_mass, vector4_low(&load[i - from]), vector4_fused(keep, velocity[i], -leap->gravity_dt));
+        const vector4 omega = vector4_fused(per_inertia, vector4_high(&load[i - from]), keep * spin[i]);
+        const vector4 astray = v - picked_velocity[i];
+        velocity[i] = v;
+        spin[i] = omega;
+        place[i] = sphere_move(leap, &row[i], vector4_fused(dt, v, place[i]), v, omega);
+        largest = vector4_greater(largest, astray * astray);
+    }
+    return largest;
+}
+
+/* Some spheres' sums over their contacts, then their steps: by the hundred, each has few instructions from start to end,
+ * so that the processor works on several spheres at a time. */
+static vector4 spheres_advance(const leap_frog *leap, spheres *s, const neighbor_list *list, size_t from, size_t to)
+{
+    enum { SOME = 64 };
+    row8 load[SOME];
+    vector4 largest = { 0 };
+    for (size_t i = from; i < to; i += SOME) {
+        const size_t end = i + SOME < to ? i + SOME : to;
+        for (size_t k = i; k < end; k++) load[k - i] = contact_forces_of(list, k);
+        largest = vector4_greater(largest, some_spheres_advance(leap, s, load, list->picked_velocity, i, end));
+    }
+    return largest;
+}
+
+double integrator_advance(spheres *s, const neighbor_list *list, const container *drum, const body_forces *body, double dt,
                           int threads)
 {
     const double g_dt = body->gravity * dt, *up = drum->up;
     const leap_frog leap = { .gravity_dt = { up[0] * g_dt, up[1] * g_dt, up[2] * g_dt },
                              .period = { 0.0, 0.0, drum->period },
                              .inverse_period = { 0.0, 0.0, drum->inverse_period },
+                             .ring_units = s->ring_units,
                              .dt = dt,
                              .keep = 1.0 - body->drag * dt,
                              .corrector_passes = s->clusters.corrector_passes };
-    const row8 *restrict load = s->load;
-    const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
-    vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity;
-    sphere_row *restrict row = s->row;
     const size_t count = s->single_count;
-    double largest_x = 0.0, largest_y = 0.0, largest_z = 0.0;
-#pragma omp parallel for schedule(static) reduction(max : largest_x, largest_y, largest_z) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < count; i++) {
-        sphere_advance(&leap, &load[i], inverse_mass[i], inverse_inertia[i], &velocity[i], &spin[i], &row[i]);
-        const vector4 d = velocity[i] - picked_velocity[i], d2 = d * d;
-        largest_x = largest_of(largest_x, d2[0]);
-        largest_y = largest_of(largest_y, d2[1]);
-        largest_z = largest_of(largest_z, d2[2]);
+    double x = 0.0, y = 0.0, z = 0.0;
+#pragma omp parallel for schedule(static) reduction(max : x, y, z) num_threads(threads) if (threads > 1)
+    for (int part = 0; part < threads; part++) {
+        const vector4 largest =
+            spheres_advance(&leap, s, list, part_start(count, part, threads), part_start(count, part + 1, threads));
+        x = largest_of(x, largest[0]);
+        y = largest_of(y, largest[1]);
+        z = largest_of(z, largest[2]);
     }
-    const double singles = sqrt(largest_x + largest_y + largest_z);
+    const double singles = sqrt(x + y + z);
     if (s->clusters.count == 0) return singles;
-    return largest_of(singles, clusters_advance(s, &leap, body->scale, picked_velocity, threads));
+    contact_forces_sum(list, s, count, threads);
+    return largest_of(singles, clusters_advance(s, &leap, body->scale, list->picked_velocity, threads));
 }

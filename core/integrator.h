@@ -3,8 +3,7 @@
 #ifndef INTEGRATOR_H
 #define INTEGRATOR_H
 
-#include "container.h"
-#include "spheres.h"
+#include "neighbor_list.h"
 
 typedef struct body_forces {
     double gravity; /* m/s2, against the container's `up` */
@@ -12,9 +11,9 @@ typedef struct body_forces {
     double scale;   /* share of full size that clusters have after the step */
 } body_forces;
 
-/* One step for all particles. picked_velocity: (mobile) m/s. Returns a bound on |v - picked_velocity| of every
- * sphere, m/s: from the largest of each component. */
-double integrator_advance(spheres *spheres, const container *drum, const body_forces *body, const vector4 *picked_velocity,
-                          double dt, int threads);
+/* One step for all particles, under the rows of forces that the list's contacts have written. Returns a bound on |v - v at
+ * the pick| of every sphere, m/s: from the largest of each component. */
+double integrator_advance(spheres *spheres, const neighbor_list *list, const container *drum, const body_forces *body, double dt,
+                          int threads);
 
 #endif

@@ -34,7 +34,7 @@ static void normal_forces_of_slope(contact_block *restrict block, real *restrict
 static void turn_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
                           const real *restrict t_z, const real *restrict friction)
 {
-    const wide zero = wide_all(0), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
+    const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
@@ -43,7 +43,7 @@ static void turn_friction(contact_block *restrict block, const real *restrict t_
         const wide u[3] = { wide_fused(tn, n[0], t[0]), wide_fused(tn, n[1], t[1]), wide_fused(tn, n[2], t[2]) };
         const wide uu = wide_dot(u, u);
         const wide turn = wide_select(wide_exceeds(uu, tiny), wide_inverse_root(uu), zero);
-        const wide size = uu * turn, off = tn * turn, magnitude = wide_fused(half * size, off * off, size);
+        const wide size = uu * turn, off = tn * turn, magnitude = wide_fused(half * size, wide_lesser(off * off, one), size);
         const wide h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
         const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k);
         store_vector(block->h, k, h);

@@ -12,13 +12,14 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s)
     memset(list, 0, sizeof *list);
     list->skin = SKIN * s->smallest_diameter;
     list->margin = MARGIN * s->smallest_diameter;
+    for (size_t i = 1; i < spheres_count(s); i++) list->radii_differ = list->radii_differ || s->full_radius[i] != s->full_radius[0];
     cell_grid_init(&list->grid);
     const size_t n = s->mobile_count;
     list->start = array_create(n + 1, sizeof *list->start);
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
     list->ends_start = array_create(n + 1, sizeof *list->ends_start);
-    list->ends_second = array_create(n + 1, sizeof *list->ends_second);
+    list->ends_second = array_create(n, sizeof *list->ends_second);
     bool enough = list->start && list->built_at && list->picked_velocity && list->ends_start && list->ends_second;
     contact_list *const all[] = { &list->pairs, &list->pairs_before, &list->walls, &list->walls_before };
     for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n) == DEM_OK && enough;
@@ -274,7 +275,7 @@ static void starts_from_counts(contact_list *list, size_t n)
 static dem_status rows_reserve(neighbor_list *list)
 {
     const size_t pairs = round_up_to_block(list->pairs.count), walls = round_up_to_block(list->walls.count);
-    const size_t needed = pairs + walls + 1;
+    const size_t seconds = list->radii_differ ? pairs : 0, needed = pairs + walls + seconds + 1;
     if (needed > list->row_capacity) {
         contact_row *rows = array_create(needed + needed / 4, sizeof *rows);
         if (!rows) return DEM_NO_MEMORY;
@@ -284,6 +285,7 @@ static dem_status rows_reserve(neighbor_list *list)
     }
     list->pairs.row = list->rows;
     list->walls.row = list->rows + pairs;
+    list->pairs.second_row = list->radii_differ ? list->walls.row + walls : NULL;
     list->rows[needed - 1] = (contact_row){ 0 };
     return DEM_OK;
 }
@@ -291,7 +293,7 @@ static dem_status rows_reserve(neighbor_list *list)
 static dem_status ends_reserve(neighbor_list *list, size_t count)
 {
     if (count <= list->ends_capacity) return DEM_OK;
-    int32_t *ends = array_create(count + count / 4, sizeof *ends);
+    uint32_t *ends = array_create(count + count / 4, sizeof *ends);
     if (!ends) return DEM_NO_MEMORY;
     free(list->ends);
     list->ends = ends;
@@ -299,39 +301,38 @@ static dem_status ends_reserve(neighbor_list *list, size_t count)
     return DEM_OK;
 }
 
-/* Of a sphere's k-th end on one side, among its ends. */
-static inline uint32_t end_place(uint32_t k) { return k / ENDS_A_SIDE * 2 * ENDS_A_SIDE + k % ENDS_A_SIDE; }
+static inline uint32_t row_offset(size_t k) { return (uint32_t)(k * sizeof(contact_row)); }
 
-/* For each sphere, in a fixed order: contacts with spheres of lower id; with those of higher id, then walls. */
+/* Ends in a fixed order: contacts with spheres of lower id, then of higher id, then walls. */
 static dem_status ends_build(neighbor_list *list, const spheres *s)
 {
     const contact_list *pairs = &list->pairs, *walls = &list->walls;
-    const size_t n = s->mobile_count, wall_rows = round_up_to_block(pairs->count);
-    const int32_t zeros = (int32_t)(wall_rows + round_up_to_block(walls->count));
+    const size_t n = s->mobile_count, wall_rows = round_up_to_block(pairs->count),
+                 all = wall_rows + round_up_to_block(walls->count), second_rows = list->radii_differ ? all : 0,
+                 zeros = second_rows ? second_rows + wall_rows : all;
     size_t *start = list->ends_start;
-    uint32_t *second = list->ends_second;
+    int32_t *second = list->ends_second;
     memset(second, 0, n * sizeof *second);
     for (size_t k = 0; k < pairs->count; k++)
         if ((size_t)pairs->second[k] < n) second[pairs->second[k]]++;
     start[0] = 0;
     for (size_t i = 0; i < n; i++) {
-        const size_t first = pairs->start[i + 1] - pairs->start[i] + walls->start[i + 1] - walls->start[i];
-        const size_t longer = first > second[i] ? first : second[i], groups = longer ? (longer + ENDS_A_SIDE - 1) / ENDS_A_SIDE : 1;
-        start[i + 1] = start[i] + groups * 2 * ENDS_A_SIDE;
+        const size_t ends = (size_t)second[i] + pairs->start[i + 1] - pairs->start[i] + walls->start[i + 1] - walls->start[i];
+        const size_t groups = ends ? (ends + ENDS_A_GROUP - 1) / ENDS_A_GROUP : 1;
+        start[i + 1] = start[i] + groups * ENDS_A_GROUP;
     }
     if (ends_reserve(list, start[n]) != DEM_OK) return DEM_NO_MEMORY;
-    int32_t *ends = list->ends;
-    for (size_t k = 0; k < start[n]; k++) ends[k] = zeros;
+    uint32_t *ends = list->ends;
     memset(second, 0, n * sizeof *second);
     for (size_t k = 0; k < pairs->count; k++) {
         const size_t j = (size_t)pairs->second[k];
-        if (j < n) ends[start[j] + end_place(second[j]++)] = (int32_t)k;
+        if (j < n) ends[start[j] + (size_t)second[j]++] = row_offset(second_rows + k);
     }
     for (size_t i = 0; i < n; i++) {
-        int32_t *own = ends + start[i] + ENDS_A_SIDE;
-        uint32_t count = 0;
-        for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) own[end_place(count++)] = (int32_t)k;
-        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) own[end_place(count++)] = (int32_t)(wall_rows + k);
+        size_t at = start[i] + (size_t)second[i];
+        for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) ends[at++] = row_offset(k);
+        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) ends[at++] = row_offset(wall_rows + k);
+        while (at < start[i + 1]) ends[at++] = row_offset(zeros);
     }
     return DEM_OK;
 }

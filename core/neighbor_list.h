@@ -11,7 +11,7 @@
 #include "contact_list.h"
 #include "container.h"
 
-enum { ENDS_A_SIDE = 4 };
+enum { ENDS_A_GROUP = 8 };
 enum { HORIZON = 24 }; /* steps between two picks of the inner list, at most */
 
 enum { MOST_PARTS = 64 };
@@ -40,13 +40,14 @@ typedef struct neighbor_list {
     vector4 *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
-    contact_row *rows;                /* of pairs, then of walls, then one of zeros */
+    contact_row *rows;                /* of pairs, of walls, of second ends where radii differ, then one of zeros */
+    bool radii_differ;
     size_t row_capacity;
-    /* the rows of each sphere's contacts, for its sum: in groups of ENDS_A_SIDE where it is second, by id of the first,
-     * and as many where it is first, by id of the second, then walls; filled up with the row of zeros */
+    /* the rows of each sphere's contacts, for its sum: those where it is second, by id of the first, then those where it
+     * is first, by id of the second, then walls; filled up to whole groups with the row of zeros */
     size_t *ends_start;  /* (mobile + 1) */
-    uint32_t *ends_second; /* (mobile + 1) contacts in which a sphere is second */
-    int32_t *ends;
+    int32_t *ends_second; /* (mobile) contacts in which it is second */
+    uint32_t *ends; /* bytes from the first row */
     size_t ends_capacity;
     int64_t outer_builds, inner_picks;
 } neighbor_list;

@@ -13,12 +13,12 @@
 
 #ifdef DEM_DOUBLE
 typedef double real;
-typedef double ring;
+typedef double on_ring;
 #else
 typedef float real;
-typedef int32_t ring;
+typedef int32_t on_ring;
 #endif
-/* ring: a coordinate modulo a length, in fixed point of 2^32 parts of it (DEM_DOUBLE: in shares of it). Differences are
+/* on_ring: a coordinate modulo a length, in fixed point of 2^32 parts of it (DEM_DOUBLE: in shares of it). Differences are
  * exact, and come out as the way round that is shorter: a periodic axis needs nothing more. */
 #define RING_UNITS (sizeof(real) == sizeof(float) ? 4294967296.0 : 1.0)
 /* Adding this to a double leaves its nearest whole number in the lowest bits. */

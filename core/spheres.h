@@ -8,7 +8,7 @@
 
 /* What a contact reads of a sphere: one cache line in single precision, in quarters. wide.h reads rows by this order. */
 typedef struct sphere_row {
-    ring place[3];
+    on_ring place[3];
     real radius; /* m, now (smaller while growing) */
     real v[3];   /* m/s, half a step behind the place */
     real unused_v;

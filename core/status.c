@@ -25,7 +25,7 @@ const char *dem_phase_name(dem_phase phase)
 
 const char *dem_step_part_name(dem_step_part part)
 {
-    static const char *const name[DEM_STEP_PARTS] = { "outer list", "inner list", "pairs", "walls", "sums", "motion", "container" };
+    static const char *const name[DEM_STEP_PARTS] = { "outer list", "inner list", "pairs", "walls", "motion", "container" };
     return name[part];
 }
 

@@ -1,9 +1,9 @@
 /* The step:
  *     neighbor lists, made again when a displacement asks for it; contact history carried over
  *     forces of contacts between spheres, and with the container
- *     each sphere's sum over its contacts, and each cluster's over its spheres
  *     a look at the drum's torque now and then
- *     velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
+ *     each sphere's sum over its contacts, and each cluster's over its spheres; velocities and positions (Eqns 3, 4),
+ *     spins and orientations (Eqns 5-23)
  *     what fell off a plate is laid aside; what is due of a stream enters
  *     the container moves; the phase may change
  */
@@ -40,12 +40,10 @@ static dem_status step_contacts(dem_scene *scene)
     const int threads = scene->definition.threads;
     neighbor_list *list = &scene->neighbors;
     spheres *s = &scene->spheres;
-    const double between = contact_forces_between_spheres(&list->pairs, s, &scene->drum, &scene->contact, dt, threads);
+    const double between = contact_forces_between_spheres(&list->pairs, s, &scene->contact, dt, threads);
     step_profile_lap(scene->profile, DEM_PART_PAIRS);
     const double wall = contact_forces_with_walls(&list->walls, s, &scene->drum, &scene->contact, dt, threads);
     step_profile_lap(scene->profile, DEM_PART_WALLS);
-    contact_forces_sum(list, s, threads);
-    step_profile_lap(scene->profile, DEM_PART_SUMS);
     const double largest = fmax(between, wall);
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
     return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene) : DEM_OK;
@@ -56,6 +54,7 @@ static void look_at_torque(dem_scene *scene)
     if (scene->phase != DEM_PHASE_ROTATING) return;
     const bool is_due = (scene->step_count - scene->rotation_start) % STEPS_BETWEEN_TORQUES == 0;
     if (!is_due && !scene->audit.is_on) return;
+    contact_forces_sum(&scene->neighbors, &scene->spheres, 0, scene->definition.threads);
     const double torque = energy_wall_torque(&scene->spheres);
     if (scene->audit.is_on) scene->audit.wall_work += scene->definition.time_step * scene->drum.rotation_rate * torque;
     if (!is_due) return;
@@ -140,7 +139,7 @@ dem_status scene_step(dem_scene *scene)
     step_profile_lap(scene->profile, DEM_PART_CONTAINER);
     const body_forces body = forces_of_phase(scene);
     const double deviation =
-        integrator_advance(&scene->spheres, &scene->drum, &body, scene->neighbors.picked_velocity, dt, scene->definition.threads);
+        integrator_advance(&scene->spheres, &scene->neighbors, &scene->drum, &body, dt, scene->definition.threads);
     step_profile_lap(scene->profile, DEM_PART_MOTION);
     audit_half_step(scene);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);

@@ -24,7 +24,7 @@ typedef double wide_double __attribute__((vector_size(64)));      /* 8 lanes; HA
 typedef real row8 __attribute__((vector_size(8 * sizeof(real)))); /* force, 0, torque, 0 of one body */
 
 typedef real half_row __attribute__((vector_size(4 * sizeof(real))));
-typedef ring ring_row __attribute__((vector_size(4 * sizeof(ring))));
+typedef on_ring ring_row __attribute__((vector_size(4 * sizeof(on_ring))));
 typedef double vector4 __attribute__((vector_size(32))); /* x, y, z and one unused */
 
 #define WIDE_INLINE static inline __attribute__((always_inline))
@@ -160,10 +160,10 @@ WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from
     return (size_t)__builtin_popcount(bits);
 }
 
-/* LANES rows of 8: f, half, q, 0. */
-WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], wide half, const wide q[3])
+/* LANES rows of 8: f, 0, q, 0. */
+WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 {
-    const __m512 low[4] = { (__m512)f[0], (__m512)f[1], (__m512)f[2], (__m512)half };
+    const __m512 low[4] = { (__m512)f[0], (__m512)f[1], (__m512)f[2], _mm512_setzero_ps() };
     const __m512 high[4] = { (__m512)q[0], (__m512)q[1], (__m512)q[2], _mm512_setzero_ps() };
     const __m512i front = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), back = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
     __m512 a[4], b[4];
@@ -269,7 +269,7 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
 }
 
 /* The way round from a to b, in units. */
-WIDE_INLINE double ring_difference(ring a, ring b)
+WIDE_INLINE double ring_difference(on_ring a, on_ring b)
 {
 #ifdef DEM_DOUBLE
     return b - a - rint(b - a);
@@ -281,7 +281,7 @@ WIDE_INLINE double ring_difference(ring a, ring b)
 WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
 {
     typedef struct row {
-        ring place[3];
+        on_ring place[3];
         real radius, number[12];
     } __attribute__((aligned(64))) row;
     const row *all = rows;
@@ -299,10 +299,10 @@ WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_
     }
 }
 
-/* LANES rows of 8: f, half, q, 0. */
-WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], wide half, const wide q[3])
+/* LANES rows of 8: f, 0, q, 0. */
+WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 {
-    for (int k = 0; k < LANES; k++) rows[k] = (row8){ f[0][k], f[1][k], f[2][k], half[k], q[0][k], q[1][k], q[2][k], 0 };
+    for (int k = 0; k < LANES; k++) rows[k] = (row8){ f[0][k], f[1][k], f[2][k], 0, q[0][k], q[1][k], q[2][k], 0 };
 }
 
 #endif
@@ -365,6 +365,16 @@ WIDE_INLINE vector4 vector4_fused(vector4 a, vector4 b, vector4 c)
 #else
     for (int k = 0; k < 4; k++) c[k] = __builtin_fma(a[k], b[k], c[k]);
     return c;
+#endif
+}
+
+WIDE_INLINE vector4 vector4_greater(vector4 a, vector4 b)
+{
+#if defined(__AVX2__)
+    return (vector4)_mm256_max_pd((__m256d)a, (__m256d)b);
+#else
+    for (int k = 0; k < 4; k++) a[k] = a[k] > b[k] ? a[k] : b[k];
+    return a;
 #endif
 }
 

@@ -156,8 +156,7 @@ typedef enum dem_step_part {
     DEM_PART_INNER_LIST, /* choosing from it the pairs that can touch, and looking whether that is due */
     DEM_PART_PAIRS,      /* contacts between spheres */
     DEM_PART_WALLS,      /* contacts with the container */
-    DEM_PART_SUMS,       /* of each sphere over its contacts */
-    DEM_PART_MOTION,     /* velocities and positions */
+    DEM_PART_MOTION,     /* of each sphere the sum over its contacts, velocity and place */
     DEM_PART_CONTAINER,  /* its motion, the next phase, looks at torque and energy */
     DEM_STEP_PARTS
 } dem_step_part;

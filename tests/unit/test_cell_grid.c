@@ -14,33 +14,33 @@ static void scatter(spheres *s, size_t count, double radius, double period, doub
 {
     memset(s, 0, sizeof *s);
     s->mobile_count = count;
-    s->row = array_create(count + 1, sizeof *s->row);
+    s->place = array_create(count + 1, sizeof *s->place);
     s->full_radius = array_create(count + 1, sizeof *s->full_radius);
-    assert_non_null(s->row);
+    assert_non_null(s->place);
     assert_non_null(s->full_radius);
     for (size_t i = 0; i < count; i++) {
-        s->row[i].x[0] = dice_uniform(d, -radius, radius);
-        s->row[i].x[1] = dice_uniform(d, -radius, radius);
-        s->row[i].x[2] = dice_uniform(d, -period / 2, period / 2);
+        s->place[i][0] = dice_uniform(d, -radius, radius);
+        s->place[i][1] = dice_uniform(d, -radius, radius);
+        s->place[i][2] = dice_uniform(d, -period / 2, period / 2);
         s->full_radius[i] = (double)(real)(i % 3 ? largest : largest / 3);
     }
     /* the corners of the box and its seam */
-    for (int c = 0; c < 3; c++) s->row[0].x[c] = c < 2 ? radius : -period / 2;
-    for (int c = 0; c < 3; c++) s->row[1].x[c] = c < 2 ? -radius : nextafter(period / 2, 0);
+    for (int c = 0; c < 3; c++) s->place[0][c] = c < 2 ? radius : -period / 2;
+    for (int c = 0; c < 3; c++) s->place[1][c] = c < 2 ? -radius : nextafter(period / 2, 0);
 }
 
 static void discard(cell_grid *grid, spheres *s)
 {
     cell_grid_clear(grid);
-    free(s->row);
+    free(s->place);
     free(s->full_radius);
 }
 
 static double gap_between(const spheres *s, size_t i, size_t j, double period)
 {
-    double dz = fabs(s->row[i].x[2] - s->row[j].x[2]);
+    double dz = fabs(s->place[i][2] - s->place[j][2]);
     dz = fmin(dz, period - dz);
-    return hypot(hypot(s->row[i].x[0] - s->row[j].x[0], s->row[i].x[1] - s->row[j].x[1]), dz) - s->full_radius[i]
+    return hypot(hypot(s->place[i][0] - s->place[j][0], s->place[i][1] - s->place[j][1]), dz) - s->full_radius[i]
            - s->full_radius[j];
 }
 
@@ -141,9 +141,9 @@ static void a_place_outside_or_not_a_number_gets_a_cell_of_the_grid(void **unuse
     cell_grid grid;
     cell_grid_init(&grid);
     scatter(&s, 5, 0.5, 0.7, 0.01, &d);
-    s.row[2].x[0] = NAN;
-    s.row[3].x[1] = 1e300;
-    s.row[4].x[2] = -INFINITY;
+    s.place[2][0] = NAN;
+    s.place[3][1] = 1e300;
+    s.place[4][2] = -INFINITY;
     assert_int_equal(fill(&grid, &s, 0.5, 0.7, 0.1), DEM_OK);
     for (int i = 0; i < 5; i++) CHECK_BETWEEN(grid.cell_of[i], 0, grid.cells[0] * grid.cells[1] * grid.cells[2] - 1);
     discard(&grid, &s);

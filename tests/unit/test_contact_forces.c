@@ -90,7 +90,9 @@ typedef struct answer {
     double arm[2], q[3]; /* torque = arm q */
     contact_history memory;
     double force_scale; /* N: of which rounding takes its share */
+    double steepest;    /* N/m: of the unloading branch */
     double mu_n;        /* N */
+    bool is_slipping;   /* T is within 1 % of its limit, or beyond */
     bool is_turning;    /* nearly at right angles to T: whether it turns is rounding's to say */
 } answer;
 
@@ -131,8 +133,11 @@ static answer scalar_answer(const questions *q, size_t p, const double radius[2]
     a.is_turning =
         fabs(s_p) < 1e-3 * sqrt(size2 * scalar_product(moved, moved)) || fabs(scalar_product(t_before, t_after)) < 1e-3 * size2;
     a.mu_n = mu_n;
+    a.is_slipping = sqrt(size2) > 0.99 * mu_n && mu_n > 0;
     for (int c = 0; c < 3; c++) a.force[c] = t_after[c] - f_n * n[c];
     cross(n, t_after, a.q);
+    const double bent = slope * fmax(memory[HISTORY_ALPHA_0], (double)a.memory.alpha_0);
+    a.steepest = slope > 0 ? k_1 * (1 + (bent + sqrt(bent * (bent + 4))) / 2) : k_2;
     a.force_scale = k_2 * fabs(overlap) + sqrt(size2) + k_t * speed * dt;
     return a;
 }
@@ -163,9 +168,10 @@ static void compare_round(const questions *q, dem_scene *scene, difference seen[
 
     for (size_t p = 0; p < PAIRS; p++) {
         const answer a = scalar_answer(q, p, scene->spheres.full_radius + 2 * p, &d->contact, dt);
-        difference *worst = &seen[q->kind[p]];
-        /* The overlap is a difference of numbers in double, the change of velocity one of doubles too. */
-        const double f_unit = ROUNDING * a.force_scale + DBL_EPSILON * (d->contact.stiffness / 0.64 * 0.004 + m / dt);
+        difference *worst = &seen[a.is_slipping ? FULL_SLIP : q->kind[p]];
+        /* The overlap comes from places in units of 2^-32 of 8 diameters, the change of velocity is one of doubles. */
+        const double place = sizeof(real) == sizeof(float) ? 8 * 0.004 / 4294967296.0 : 0.004 * DBL_EPSILON;
+        const double f_unit = ROUNDING * a.force_scale + place * a.steepest + DBL_EPSILON * m / dt;
         const double length = 0.002, t_unit = f_unit * length + DBL_EPSILON * inertia / dt * 250;
         const double *m_got = memory + HISTORY_WIDTH * p;
         for (size_t c = 0; c < 3; c++) {

@@ -27,12 +27,12 @@ static listed listed_create(const dem_scene *scene)
 }
 
 /* Nearly sorted from the step before: by insertion. */
-static void listed_sort(listed *l, const sphere_row *row)
+static void listed_sort(listed *l, const vector4 *place)
 {
     for (size_t k = 1; k < l->all; k++) {
         const size_t moving = l->order[k];
         size_t m = k;
-        for (; m > 0 && row[l->order[m - 1]].x[0] > row[moving].x[0]; m--) l->order[m] = l->order[m - 1];
+        for (; m > 0 && place[l->order[m - 1]][0] > place[moving][0]; m--) l->order[m] = l->order[m - 1];
         l->order[m] = moving;
     }
 }
@@ -48,12 +48,12 @@ static void listed_mark(listed *l, const contact_list *pairs, uint8_t mark)
 static void count_pairs(const dem_scene *scene, listed *l, census *c)
 {
     const spheres *s = &scene->spheres;
-    listed_sort(l, s->row);
+    listed_sort(l, s->place);
     const double widest = fmax(s->largest_diameter, scene->definition.lining.diameter);
     for (size_t a = 0; a < l->all; a++)
-        for (size_t b = a + 1; b < l->all && s->row[l->order[b]].x[0] - s->row[l->order[a]].x[0] < widest; b++) {
+        for (size_t b = a + 1; b < l->all && s->place[l->order[b]][0] - s->place[l->order[a]][0] < widest; b++) {
             const size_t i = l->order[a] < l->order[b] ? l->order[a] : l->order[b], j = l->order[a] + l->order[b] - i;
-            const double *x = s->row[i].x, *y = s->row[j].x, reach = (double)s->row[i].radius + (double)s->row[j].radius;
+            const double *x = sphere_place(s, i), *y = sphere_place(s, j), reach = sphere_radius(s, i) + sphere_radius(s, j);
             const double dx = y[0] - x[0], dy = y[1] - x[1];
             if (i >= l->mobile || fabs(dy) > reach) continue;
             if (j < l->mobile && particle_of_sphere(s, i) == particle_of_sphere(s, j)) continue; /* one rigid body */
@@ -80,8 +80,8 @@ static void count_walls(const dem_scene *scene, census *c)
 {
     const contact_list *walls = &scene->neighbors.walls;
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
-        const sphere_row *row = &scene->spheres.row[i];
-        if (hypot(row->x[0], row->x[1]) + (double)row->radius <= scene->drum.radius) continue;
+        const double *x = sphere_place(&scene->spheres, i);
+        if (hypot(x[0], x[1]) + sphere_radius(&scene->spheres, i) <= scene->drum.radius) continue;
         bool found = false;
         for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) found = found || walls->first[k] == (int32_t)i;
         c->touching++;
@@ -225,9 +225,9 @@ static void contacts_of_each_particle_are_counted_as_by_all_pairs(void **unused)
     int32_t counted[200], expected[200] = { 0 };
     dem_scene_particles(scene, &(dem_particle_arrays){ .contacts = counted });
     for (size_t i = 0; i < 200; i++) {
-        const double *x = s->row[i].x;
+        const double *x = sphere_place(s, i);
         for (size_t j = 0; j < spheres_count(s); j++) {
-            const double *y = s->row[j].x, dz = remainder(y[2] - x[2], d.length);
+            const double *y = sphere_place(s, j), dz = remainder(y[2] - x[2], d.length);
             const double distance = sqrt((y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + dz * dz);
             expected[i] += j != i && distance < s->full_radius[i] + s->full_radius[j];
         }
