@@ -73,8 +73,7 @@ static size_t set_cells(cell_grid *grid, const double low[3], const double high[
     return cells;
 }
 
-dem_status cell_grid_fill(cell_grid *grid, const spheres *s, const double low[3], const double high[3], double period,
-                          double reach)
+dem_status cell_grid_fill(cell_grid *grid, const spheres *s, const double low[3], const double high[3], double period, double reach)
 {
     const size_t cells = set_cells(grid, low, high, period, reach), n = spheres_count(s);
     if (reserve_cells(grid, cells) != DEM_OK || reserve_spheres(grid, n) != DEM_OK) return DEM_NO_MEMORY;

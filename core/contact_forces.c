@@ -95,8 +95,8 @@ static void keep_overlaps(const contact_block *restrict block, real *restrict ov
     }
 }
 
-void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact, bool is_wall,
-                          double dt, wide *largest)
+void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
+                          bool is_wall, double dt, wide *largest)
 {
     normals(block);
     displacements(block, (real)dt);

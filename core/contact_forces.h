@@ -17,8 +17,14 @@ void contact_forces_sum(const neighbor_list *list, spheres *spheres, size_t from
  * foresees the end of the loop. */
 static inline row8 contact_forces_of(const neighbor_list *list, size_t i)
 {
-#define AS_SECOND { -1, -1, -1, 0, 1, 1, 1, 0 }
-#define AS_FIRST { 1, 1, 1, 0, 1, 1, 1, 0 }
+#define AS_SECOND                                                                                                                  \
+    {                                                                                                                              \
+        -1, -1, -1, 0, 1, 1, 1, 0                                                                                                  \
+    }
+#define AS_FIRST                                                                                                                   \
+    {                                                                                                                              \
+        1, 1, 1, 0, 1, 1, 1, 0                                                                                                     \
+    }
     static const row8 sign[2 * ENDS_A_GROUP] = { AS_SECOND, AS_SECOND, AS_SECOND, AS_SECOND, AS_SECOND, AS_SECOND,
                                                  AS_SECOND, AS_SECOND, AS_FIRST,  AS_FIRST,  AS_FIRST,  AS_FIRST,
                                                  AS_FIRST,  AS_FIRST,  AS_FIRST,  AS_FIRST };

@@ -16,19 +16,19 @@
 typedef row8 contact_row;
 
 typedef struct contact_list {
-    size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
-    int32_t *first;         /* (capacity) sphere index */
-    int32_t *second;        /* (capacity) sphere index, or that of the wall */
-    real *friction;         /* (capacity) mu */
-    real *first_radius;     /* (capacity) m, at full size */
-    real *mass;             /* (capacity) kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
-    real *t[3];             /* (capacity) N   contact_history, by component */
-    real *t_star;           /* (capacity) */
-    real *alpha_0;          /* (capacity) m */
-    contact_row *row;       /* (capacity) part of the neighbor list's rows */
+    size_t count, capacity;  /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
+    int32_t *first;          /* (capacity) sphere index */
+    int32_t *second;         /* (capacity) sphere index, or that of the wall */
+    real *friction;          /* (capacity) mu */
+    real *first_radius;      /* (capacity) m, at full size */
+    real *mass;              /* (capacity) kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
+    real *t[3];              /* (capacity) N   contact_history, by component */
+    real *t_star;            /* (capacity) */
+    real *alpha_0;           /* (capacity) m */
+    contact_row *row;        /* (capacity) part of the neighbor list's rows */
     contact_row *second_row; /* (capacity) likewise, for second ends; NULL: the same as for the first */
-    real *overlap;          /* (capacity) m at the last step; negative: apart */
-    size_t *start;          /* (spheres + 1) where each first sphere's contacts begin */
+    real *overlap;           /* (capacity) m at the last step; negative: apart */
+    size_t *start;           /* (spheres + 1) where each first sphere's contacts begin */
 } contact_list;
 
 dem_status contact_list_init(contact_list *list, size_t sphere_count);

@@ -87,6 +87,9 @@ static dem_status overlap_failure(dem_scene *scene, int32_t i, int32_t j, double
 
 dem_status failure_check_overlaps(dem_scene *scene)
 {
+    /* A place that is no number overlaps with anything: tell the cause. */
+    const dem_status places = failure_check_places(scene);
+    if (places != DEM_OK) return places;
     const spheres *s = &scene->spheres;
     const contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
     for (size_t k = 0; k < pairs->count; k++) {

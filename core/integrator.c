@@ -42,7 +42,7 @@ static void cluster_turn(const leap_frog *leap, const cluster_shape *shape, clus
     const double n[3] = { torque[0], torque[1], torque[2] };
     if (shape->is_isotropic) { /* Euler's products vanish; no need to turn back and forth */
         for (int c = 0; c < 3; c++)
-            in_space[c] = body->spin[c] = leap->keep * body->spin[c] + (leap->dt * (1.0 / shape->inertia[0])) * n[c];
+            in_space[c] = body->spin[c] = __builtin_fma(leap->dt * (1.0 / shape->inertia[0]), n[c], leap->keep * body->spin[c]);
         to_body(a, in_space, in_body);
         return;
     }
@@ -67,12 +67,14 @@ static void cluster_advance(const leap_frog *leap, spheres *s, cluster_body *bod
     for (size_t k = 0; k < shape->sphere_count; k++) offset[k] = cluster_offset(shape, k, a, scale_now);
     cluster_load(shape, &s->load[first], offset, &force, &torque);
 
-    const vector4 v = leap->keep * body->velocity + (leap->dt * (1.0 / shape->mass)) * force - leap->gravity_dt;
+    const vector4 keep = leap->keep - (vector4){ 0 }, dt = leap->dt - (vector4){ 0 },
+                  per_mass = leap->dt * (1.0 / shape->mass) - (vector4){ 0 };
+    const vector4 v = vector4_fused(per_mass, force, vector4_fused(keep, body->velocity, -leap->gravity_dt));
     cluster_turn(leap, shape, body, a, torque, in_space, in_body);
     const vector4 omega = { in_space[0], in_space[1], in_space[2] };
     body->velocity = v;
     body->orientation = quaternion_advance(body->orientation, in_body, leap->dt);
-    const vector4 x = (vector4){ body->x[0], body->x[1], body->x[2] } + leap->dt * v;
+    const vector4 x = vector4_fused(dt, v, (vector4){ body->x[0], body->x[1], body->x[2] });
     const vector4 wrapped = x - leap->period * vector4_rint(x * leap->inverse_period);
     for (int c = 0; c < 3; c++) body->x[c] = wrapped[c];
 

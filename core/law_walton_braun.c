@@ -78,8 +78,7 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
         const wide s = wide_load(block->stored + k), s_p = wide_load(block->s_p + k), mu_n = wide_load(block->mu_n + k);
         const wide along = wide_fused(-k_t0, s_p, s);
         wide f[3];
-        for (int c = 0; c < 3; c++)
-            f[c] = wide_fused(along, wide_load(block->h[c] + k), k_t0 * wide_load(block->ds[c] + k));
+        for (int c = 0; c < 3; c++) f[c] = wide_fused(along, wide_load(block->h[c] + k), k_t0 * wide_load(block->ds[c] + k));
         const wide size2 = wide_dot(f, f);
         const wide scale = wide_select(wide_exceeds(size2, mu_n * mu_n), mu_n * wide_inverse_root(size2), one);
         for (int c = 0; c < 3; c++) f[c] = f[c] * scale;

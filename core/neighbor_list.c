@@ -162,7 +162,8 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
     const size_t n = s->mobile_count;
     const double largest = fmax(s->largest_diameter, 2 * s->full_radius[spheres_count(s) - 1]);
     const int parts = threads < MOST_PARTS ? threads : MOST_PARTS;
-    dem_status status = cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, largest + list->skin), of_part[MOST_PARTS];
+    dem_status status = cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, largest + list->skin),
+               of_part[MOST_PARTS];
     if (status != DEM_OK) return status;
 #pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
     for (int p = 0; p < parts; p++) of_part[p] = outer_part(list, s, p, parts);
@@ -206,7 +207,8 @@ static outlook outlook_measure(const neighbor_list *list, const spheres *s, cons
     double displacement2 = 0.0, speed2 = 0.0;
     for (size_t i = 0; i < s->mobile_count; i++) {
         const vector4 v = s->velocity[i];
-        const double moved2 = squared_distance((const double *)&list->built_at[i], sphere_place(s, i), drum->period, drum->inverse_period);
+        const double moved2 =
+            squared_distance((const double *)&list->built_at[i], sphere_place(s, i), drum->period, drum->inverse_period);
         const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         displacement2 = moved2 > displacement2 ? moved2 : displacement2;
         speed2 = v2 > speed2 ? v2 : speed2;
@@ -248,8 +250,7 @@ static void mark_in_reach(neighbor_list *list, const spheres *s, const container
     double unit[3];
     spheres_ring_unit(s, unit);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t g = 0; g < groups; g++)
-        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, (real)duration);
+    for (size_t g = 0; g < groups; g++) list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, (real)duration);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t i = 0; i < s->mobile_count; i++) {
         list->walls.start[i + 1] = wall_reach_count(s, drum, ahead, i);
@@ -425,7 +426,9 @@ void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, c
     for (size_t k = 0; k < list->pairs.count; k++) {
         const int32_t i = list->pairs.first[k], j = list->pairs.second[k];
         const double radii = (double)s->row[i].radius + (double)s->row[j].radius;
-        if (squared_distance(sphere_place(s, (size_t)i), sphere_place(s, (size_t)j), drum->period, drum->inverse_period) >= radii * radii) continue;
+        if (squared_distance(sphere_place(s, (size_t)i), sphere_place(s, (size_t)j), drum->period, drum->inverse_period)
+            >= radii * radii)
+            continue;
         contacts[i]++;
         if ((size_t)j < s->mobile_count) contacts[j]++;
     }

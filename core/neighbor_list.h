@@ -45,9 +45,9 @@ typedef struct neighbor_list {
     size_t row_capacity;
     /* the rows of each sphere's contacts, for its sum: those where it is second, by id of the first, then those where it
      * is first, by id of the second, then walls; filled up to whole groups with the row of zeros */
-    size_t *ends_start;  /* (mobile + 1) */
+    size_t *ends_start;   /* (mobile + 1) */
     int32_t *ends_second; /* (mobile) contacts in which it is second */
-    uint32_t *ends; /* bytes from the first row */
+    uint32_t *ends;       /* bytes from the first row */
     size_t ends_capacity;
     int64_t outer_builds, inner_picks;
 } neighbor_list;

@@ -42,8 +42,8 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->inverse_inertia = array_create(singles, sizeof *s->inverse_inertia);
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
-    if (status != DEM_OK || !s->row || !s->place || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity || !s->load
-        || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->lining_place) {
+    if (status != DEM_OK || !s->row || !s->place || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity
+        || !s->load || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }

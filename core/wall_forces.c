@@ -53,8 +53,7 @@ static void gather_wall(contact_block *restrict block, int k, const spheres *s, 
 static void gather(contact_block *restrict block, const contact_list *walls, size_t start, const spheres *s, const container *c)
 {
     const int32_t *first = walls->first + start, *second = walls->second + start;
-    if (c->wall[0].kind == WALL_CYLINDER)
-        gather_cylinder(block, s, first, c->radius, c->wall[0].rotation_rate);
+    if (c->wall[0].kind == WALL_CYLINDER) gather_cylinder(block, s, first, c->radius, c->wall[0].rotation_rate);
     if (c->wall_count == 1) return;
     const size_t left = walls->count - start;
     for (int k = 0; k < BLOCK; k++) {

@@ -111,7 +111,8 @@ WIDE_INLINE __m512 row_pair(const void *rows, int32_t a, int32_t b, __m512 sign)
     enum { PLACE = 7, OTHERS = 0xfff8 }; /* lanes 0-2; bits of a place, read as a float, might be denormal and slow */
     const __m512 *row = rows;
     const __m512 row_a = row[(uint32_t)a], row_b = row[(uint32_t)b], sum = _mm512_maskz_fmadd_ps(OTHERS, row_a, sign, row_b);
-    return _mm512_castsi512_ps(_mm512_mask_sub_epi32(_mm512_castps_si512(sum), PLACE, _mm512_castps_si512(row_b), _mm512_castps_si512(row_a)));
+    return _mm512_castsi512_ps(
+        _mm512_mask_sub_epi32(_mm512_castps_si512(sum), PLACE, _mm512_castps_si512(row_b), _mm512_castps_si512(row_a)));
 }
 
 WIDE_INLINE void ring_displacement(__m512i turned, double unit, wide_double x[2], wide *n)
