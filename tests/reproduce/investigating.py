@@ -44,10 +44,11 @@ def variants(inputs):
 
 
 def can_vary(collected, row):
-    """Drums alone have all that is varied; a row without a number can't be nearer or further."""
+    """Drums alone have all that is varied; a row without a number can't be nearer or further. "vary": false says that a
+    row is an input, or would take too long."""
     process = collected["document"]["base"].get("process", "drum")
     inputs = request_of(collected["document"], row["case"])
-    return process == "drum" and "value" in row and inputs is not None and "fill_fraction" in inputs \
+    return row.get("vary", True) and process == "drum" and "value" in row and inputs is not None and "fill_fraction" in inputs \
         and "friction" in inputs.get("wall", {}) and all("diameter" in kind for kind in inputs["particles"])
 
 
