@@ -84,6 +84,11 @@ void spheres_set_period(spheres *s, const dem_drum_definition *definition, doubl
     /* Listed pairs stay within two diameters: half a ring is twice that. */
     const double least = 8 * largest_sphere(definition), along = period > 0 ? period / fmax(1, floor(period / least)) : least;
     s->ring_units = (vector4){ RING_UNITS / least, RING_UNITS / least, RING_UNITS / along };
+    spheres_pad(s);
+}
+
+void spheres_pad(spheres *s)
+{
     const vector4 nothing = { 0 }, half_way_round = { 0.49 * RING_UNITS };
     sphere_row_store(&s->row[sphere_of_zeros(s)], nothing, nothing, nothing);
     sphere_row_store(&s->row[sphere_far_away(s)], half_way_round, nothing, nothing);

@@ -100,6 +100,7 @@ size_t species_particles(const dem_drum_definition *definition, size_t species);
 /* Before any place is set: rows tell places apart modulo the period along z (m; 0: none) and lengths that no listed pair
  * comes near. */
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
+void spheres_pad(spheres *spheres); /* the last two rows, also after a change of the counts */
 static inline void spheres_ring_unit(const spheres *s, double unit[3]) /* m */
 {
     for (int c = 0; c < 3; c++) unit[c] = 1 / s->ring_units[c];

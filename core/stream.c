@@ -47,14 +47,12 @@ static size_t spheres_of(const dem_scene *scene, size_t particles)
 /* Spheres behind the last one inside are those that no list names but in its padding. */
 static void set_inside(dem_scene *scene, size_t particles)
 {
-    static const double nowhere[3] = { 0 }, far_away[3] = { 1e6 };
     spheres *s = &scene->spheres;
     const size_t before = s->mobile_count;
     s->mobile_count = spheres_of(scene, particles);
     if (scene->stream.has_clusters) s->clusters.count = particles;
     else s->single_count = particles;
-    sphere_set_place(s, (size_t)sphere_of_zeros(s), nowhere);
-    sphere_set_place(s, (size_t)sphere_far_away(s), far_away);
+    spheres_pad(s);
     spheres_set_scale(s, 1.0);
     neighbor_list_extend(&scene->neighbors, before, s->mobile_count);
 }
