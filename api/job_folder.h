@@ -10,7 +10,7 @@
  *        "particle_steps_per_second":2.1e7}                                    about once a second
  *       {"event":"sample","number":0,"step":..,"time":..,"values":{"angle_deg":22.7, ...}}   NaN becomes null
  *       {"event":"snapshot","number":0,"step":..,"time":..,"file":"000000.hdf","bytes":..,"particles":..}
- *       {"event":"checkpoint","step":..,"time":..}
+ *       {"event":"checkpoint","step":..,"time":..,"attempt":..}
  *       {"event":"failure","status":"overlap-too-large","message":"...","detail":{...}}
  *           status: not-a-number, overlap-too-large, particle-escaped, never-settled (all with detail: step, time,
  *           particle, other, position, quantity, value, limit, unit, likely_cause); does-not-fit, bad-parameter,

@@ -261,6 +261,7 @@ static void read_place(const spec_field *field, const json_t *value, const char 
     if (!value && !field->required) return;
     if (json_array_size(value) != numbers) {
         json_value_text(value, seen, sizeof seen);
+        if (json_is_array(value)) snprintf(seen, sizeof seen, "a list of %zu", json_array_size(value));
         problem_list_add(problems, pointer, "is %s; must be a list of %s numbers, each in %s", value ? seen : "missing",
                          numbers == 4 ? "four" : "three", range);
         return;

@@ -8,35 +8,38 @@
 #include "dem_cluster.h"
 #include "process_type.h"
 #include "spec_text.h"
+#include "status_info.h"
 
 /* Of the smaller diameter: as far as spheres may overlap when a run begins, the most that maximum_overlap can ask for. */
 #define MOST_START_OVERLAP 0.05
 enum { ENOUGH_OVERLAPS = 20 };
-/* As job ids are written. */
-#define ID_PATTERN "20261122-014455-3f9a2c71"
+#define AN_ID "20261122-014455-3f9a2c71"
 
 /* --- which bed --- */
 
-static bool is_job_id(const char *id)
+/* Whether anything in start is wrong already. */
+static bool is_refused(const problem_list *problems)
 {
-    if (strlen(id) != strlen(ID_PATTERN)) return false;
-    for (size_t k = 0; id[k]; k++) {
-        const bool dash = k == 8 || k == 15;
-        const char *allowed = k < 15 ? "0123456789" : "0123456789abcdef";
-        if (dash ? id[k] != '-' : !strchr(allowed, id[k])) return false;
+    size_t index;
+    json_t *error;
+    json_array_foreach(problems->errors, index, error)
+    {
+        const char *pointer = json_string_value(json_object_get(error, "pointer"));
+        if (pointer && strncmp(pointer, "/inputs/start", strlen("/inputs/start")) == 0) return true;
     }
-    return true;
+    return false;
 }
 
 /* One of job, file and particles; snapshot or checkpoint of a job alone. False: a problem says why not. */
 static bool check_choice(start_inputs *start, problem_list *problems)
 {
     const size_t before = json_array_size(problems->errors);
+    if (is_refused(problems)) return false; /* whether one was named can't be told */
     const int given = (*start->job != 0) + (*start->file != 0) + (start->particle_count > 0);
     if (given != 1)
         problem_list_add(problems, "/inputs/start", "names %d of job, file and particles; must name one of them", given);
-    if (*start->job && !is_job_id(start->job))
-        problem_list_add(problems, "/inputs/start/job", "is \"%s\"; must be the id of a job, as " ID_PATTERN, start->job);
+    if (*start->job && !job_id_is_valid(start->job))
+        problem_list_add(problems, "/inputs/start/job", "is \"%s\"; must be the id of a job, as " AN_ID, start->job);
     if (!isnan(start->snapshot) && !isnan(start->checkpoint))
         problem_list_add(problems, "/inputs/start/snapshot", "is given beside checkpoint; give one of the two");
     if (!*start->job && (!isnan(start->snapshot) || !isnan(start->checkpoint)))

@@ -12,7 +12,7 @@ const char *dem_status_text(dem_status status)
     case DEM_PARTICLE_ESCAPED: return "a particle left the drum";
     case DEM_NEVER_SETTLED: return "the bed did not come to rest";
     case DEM_TOO_FEW_FRAMES: return "too few frames to measure";
-    case DEM_STATE_MISMATCH: return "the saved state belongs to another definition";
+    case DEM_STATE_MISMATCH: return "the saved state is not whole, or belongs to another definition";
     }
     return "unknown status";
 }

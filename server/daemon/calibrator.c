@@ -4,7 +4,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <linux/close_range.h>
 #include <sched.h>
 #include <signal.h>
 #include <string.h>
@@ -24,8 +23,9 @@ static void become_calibrator(const char *program, char *const *arguments)
     const struct rlimit seconds = { MOST_SECONDS, MOST_SECONDS };
     const int null = open("/dev/null", O_RDWR);
     if (null < 0 || dup2(null, 0) < 0 || dup2(null, 1) < 0) _exit(1);
-    close_range(3, ~0U, CLOSE_RANGE_CLOEXEC); /* the lock of the data folder among them */
-    setpgid(0, 0);                            /* no session of its own: the scheduler would weigh that against the jobs of ours */
+    /* At once, not at the exec, for which an idle process may wait long: the lock of the data folder is among them. */
+    close_range(3, ~0U, 0);
+    setpgid(0, 0); /* no session of its own: the scheduler would weigh that against the jobs of ours */
     for (int number = 1; number < 32; number++) signal(number, SIG_DFL);
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);

@@ -137,6 +137,7 @@ static store_status record_batch(job_dispatcher *dispatcher, worker_slot *slot, 
     const store_status status = batch.any ? store_record_events(dispatcher->store, &slot->claim, &batch) : STORE_OK;
     if (status == STORE_OK) {
         *more = batch.more;
+        job_claim_note(&slot->claim, &batch);
         slot->events_at = batch.end;
         if (isfinite(batch.speed)) slot->speed = batch.speed;
         if (batch.failure) {

@@ -13,6 +13,7 @@ void event_batch_clear(event_batch *batch)
 {
     json_decref(batch->samples);
     json_decref(batch->snapshots);
+    json_decref(batch->checkpoints);
     json_decref(batch->failure);
     *batch = (event_batch){ .progress = NAN, .eta_seconds = NAN, .speed = NAN };
 }
@@ -40,6 +41,7 @@ static void take_event(event_batch *batch, json_t *event)
     if (strcmp(kind, "progress") == 0) take_progress(batch, event);
     else if (strcmp(kind, "sample") == 0) json_array_append(batch->samples, event);
     else if (strcmp(kind, "snapshot") == 0) json_array_append(batch->snapshots, event);
+    else if (strcmp(kind, "checkpoint") == 0) json_array_append(batch->checkpoints, event);
     else if (strcmp(kind, "failure") == 0 || strcmp(kind, "start") == 0) {
         json_decref(batch->failure);
         batch->failure = kind[0] == 'f' ? json_incref(event) : NULL; /* a new start forgets an earlier failure */
@@ -64,8 +66,10 @@ bool event_tail_read(int file, int64_t offset, event_batch *batch)
     *batch = (event_batch){ .progress = NAN, .eta_seconds = NAN, .speed = NAN, .end = offset };
     batch->samples = json_array();
     batch->snapshots = json_array();
+    batch->checkpoints = json_array();
     char *text = malloc(BATCH_BYTES);
-    const ssize_t length = text && batch->samples && batch->snapshots ? read_all(file, text, BATCH_BYTES, offset) : -1;
+    const bool has_room = text && batch->samples && batch->snapshots && batch->checkpoints;
+    const ssize_t length = has_room ? read_all(file, text, BATCH_BYTES, offset) : -1;
     const char *line = text;
     for (ssize_t left = length; left > 0;) {
         const char *end = memchr(line, '\n', (size_t)left);

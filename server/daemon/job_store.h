@@ -58,19 +58,27 @@ typedef struct job_claim {
     char id[JOB_ID_SIZE];
     int attempt, threads;
     double estimated_seconds, estimated_memory_bytes;
-    char *spec; /* owned; NULL once the worker has started */
+    char *spec;         /* owned; NULL once the worker has started */
+    int64_t saved_step; /* of the furthest checkpoint that any attempt told of, */
+    int saved_in;       /* and the attempt that told; 0: none yet */
 } job_claim;
 
 /* Takes the oldest job that waits, if it needs no more threads than are free (a job of more than `all_threads`
  * counts as that many). STORE_NOT_FOUND: none. */
 store_status store_claim_job(job_store *store, int free_threads, int all_threads, job_claim *claim);
 
+/* Takes in how far checkpoints have come; the same events again change nothing. */
+void job_claim_note(job_claim *claim, const event_batch *events);
+/* Whether the job fails if this attempt dies: the last JOB_ATTEMPTS of them have all died without coming further. */
+bool job_claim_is_last(const job_claim *claim);
+
 /* The calls below return STORE_CONFLICT when the claim no longer holds (the job was dismissed): then nothing was
  * written. store_record_events is for use between begin and end. */
 store_status store_record_events(job_store *store, const job_claim *claim, const event_batch *events);
 store_status store_record_success(job_store *store, const job_claim *claim, const char *document);
 store_status store_record_failure(job_store *store, const job_claim *claim, const char *message, const json_t *failure);
-/* Back into the queue. uses_attempt: the worker died; the last attempt's death fails the job. */
+/* Back into the queue. uses_attempt: the worker died; the death of the last attempt fails
+ * the job. */
 store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, double delay, const char *message);
 bool store_claim_holds(job_store *store, const job_claim *claim);
 

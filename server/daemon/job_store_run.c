@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
+#include <unistd.h>
 
 #include "database.h"
 #include "job_folder.h"
@@ -134,6 +135,19 @@ store_status store_record_events(job_store *store, const job_claim *claim, const
     return status;
 }
 
+void job_claim_note(job_claim *claim, const event_batch *events)
+{
+    for (size_t i = 0; i < json_array_size(events->checkpoints); i++) {
+        const json_t *event = json_array_get(events->checkpoints, i);
+        const int64_t step = whole(event, "step");
+        if (step <= claim->saved_step) continue;
+        claim->saved_step = step;
+        claim->saved_in = (int)whole(event, "attempt");
+    }
+}
+
+bool job_claim_is_last(const job_claim *claim) { return claim->attempt - claim->saved_in >= JOB_ATTEMPTS; }
+
 /* --- ends --- */
 
 static store_status end_job(job_store *store, const job_claim *claim, job_status end, const char *message, const char *failure)
@@ -171,8 +185,8 @@ static store_status put_back(job_store *store, const job_claim *claim, bool uses
 {
     char now[JOB_TIME_SIZE], text[1024];
     time_text(now);
-    if (uses_attempt && claim->attempt >= JOB_ATTEMPTS) {
-        snprintf(text, sizeof text, "%s; this was the last of %d attempts", message, JOB_ATTEMPTS);
+    if (uses_attempt && job_claim_is_last(claim)) {
+        snprintf(text, sizeof text, "%s; %d attempts in a row have come no further", message, JOB_ATTEMPTS);
         return end_job(store, claim, JOB_FAILED, text, NULL);
     }
     int64_t changed;
@@ -202,9 +216,32 @@ static store_status next_orphan(job_store *store, int64_t after, job_claim *clai
     return statement ? read_claim(statement, claim) : STORE_FAILED;
 }
 
-/* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. */
-static store_status recover_one(job_store *store, const job_claim *claim)
+/* What its worker wrote after the last look of the daemon that died. */
+static store_status record_left_events(job_store *store, job_claim *claim)
 {
+    const int file = job_file_open(store->data, claim->id, NULL, JOB_EVENTS_FILE);
+    store_status status = STORE_OK;
+    bool more = file >= 0;
+    int64_t at = 0;
+    while (more && status == STORE_OK) {
+        event_batch batch;
+        if (!event_tail_read(file, at, &batch)) break;
+        status = store_begin(store);
+        if (status == STORE_OK) status = store_end(store, batch.any ? store_record_events(store, claim, &batch) : STORE_OK);
+        job_claim_note(claim, &batch);
+        at = batch.end;
+        more = batch.more;
+        event_batch_clear(&batch);
+    }
+    if (file >= 0) close(file);
+    return status;
+}
+
+/* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. */
+static store_status recover_one(job_store *store, job_claim *claim)
+{
+    const store_status recorded = record_left_events(store, claim);
+    if (recorded != STORE_OK) return recorded;
     char *document = job_file_read(store->data, claim->id, JOB_RESULT_FILE, LARGEST_RESULT);
     json_t *parsed = document ? json_loads(document, 0, NULL) : NULL;
     const store_status status = parsed ? store_record_success(store, claim, document)

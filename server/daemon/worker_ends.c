@@ -2,9 +2,9 @@
  *
  *   0  result.json is there     successful
  *   3  stopped in good order    accepted again, the attempt not used up
- *   5  disk                     accepted again, attempt + 1, after a pause in which somebody may make room
+ *   5  disk                     accepted again, attempt + 1, after a pause in which somebody may make room; failed as below
  *   2, 4, 1, 127                failed: the same worker on the same spec would end the same way
- *   a signal                    accepted again, attempt + 1; failed after the last attempt
+ *   a signal                    accepted again, attempt + 1; failed when three in a row saved no newer checkpoint
  */
 #include "worker_ends.h"
 
@@ -76,7 +76,7 @@ static store_status put_back(job_dispatcher *dispatcher, worker_slot *slot, bool
 {
     const store_status status = store_put_back(dispatcher->store, &slot->claim, uses_attempt, delay, why);
     if (status == STORE_OK) {
-        const bool was_last = uses_attempt && slot->claim.attempt >= JOB_ATTEMPTS;
+        const bool was_last = uses_attempt && job_claim_is_last(&slot->claim);
         if (was_last) dispatcher->ended[JOB_FAILED]++;
         else dispatcher->put_back++;
         log_line("job %s: %s; %s", slot->claim.id, why, was_last ? "no attempt is left" : "put back into the queue");

@@ -190,7 +190,7 @@ static enum worker_exit save_checkpoint(scene_run *r)
     dem_state_clear(&saved.state);
     r->last_checkpoint = monotonic_seconds();
     if (!written) return fail_for_disk(r, JOB_CHECKPOINT_FILE);
-    return add_event(r, "checkpoint", json_object()) ? WORKER_DONE : WORKER_DISK;
+    return add_event(r, "checkpoint", json_pack("{s:i}", "attempt", r->options->attempt)) ? WORKER_DONE : WORKER_DISK;
 }
 
 static enum worker_exit report_progress(scene_run *r)
@@ -203,8 +203,9 @@ static enum worker_exit report_progress(scene_run *r)
     progress_report report;
     if (!progress_is_due(&r->progress, r->scene, &report)) return WORKER_DONE;
     if (r->options->on_terminal) terminal_progress(&report, dem_scene_phase_name(r->scene), dem_scene_time(r->scene));
-    json_t *event = json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_scene_phase_name(r->scene), "progress", report.percent, "eta_seconds",
-                              json_real_or_null(report.eta_seconds), "particle_steps_per_second", report.particle_steps_per_second);
+    json_t *event =
+        json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_scene_phase_name(r->scene), "progress", report.percent, "eta_seconds",
+                  json_real_or_null(report.eta_seconds), "particle_steps_per_second", report.particle_steps_per_second);
     return add_event(r, "progress", event) ? WORKER_DONE : WORKER_DISK;
 }
 

@@ -44,20 +44,30 @@ def snapshot(number):
     tell("snapshot", number=number, step=100 * number, time=0.1 * number, file=f"{number:06}.hdf", bytes=111, particles=41)
 
 
+def checkpoint(step):
+    publish(CHECKPOINT, str(step))
+    tell("checkpoint", step=100 * step, time=0.1 * step, attempt=int(sys.argv[6]))
+
+
 def run():
     """Twenty steps in `seconds`, from the checkpoint on."""
     step = int(CHECKPOINT.read_text()) if CHECKPOINT.exists() else 0
     tell("start", attempt=int(sys.argv[6]), step=step, resumed=step > 0)
     while step < 20:
         if stopped and what != "stubborn":
-            publish(CHECKPOINT, str(step))
+            checkpoint(step)
             sys.exit(3)
         sample(step)
         tell("progress", phase="rotating", step=step, time=0.1 * step, progress=5 * step, eta_seconds=seconds * (1 - step / 20),
              particle_steps_per_second=1e6)
         if step % 10 == 0:
             snapshot(step // 10)
-            publish(CHECKPOINT, str(step))
+            checkpoint(step)
+        if what == "stumbles" and step % 4 == 3:  # always a little further
+            checkpoint(step + 1)
+            os.kill(os.getpid(), signal.SIGKILL)
+        if what == "stuck" and step == 13:
+            os.kill(os.getpid(), signal.SIGKILL)
         time.sleep(seconds / 20)
         step += 1
 

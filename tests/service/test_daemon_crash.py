@@ -44,7 +44,44 @@ def test_three_deaths_are_enough(fake):
     job = fake.submit(fake="dies")
     info = fake.ended(job)
     assert info["status"] == "failed" and info["attempt"] == 3
-    assert "signal 9" in info["message"] and "last of 3 attempts" in info["message"]
+    assert "signal 9" in info["message"] and "3 attempts in a row" in info["message"]
+
+
+def test_deaths_that_each_come_after_a_newer_checkpoint_do_not_fail_a_job(fake):
+    info = fake.ended(fake.submit(fake="stumbles"))
+    assert info["status"] == "successful" and info["attempt"] == 6  # saved at 4, 8, 12, 16 and 20 of 20 steps, and died there
+
+
+def test_deaths_at_the_same_place_fail_a_job_that_had_got_ahead_before(fake):
+    info = fake.ended(fake.submit(fake="stuck"))
+    assert info["status"] == "failed" and info["attempt"] == 4  # the first had come to a checkpoint
+    assert "3 attempts in a row" in info["message"]
+
+
+def test_a_job_that_gets_ahead_outlives_any_number_of_daemons(fake):
+    job = fake.submit(fake="slow", seconds="3")
+    folder = fake.data / "jobs" / job
+    for death in range(4):
+        info = fake.until(job, lambda info: info["status"] == "running" and info["attempt"] == death + 1)
+        fake.until(job, lambda _: f'"attempt": {death + 1}' in (folder / "events.ndjson").read_text())
+        fake.stop(signal.SIGKILL)
+        with open(folder / "events.ndjson", "a") as events:  # the newest words of its worker, which no daemon has read
+            events.write(json.dumps({"event": "checkpoint", "step": 10 ** 6 + death, "time": 1.0, "attempt": death + 1}) + "\n")
+        fake.start()
+    assert fake.ended(job)["status"] == "successful" and fake.job(job)["attempt"] == 5
+
+
+def test_what_a_worker_wrote_last_is_in_the_tables_although_the_daemon_died(fake):
+    job = fake.submit(fake="slow", seconds="30")
+    running(fake, job)
+    fake.stop(signal.SIGKILL)
+    folder = fake.data / "jobs" / job
+    with open(folder / "events.ndjson", "a") as events:
+        events.write(json.dumps({"event": "sample", "number": 19, "step": 1900, "time": 1.9, "values": {"angle_deg": 39.0}}) + "\n")
+    (folder / "result.json").write_text(json.dumps({"repose": {"angle_deg": 30.0}, "run": {"steps": 5}}))
+    fake.start()
+    assert fake.job(job)["status"] == "successful"
+    assert fake.get(f"/jobs/{job}/samples").json()["samples"][-1]["number"] == 19
 
 
 def test_a_killed_daemon_takes_its_workers_along_and_its_successor_goes_on(fake):

@@ -65,6 +65,24 @@ static void a_new_attempt_forgets_an_earlier_failure(void **state)
     fclose(file);
 }
 
+static void checkpoints_come_in_order_with_their_attempts(void **state)
+{
+    (void)state;
+    FILE *file = file_with("{\"event\":\"checkpoint\",\"step\":300,\"attempt\":1}\n{\"event\":\"start\",\"attempt\":2}\n"
+                           "{\"event\":\"checkpoint\",\"step\":200,\"attempt\":2}\n");
+    const int64_t step[] = { 300, 200 }, attempt[] = { 1, 2 };
+    event_batch batch;
+    assert_true(event_tail_read(fileno(file), 0, &batch));
+    assert_int_equal(json_array_size(batch.checkpoints), 2);
+    for (size_t i = 0; i < 2; i++) {
+        const json_t *event = json_array_get(batch.checkpoints, i);
+        assert_int_equal(json_integer_value(json_object_get(event, "step")), step[i]);
+        assert_int_equal(json_integer_value(json_object_get(event, "attempt")), attempt[i]);
+    }
+    event_batch_clear(&batch);
+    fclose(file);
+}
+
 static void a_long_file_comes_in_pieces_without_loss(void **state)
 {
     (void)state;
@@ -94,6 +112,7 @@ int main(void)
         cmocka_unit_test(a_line_counts_when_it_is_whole),
         cmocka_unit_test(the_latest_progress_counts_and_rubbish_does_not),
         cmocka_unit_test(a_new_attempt_forgets_an_earlier_failure),
+        cmocka_unit_test(checkpoints_come_in_order_with_their_attempts),
         cmocka_unit_test(a_long_file_comes_in_pieces_without_loss),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -316,7 +316,7 @@ static void a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault(void *
                                                                     "beyond every other" },
         { "[{\"position\": [0, 0.001, 0], \"diameter\": 0.003}, {\"position\": [0, 0, 0]}]",
           "/0: lies within sphere 1; each sphere of a cluster must reach beyond every other" },
-        { "[{\"position\": [0, 0]}]", "/0/position: is a list; must be a list of three numbers, each in [-1, 1] m" },
+        { "[{\"position\": [0, 0]}]", "/0/position: is a list of 2; must be a list of three numbers, each in [-1, 1] m" },
         { "[{\"diameter\": 0.003}]", "/0/position: is missing; must be a list of three numbers, each in [-1, 1] m" },
         { "[{\"position\": [0, \"x\", 2]}]", "/0/position/1: is \"x\"; must be a number in [-1, 1] m\n"
                                              "/inputs/particles/0/shape/spheres/0/position/2: is 2 m; must be in [-1, 1] m" },
@@ -631,7 +631,7 @@ static void particles_outside_the_drum_or_within_each_other_are_all_told(void **
         "[{\"position\": [0, -0.0233, 0]}, {\"position\": [0, 0, 0]}, {\"position\": [0.0037, 0, 0]}, {\"position\": [0, 0, 0.02], "
         "\"velocity\": [0, 200, 0]}, {\"position\": [0, 0.01], \"species\": 2}]",
         "/inputs/start/particles/3/velocity/1: is 200 m/s; must be in [-100, 100] m/s\n"
-        "/inputs/start/particles/4/position: is a list; must be a list of three numbers, each in [-20, 20] m\n"
+        "/inputs/start/particles/4/position: is a list of 2; must be a list of three numbers, each in [-20, 20] m\n"
         "/inputs/start/particles/4/species: is 2; must be in [0, 1]: particles has 2 kinds\n"
         "/inputs/start/particles/0/position: puts a sphere of 0.004 m at 0.0233 m from the axis; must be at most 0.0232 m, inside "
         "the drum\n"
@@ -653,6 +653,8 @@ static void a_start_is_one_thing_and_leaves_nothing_unsaid(void **state)
 {
     (void)state;
     expect_problem("start", "{}", "/inputs/start: names 0 of job, file and particles; must name one of them\n");
+    expect_problem("start", "{\"job\": 5}", "/inputs/start/job: is 5; must be a text of 1 to 27 bytes\n");
+    expect_problem("start", "[]", "/inputs/start: is a list; must be an object or null\n");
     expect_problem("start", "{\"job\": \"x\", \"file\": \"y\"}",
                    "/inputs/start: names 2 of job, file and particles; must name one of them\n"
                    "/inputs/start/job: is \"x\"; must be the id of a job, as 20261122-014455-3f9a2c71\n");
