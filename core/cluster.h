@@ -25,6 +25,7 @@ typedef struct cluster_body {
     quaternion orientation;
     int32_t species;
     int32_t first_sphere;
+    int32_t id; /* of the particle that it is */
 } cluster_body;
 
 typedef struct clusters {

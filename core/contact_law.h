@@ -17,6 +17,12 @@ typedef struct contact_history {
 /* N2: a stored friction force below its root has no direction; elsewhere: a square whose root counts as none. */
 #define TINY_SQUARE ((real)1e-30)
 
+/* The same contact seen from the other body: n points the other way, and so do all vectors. */
+static inline void contact_history_turn(contact_history *history)
+{
+    for (int c = 0; c < 3; c++) history->t[c] = -history->t[c];
+}
+
 /* Normal force, N, of the latching spring: K1 when loading beyond all before, K2 on unloading and reloading
  * below it; never attractive. An isolated collision has e = sqrt(K1/K2).
  * alpha: overlap, m (negative: apart); alpha_0: as in contact_history, updated; forgotten when they part. */

@@ -8,9 +8,10 @@ static dem_status fail(dem_scene *scene, const dem_failure *what)
     scene->failure.time = dem_scene_time(scene);
     if (what->particle >= 0) {
         memcpy(scene->failure.position, sphere_place(&scene->spheres, (size_t)what->particle), 3 * sizeof(double));
-        scene->failure.particle = (int64_t)particle_of_sphere(&scene->spheres, (size_t)what->particle);
+        scene->failure.particle = particle_id(&scene->spheres, particle_of_sphere(&scene->spheres, (size_t)what->particle));
     }
-    if (what->other >= 0) scene->failure.other = (int64_t)particle_of_sphere(&scene->spheres, (size_t)what->other);
+    if (what->other >= 0)
+        scene->failure.other = particle_id(&scene->spheres, particle_of_sphere(&scene->spheres, (size_t)what->other));
     return what->status;
 }
 

@@ -25,7 +25,7 @@ static int32_t *count_contacts(const dem_scene *scene)
     int32_t *of_spheres = array_create(s->mobile_count, sizeof *of_spheres);
     int32_t *of_particles = array_create(particles_count(s), sizeof *of_particles);
     if (of_spheres && of_particles) {
-        neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, of_spheres);
+        neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, NULL, of_spheres);
         for (size_t i = 0; i < s->mobile_count; i++) of_particles[particle_of_sphere(s, i)] += of_spheres[i];
     } else {
         free(of_particles);

@@ -420,7 +420,8 @@ dem_status neighbor_list_update(neighbor_list *list, const spheres *s, const con
     return inner_pick(list, s, drum, contact, list->safe_steps * time_step, threads);
 }
 
-void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, const container *drum, int32_t *contacts)
+void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, const container *drum, const int32_t *id,
+                                  int32_t *contacts)
 {
     memset(contacts, 0, s->mobile_count * sizeof *contacts);
     for (size_t k = 0; k < list->pairs.count; k++) {
@@ -429,12 +430,12 @@ void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, c
         if (squared_distance(sphere_place(s, (size_t)i), sphere_place(s, (size_t)j), drum->period, drum->inverse_period)
             >= radii * radii)
             continue;
-        contacts[i]++;
-        if ((size_t)j < s->mobile_count) contacts[j]++;
+        contacts[id ? id[i] : i]++;
+        if ((size_t)j < s->mobile_count) contacts[id ? id[j] : j]++;
     }
     for (size_t k = 0; k < list->walls.count; k++) {
         const int32_t i = list->walls.first[k];
         const container_wall *w = &drum->wall[list->walls.second[k]];
-        contacts[i] += wall_seen_from(w, sphere_place(s, (size_t)i)).distance < (double)s->row[i].radius;
+        contacts[id ? id[i] : i] += wall_seen_from(w, sphere_place(s, (size_t)i)).distance < (double)s->row[i].radius;
     }
 }

@@ -68,7 +68,9 @@ static inline void neighbor_list_step_done(neighbor_list *list, double largest_d
     list->steps_since_pick++;
 }
 
-/* Contacts (overlap > 0) of each mobile sphere at the places of now; the list must be up to date. */
-void neighbor_list_count_contacts(const neighbor_list *list, const spheres *spheres, const container *drum, int32_t *contacts);
+/* Contacts (overlap > 0) of each mobile sphere at the places of now, in order of memory or (id not NULL) of id; the list
+ * must be up to date. */
+void neighbor_list_count_contacts(const neighbor_list *list, const spheres *spheres, const container *drum, const int32_t *id,
+                                  int32_t *contacts);
 
 #endif

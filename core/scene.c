@@ -96,15 +96,16 @@ void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arra
 {
     const spheres *s = &scene->spheres;
     for (size_t i = 0; i < s->mobile_count; i++) {
+        const size_t id = (size_t)s->id[i];
         for (size_t c = 0; c < 3; c++) {
-            if (arrays->position) arrays->position[3 * i + c] = sphere_place(s, i)[c];
-            if (arrays->velocity) arrays->velocity[3 * i + c] = s->velocity[i][c];
-            if (arrays->angular_velocity) arrays->angular_velocity[3 * i + c] = s->angular_velocity[i][c];
+            if (arrays->position) arrays->position[3 * id + c] = sphere_place(s, i)[c];
+            if (arrays->velocity) arrays->velocity[3 * id + c] = s->velocity[i][c];
+            if (arrays->angular_velocity) arrays->angular_velocity[3 * id + c] = s->angular_velocity[i][c];
         }
-        if (arrays->radius) arrays->radius[i] = sphere_radius(s, i);
-        if (arrays->species) arrays->species[i] = s->species[i];
-        if (arrays->cluster) arrays->cluster[i] = (int32_t)particle_of_sphere(s, i);
-        if (arrays->orientation) sphere_orientation(s, i, arrays->orientation + 4 * i);
+        if (arrays->radius) arrays->radius[id] = sphere_radius(s, i);
+        if (arrays->species) arrays->species[id] = s->species[i];
+        if (arrays->cluster) arrays->cluster[id] = particle_id(s, particle_of_sphere(s, i));
+        if (arrays->orientation) sphere_orientation(s, i, arrays->orientation + 4 * id);
     }
-    if (arrays->contacts) neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, arrays->contacts);
+    if (arrays->contacts) neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, s->id, arrays->contacts);
 }

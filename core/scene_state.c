@@ -3,6 +3,7 @@
 #include "scene_state.h"
 
 #include "lost.h"
+#include "sorting.h"
 #include "step.h"
 #include "stream.h"
 
@@ -84,9 +85,10 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     memset(state, 0, sizeof *state);
     int64_t *integers = state_add(state, "counters", DEM_INT64, 1, STATE_INTEGERS);
     double *numbers = state_add(state, "numbers", DEM_FLOAT64, 1, STATE_NUMBERS);
+    int32_t *id = state_add(state, "particle", DEM_INT32, particles_count(s), 1);
     double *position = state_add(state, "position", DEM_FLOAT64, n, 3),
            *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
-    if (!integers || !numbers || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
+    if (!integers || !numbers || !id || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
         || !save_vectors(state, "angular_velocity", s->angular_velocity, n) || !save_clusters(state, &s->clusters)
         || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
         || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
@@ -105,6 +107,7 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     numbers[STATE_ANGLE_BEFORE] = scene->drum.angle_before;
     numbers[STATE_RATE] = scene->definition.rotation_rate;
     numbers[STATE_TIME_STEP] = scene->definition.time_step;
+    for (size_t p = 0; p < particles_count(s); p++) id[p] = particle_id(s, p);
     for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, sphere_place(s, i), 3 * sizeof *position);
     memcpy(fallen, s->fallen_time, n * sizeof *fallen);
     return DEM_OK;
@@ -176,6 +179,33 @@ static void restore_clusters(clusters *c, const double *numbers)
     }
 }
 
+/* Particles in the order in memory that they were saved in. */
+static dem_status restore_order(spheres *s, const dem_state *state)
+{
+    const size_t n = particles_count(s), singles = s->single_count;
+    const dem_state_array *saved = state_find(state, "particle", DEM_INT32, 1);
+    if (!saved || saved->rows != n) return DEM_STATE_MISMATCH;
+    const int32_t *id = saved->data;
+    int32_t *now_at = array_create(n, sizeof *now_at), *order = array_create(n, sizeof *order),
+            *sphere_order = array_create(s->mobile_count, sizeof *sphere_order);
+    dem_status status = now_at && order && sphere_order ? DEM_OK : DEM_NO_MEMORY;
+    if (status == DEM_OK) {
+        for (size_t p = 0; p < n; p++) now_at[p] = -1;
+        for (size_t p = 0; p < n; p++) now_at[particle_id(s, p)] = (int32_t)p;
+        for (size_t p = 0; p < n && status == DEM_OK; p++) {
+            const bool is_there = id[p] >= 0 && (size_t)id[p] < n && now_at[id[p]] >= 0;
+            order[p] = is_there ? now_at[id[p]] : 0;
+            if (!is_there || ((size_t)order[p] < singles) != (p < singles)) status = DEM_STATE_MISMATCH;
+            else now_at[id[p]] = -1; /* once only */
+        }
+    }
+    if (status == DEM_OK) status = sorting_apply(s, order, sphere_order);
+    free(now_at);
+    free(order);
+    free(sphere_order);
+    return status;
+}
+
 dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
 {
     const dem_state_array *places = state_find(state, "position", DEM_FLOAT64, 3);
@@ -206,6 +236,8 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
         neighbor_list_invalidate(&scene->neighbors);
         return DEM_NO_MEMORY;
     }
+    const dem_status order = restore_order(&scene->spheres, state);
+    if (order != DEM_OK) return order;
     /* Nothing can fail from here on but memory for new lists. */
     restore_contacts(state, pairs, n, "pair", "pair_history");
     restore_contacts(state, walls, n, "wall_contact", "wall_history");

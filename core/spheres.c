@@ -33,6 +33,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->row = array_create(all + 2, sizeof *s->row);
     s->place = array_create(all + 2, sizeof *s->place);
+    s->id = array_create(n, sizeof *s->id);
     s->species = array_create(n, sizeof *s->species);
     s->full_radius = array_create(all, sizeof *s->full_radius);
     s->velocity = array_create(n, sizeof *s->velocity);
@@ -42,12 +43,16 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->inverse_inertia = array_create(singles, sizeof *s->inverse_inertia);
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
-    if (status != DEM_OK || !s->row || !s->place || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity
+    if (status != DEM_OK || !s->row || !s->place || !s->id || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity
         || !s->load || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }
-    for (size_t i = 0; i < n; i++) s->fallen_time[i] = -1e300;
+    for (size_t i = 0; i < n; i++) {
+        s->fallen_time[i] = -1e300;
+        s->id[i] = (int32_t)i;
+    }
+    for (size_t b = 0; b < bodies; b++) s->clusters.body[b].id = (int32_t)(singles + b);
     return DEM_OK;
 }
 
@@ -56,6 +61,7 @@ void spheres_clear(spheres *s)
     clusters_clear(&s->clusters);
     free(s->row);
     free(s->place);
+    free(s->id);
     free(s->species);
     free(s->full_radius);
     free(s->velocity);

@@ -1,6 +1,7 @@
 /* The spheres of a scene: mobile ones first, then the lining's, then two that no list names but in its padding: one of
  * zeros at the origin, one of zeros far away. Of the mobile ones, those that are particles by themselves come first
- * (index = the particle's id), then the spheres of clusters, cluster after cluster. */
+ * then the spheres of clusters, cluster after cluster. Either kind lies in memory in an order that serves speed
+ * (sorting.h); ids tell who is who. */
 #ifndef SPHERES_H
 #define SPHERES_H
 
@@ -36,6 +37,7 @@ typedef struct spheres {
     sphere_row *row;                            /* (mobile + lining + 2) */
     vector4 *place;                             /* (mobile + lining + 2) m, z within one period */
     vector4 ring_units;                         /* 1/m: of a row's place */
+    int32_t *id;                                /* (mobile) which sphere of the definition's it is, wherever it is in memory */
     int32_t *species;                           /* (mobile) */
     double *full_radius;                        /* (mobile + lining) m, rounded to real */
     vector4 *velocity;                          /* (mobile) m/s at the half step */
@@ -95,12 +97,18 @@ static inline size_t particle_of_sphere(const spheres *s, size_t i)
     return i < s->single_count ? i : s->single_count + (size_t)s->clusters.of_sphere[i - s->single_count];
 }
 
+/* Whose id is wanted outside: spheres by themselves in order of species, then clusters. */
+static inline int32_t particle_id(const spheres *s, size_t p)
+{
+    return p < s->single_count ? s->id[p] : s->clusters.body[p - s->single_count].id;
+}
+
 /* How many particles a species has: shares by number, every species within one of its share, the total exact. */
 size_t species_particles(const dem_drum_definition *definition, size_t species);
 /* Before any place is set: rows tell places apart modulo the period along z (m; 0: none) and lengths that no listed pair
  * comes near. */
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
-void spheres_pad(spheres *spheres); /* the last two rows, also after a change of the counts */
+void spheres_pad(spheres *spheres);                                    /* the last two rows, also after a change of the counts */
 static inline void spheres_ring_unit(const spheres *s, double unit[3]) /* m */
 {
     for (int c = 0; c < 3; c++) unit[c] = 1 / s->ring_units[c];

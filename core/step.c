@@ -12,6 +12,7 @@
 #include "contact_forces.h"
 #include "failure.h"
 #include "filling.h"
+#include "sorting.h"
 #include "lost.h"
 #include "step_profile.h"
 #include "stream.h"
@@ -130,7 +131,7 @@ dem_status scene_step(dem_scene *scene)
 {
     const double dt = scene->definition.time_step;
     step_profile_begin(scene->profile);
-    dem_status status = step_neighbors(scene);
+    dem_status status = sorting_look(scene) == DEM_OK ? step_neighbors(scene) : failure_of_memory(scene);
     if (status != DEM_OK) return status;
     status = step_contacts(scene);
     if (status != DEM_OK) return status;
