@@ -27,7 +27,8 @@ static const result_field fields[] = {
     { "surface", NULL, "static_cohesive_index", RESULT_REAL, HEAP(static_cohesive_index), "m",
       "mean over the radius of the standard deviation over azimuths of the height" },
 
-    { "packing", NULL, "solid_fraction", RESULT_REAL, HEAP(solid_fraction), "", "solid over all that is below the surface" },
+    { "packing", NULL, "solid_fraction", RESULT_REAL, HEAP(solid_fraction), "",
+      "solid over all that is below the surface, dips between spheres left out: higher than within the heap" },
     { "packing", NULL, "coordination_number", RESULT_REAL, STANDING(coordination_number), "", "contacts a particle of the heap" },
 
     { "heap", NULL, "inside", RESULT_SIZE, STANDING(inside), "", "particles of the heap: with two contacts or more" },

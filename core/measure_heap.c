@@ -40,6 +40,14 @@ static void fit_azimuths(const height_map *map, const dem_profile *mean, double 
     *angle = angle_over_azimuths(radians);
 }
 
+/* Exactly: a deviation would be some 1e-17 by rounding. */
+static bool all_equal(const double *value, size_t count)
+{
+    for (size_t k = 1; k < count; k++)
+        if (!(value[k] == value[0])) return false;
+    return true;
+}
+
 /* Cones of each sector's base: of the heap's height, and of the sector's volume; both over the level of the base. */
 static void measure_cones(const height_map *map, const dem_profile *mean, double (*rings)[DEM_AZIMUTHS], double level,
                           double radius, dem_heap_results *results)
@@ -57,7 +65,7 @@ static void measure_cones(const height_map *map, const dem_profile *mean, double
     }
     results->angle[DEM_APEX_TO_BASE] = angle_over_azimuths(height_cone);
     /* Where the plate ends every base, all azimuths say the same, which is no sign of certainty. */
-    if (!(statistics_deviation(base, DEM_AZIMUTHS) > 0)) results->angle[DEM_APEX_TO_BASE].standard_error_deg = NAN;
+    if (all_equal(base, DEM_AZIMUTHS)) results->angle[DEM_APEX_TO_BASE].standard_error_deg = NAN;
     results->angle[DEM_EQUAL_VOLUME] = angle_over_azimuths(volume_cone);
     results->base_diameter = 2 * statistics_mean(base, DEM_AZIMUTHS);
 }

@@ -11,7 +11,7 @@ export function significant(value, digits = 3) {
   return Number(value.toPrecision(digits)).toLocaleString('en', { maximumSignificantDigits: digits });
 }
 
-function superscript(integer) {
+export function superscript(integer) {
   const glyphs = { '-': '⁻', 0: '⁰', 1: '¹', 2: '²', 3: '³', 4: '⁴', 5: '⁵', 6: '⁶', 7: '⁷', 8: '⁸', 9: '⁹' };
   return [...String(integer)].map(character => glyphs[character]).join('');
 }

@@ -68,7 +68,7 @@ function showResults(parts, results, job) {
 function showPlot(box, points, results, status) {
   if (points.length < 2) {
     box.replaceChildren(h('p', { class: 'quiet' },
-      status === 'running' ? 'No samples yet: they come once the drum turns.' : 'It ended before there were samples to draw.'));
+      status === 'running' ? 'No samples yet: they come once the drum turns.' : 'None of its samples has an angle to draw.'));
     return;
   }
   const width = Math.max(280, Math.floor(box.clientWidth));
@@ -85,6 +85,7 @@ function showAbout(box, job) {
 function showLinks(box, job) {
   const path = jobPath(job.jobID);
   const { series } = viewOf(job.processID);
+  const fields = job.links?.find(link => link.rel === 'fields');
   replaceIfChanged(box, job.status, () => [
     h('ul', { class: 'links' },
       job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results', `${job.jobID}-results.json`)) : null,
@@ -92,7 +93,8 @@ function showLinks(box, job) {
       h('li', null, fileLink(`${path}/spec`, 'Spec', `${job.jobID}-spec.json`)),
       h('li', null, fileLink(`${path}/log`, 'Log', `${job.jobID}-log.txt`)),
       series ? h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)', `${job.jobID}-samples.json`)) : null,
-      series ? h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)', `${job.jobID}-samples.csv`)) : null),
+      series ? h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)', `${job.jobID}-samples.csv`)) : null,
+      fields ? h('li', null, fileLink(fields.href, 'Fields (HDF5)', `${job.jobID}-fields.hdf`)) : null),
     job.status === 'accepted' || !series ? null : snapshotList(path)]);
 }
 

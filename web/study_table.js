@@ -1,6 +1,6 @@
 // The table of a study's cases: what differs between them, how many runs have ended, and mean ± standard error.
 import { h } from './dom.js';
-import { count, degrees, percent, significant } from './format.js';
+import { count, degrees, percent, significant, superscript } from './format.js';
 
 const ROWS_SHOWN = 500;
 
@@ -20,8 +20,11 @@ const MEASURES = [
 // As many decimals as the error has meaning.
 function plain(mean, error) {
   if (!(error > 0)) return significant(mean);
-  const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(error)), 0), 12);
-  return `${mean.toFixed(decimals)} ± ${error.toFixed(decimals)}`;
+  const power = Math.abs(mean) < 1e-3 || Math.abs(mean) >= 1e6 ? Math.floor(Math.log10(Math.max(Math.abs(mean), error))) : 0;
+  const scale = 10 ** power;
+  const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(error / scale)), 0), 12);
+  const both = `${(mean / scale).toFixed(decimals)} ± ${(error / scale).toFixed(decimals)}`;
+  return power === 0 ? both : `(${both})·10${superscript(power)}`;
 }
 
 export function caseTable(cases) {

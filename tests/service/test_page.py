@@ -107,7 +107,9 @@ def test_a_job_is_followed_to_its_angle(daemon, browser):
     methods = {cell.text.splitlines()[0] for cell in find_all(browser, ".methods tbody th")}
     assert methods == {repose["method"], *repose["other_methods"]}
     links = [link.get_attribute("href") for link in find_all(browser, ".links a")]
-    assert len(links) == 5 and all(requests.get(link).status_code == 200 for link in links)
+    assert len(links) == 6 and all(requests.get(link).status_code == 200 for link in links)
+    fields, = (link for link in links if link.endswith("/fields.hdf"))
+    assert requests.get(fields).content[:4] == b"\x89HDF"
     find(browser, ".snapshots summary").click()
     snapshot = until(browser, lambda b: find(b, ".snapshots li a"))
     assert requests.get(snapshot.get_attribute("href")).content[:4] == b"\x89HDF"
@@ -135,6 +137,17 @@ def test_heaps_and_fills_show_their_angles(daemon, browser, process, words):
     until(browser, lambda b: find(b, f"#detail-{job} .plot .line"))
     methods = {cell.text.splitlines()[0] for cell in find_all(browser, ".methods tbody th")}
     assert methods == {repose["method"], *repose["other_methods"]}
+
+
+def test_a_heap_too_small_for_an_angle_says_so(daemon, browser):
+    inputs = SPECS["heap"] | {"particle_count": 100}  # one layer
+    job = requests.post(f"{daemon.url}/processes/heap/execution", timeout=30, json={"inputs": inputs}).json()["jobID"]
+    assert daemon.ended(job)["status"] == "successful"
+    assert daemon.get(f"/jobs/{job}/results").json()["repose"]["angle_deg"] is None
+    browser.get(daemon.url)
+    find(row_of(browser, job), ".opener").click()
+    assert "too few particles" in until(browser, lambda b: find(b, f"#detail-{job} .answer").text)
+    assert "None of its samples has an angle" in until(browser, lambda b: find(b, f"#detail-{job} .plot").text)
 
 
 def test_a_granule_shows_its_least_rate(daemon, browser):

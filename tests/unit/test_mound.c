@@ -86,6 +86,24 @@ static void a_cone_has_its_angle_under_every_definition(void **state)
     }
 }
 
+/* Of several radii: the mean of sixteen equal numbers is not always that number, to the last bit. */
+static void a_heap_that_covers_its_plate_says_nothing_of_the_error_of_its_base(void **state)
+{
+    (void)state;
+    const double plates[] = { 5.1, 6.3, 7.7 };
+    strewn s;
+    cone_angle = 20;
+    strew_surface(&s, CONE_RADIUS, cone);
+    const dem_mound mound = mound_of(&s);
+    for (int k = 0; k < 3; k++) {
+        dem_heap_results heap;
+        assert_int_equal(dem_heap_measure(&mound, plates[k], 0, &heap), DEM_OK);
+        CHECK_NEAR(0.5 * heap.base_diameter, plates[k], 1e-12);
+        assert_true(heap.angle[DEM_APEX_TO_BASE].mean_deg > 0 && isnan(heap.angle[DEM_APEX_TO_BASE].standard_error_deg));
+    }
+    strew_clear(&s);
+}
+
 /* Half of the azimuths at 20 degrees, half at 30: each sector has its own. */
 static double lopsided(double r, double azimuth) { return 8 - r * tan(radians(azimuth > 0 ? 20 : 30)); }
 
@@ -213,6 +231,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_cone_has_its_angle_under_every_definition),
+        cmocka_unit_test(a_heap_that_covers_its_plate_says_nothing_of_the_error_of_its_base),
         cmocka_unit_test(the_standard_error_tells_a_lopsided_heap),
         cmocka_unit_test(a_flat_top_is_told_by_what_the_definitions_differ_in),
         cmocka_unit_test(a_few_grains_have_no_angle),
