@@ -68,7 +68,7 @@ function showResults(parts, results, job) {
 function showPlot(box, points, results, status) {
   if (points.length < 2) {
     box.replaceChildren(h('p', { class: 'quiet' },
-      status === 'running' ? 'No samples yet: they come once the drum turns.' : 'None of its samples has an angle to draw.'));
+      status === 'running' ? 'No angle to draw yet.' : 'None of its samples has an angle to draw.'));
     return;
   }
   const width = Math.max(280, Math.floor(box.clientWidth));

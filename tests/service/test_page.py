@@ -140,14 +140,14 @@ def test_heaps_and_fills_show_their_angles(daemon, browser, process, words):
 
 
 def test_a_heap_too_small_for_an_angle_says_so(daemon, browser):
-    inputs = SPECS["heap"] | {"particle_count": 100}  # one layer
+    inputs = SPECS["heap"] | {"tube": {"diameter": 0.015, "lift_speed": 0.05}, "particle_count": 100}
     job = requests.post(f"{daemon.url}/processes/heap/execution", timeout=30, json={"inputs": inputs}).json()["jobID"]
     assert daemon.ended(job)["status"] == "successful"
     assert daemon.get(f"/jobs/{job}/results").json()["repose"]["angle_deg"] is None
     browser.get(daemon.url)
     find(row_of(browser, job), ".opener").click()
     assert "too few particles" in until(browser, lambda b: find(b, f"#detail-{job} .answer").text)
-    assert "None of its samples has an angle" in until(browser, lambda b: find(b, f"#detail-{job} .plot").text)
+    assert "None of its samples has an angle" in until(browser, lambda b: find(b, f"#detail-{job} .plot-box").text)
 
 
 def test_a_granule_shows_its_least_rate(daemon, browser):
