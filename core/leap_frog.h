@@ -1,0 +1,29 @@
+/* What one step does to every particle alike, and what single spheres and the spheres of clusters share of it. */
+#ifndef LEAP_FROG_H
+#define LEAP_FROG_H
+
+#include "neighbor_list.h"
+
+typedef struct leap_frog {
+    vector4 gravity_dt, period, inverse_period; /* the last two along z alone */
+    vector4 ring_units;
+    double dt, keep;
+    double scale_now, scale_next; /* share of full size that clusters have */
+    int corrector_passes;
+} leap_frog;
+
+WIDE_INLINE vector4 vector4_all(double x) { return x - (vector4){ 0 }; }
+
+/* x within one period, and into the row. */
+WIDE_INLINE vector4 sphere_move(const leap_frog *leap, sphere_row *row, vector4 x, vector4 v, vector4 omega)
+{
+    x -= leap->period * vector4_rint(x * leap->inverse_period);
+    sphere_row_store(row, x * leap->ring_units, v, omega);
+    return x;
+}
+
+/* Eqns 3-23 for the clusters from..to-1 and their spheres, whose loads are summed. Returns the largest of each component of
+ * (v - picked_velocity)^2 of the spheres. */
+vector4 clusters_advance(const leap_frog *leap, spheres *spheres, const vector4 *picked_velocity, size_t from, size_t to);
+
+#endif
