@@ -9,7 +9,7 @@ from tables import agreement, base_text, failures, here_text, paper_table, runs_
 
 SECTIONS = {
     "table1": sections_slow.table1, "figure3": sections_slow.figure3, "figure4": sections_slow.figure4, "axial": sections_slow.axial,
-    "axial-wide": sections_slow.axial, "rotation-rate": sections_slow.rotation_rate, "wall-friction": sections_slow.wall_friction,
+    "rotation-rate": sections_slow.rotation_rate, "wall-friction": sections_slow.wall_friction,
     "force-models": sections_slow.force_models, "size-scaling": sections_slow.size_scaling, "figure5": sections_fast.figure5,
     "figure1": sections_standing.figure1, "figure2": sections_standing.figure2, "heap": sections_standing.heap,
     "figure7": sections_fast.figure7, "figure8": sections_fast.figure8, "figure8-beds": sections_fast.figure8_beds,
