@@ -87,6 +87,14 @@ static void derive_cylinder(drum_inputs *inputs, dem_drum_definition *scene, pro
     scene->length = dem_stream_inlet_height(scene, (double)scene->particle_count) + widest;
 }
 
+/* The input to be named where there is too much to simulate. */
+static const char *what_makes_it_long(const drum_inputs *inputs, const dem_drum_definition *scene)
+{
+    if ((double)scene->particle_count / scene->stream.rate < inputs->fill.settling_seconds)
+        return "/inputs/duration/settling_seconds";
+    return isnan(inputs->fill.mass_rate) ? "/inputs/stream/rate" : "/inputs/stream/mass_rate";
+}
+
 static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
     drum_inputs *inputs = &spec->inputs;
@@ -96,7 +104,7 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
     const double weight = SPEED_OF_WEIGHT * sqrt(scene->gravity * dem_stream_level(scene, (double)scene->particle_count));
     scene_derive_contact(inputs, fmax(IMPACT_ON_OTHERS * inputs->fill.impact_speed, weight), scene, problems);
     spec->duration = (double)scene->particle_count / scene->stream.rate + inputs->fill.settling_seconds;
-    standing_complete(spec, "/inputs/duration/settling_seconds", problems);
+    standing_complete(spec, what_makes_it_long(inputs, scene), problems);
 }
 
 static job_estimate estimate(const job_spec *spec, const calibration *machine)

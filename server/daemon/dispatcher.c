@@ -18,7 +18,8 @@
 #include "log.h"
 #include "worker_ends.h"
 
-#define SECONDS_TO_LEAVE 5.0 /* between SIGTERM and SIGKILL */
+#define SECONDS_TO_LEAVE 5.0    /* between SIGTERM and SIGKILL */
+#define SECONDS_OF_SILENCE 15.0 /* workers report every second, but for some steps that may take long */
 #define GIGABYTE 1073741824.0
 
 enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8 };
@@ -110,7 +111,9 @@ static bool start_next_job(job_dispatcher *dispatcher)
         || store_claim_job(dispatcher->store, dispatcher->threads - threads_in_use(dispatcher), dispatcher->threads, &claim)
                != STORE_OK)
         return false;
-    *slot = (worker_slot){ .state = SLOT_WORKING, .claim = claim, .worker.watch = -1, .events = -1, .speed = NAN };
+    *slot = (worker_slot){
+        .state = SLOT_WORKING, .claim = claim, .worker.watch = -1, .events = -1, .speed = NAN, .last_word = monotonic_seconds()
+    };
     const bool started = start_worker(dispatcher, slot);
     free(slot->claim.spec);
     slot->claim.spec = NULL;
@@ -139,6 +142,10 @@ static store_status record_batch(job_dispatcher *dispatcher, worker_slot *slot, 
         *more = batch.more;
         job_claim_note(&slot->claim, &batch);
         slot->events_at = batch.end;
+        if (batch.any) {
+            slot->last_word = monotonic_seconds();
+            slot->silent = false;
+        }
         if (isfinite(batch.speed)) slot->speed = batch.speed;
         if (batch.failure) {
             json_decref(slot->failure);
@@ -149,11 +156,25 @@ static store_status record_batch(job_dispatcher *dispatcher, worker_slot *slot, 
     return status;
 }
 
+/* Somebody may have stopped it to have the machine for himself, or swapping may hold it up: it is not killed for that, but
+ * who looks at the job is told. Its next progress takes the message's place. */
+static store_status record_silence(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    const double seconds = monotonic_seconds() - slot->last_word;
+    if (slot->silent || slot->state != SLOT_WORKING || seconds < SECONDS_OF_SILENCE) return STORE_OK;
+    const store_status status = store_record_silence(dispatcher->store, &slot->claim, seconds);
+    if (status != STORE_OK) return status;
+    slot->silent = true;
+    log_line("job %s: no word from process %d for %.0f s", slot->claim.id, (int)slot->worker.process, seconds);
+    return STORE_OK;
+}
+
 static store_status record_events_of(job_dispatcher *dispatcher, worker_slot *slot)
 {
     bool more = true;
     store_status status = STORE_OK;
     for (int i = 0; more && status == STORE_OK && i < BATCHES_A_ROUND; i++) status = record_batch(dispatcher, slot, &more);
+    if (status == STORE_OK) status = record_silence(dispatcher, slot);
     if (status == STORE_CONFLICT) slot->claim_lost = true;
     return status == STORE_CONFLICT ? STORE_OK : status;
 }

@@ -24,6 +24,8 @@ typedef struct worker_slot {
     int64_t events_at; /* recorded up to this offset */
     bool claim_lost;   /* dismissed: what it writes does not count any more */
     double stop_asked; /* monotonic s; 0: not asked to stop */
+    double last_word;  /* monotonic s: when it last wrote an event, or was started */
+    bool silent;       /* and that this is long ago was told */
     double speed;      /* particle steps a second, as it last said; NaN: not yet */
     json_t *failure;   /* the failure event; NULL: none */
 } worker_slot;

@@ -75,6 +75,8 @@ bool job_claim_is_last(const job_claim *claim);
 /* The calls below return STORE_CONFLICT when the claim no longer holds (the job was dismissed): then nothing was
  * written. store_record_events is for use between begin and end. */
 store_status store_record_events(job_store *store, const job_claim *claim, const event_batch *events);
+/* The worker has written nothing for so long; between begin and end, too. */
+store_status store_record_silence(job_store *store, const job_claim *claim, double seconds);
 store_status store_record_success(job_store *store, const job_claim *claim, const char *document);
 store_status store_record_failure(job_store *store, const job_claim *claim, const char *message, const json_t *failure);
 /* Back into the queue. uses_attempt: the worker died; the death of the last attempt fails

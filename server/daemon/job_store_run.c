@@ -135,6 +135,17 @@ store_status store_record_events(job_store *store, const job_claim *claim, const
     return status;
 }
 
+store_status store_record_silence(job_store *store, const job_claim *claim, double seconds)
+{
+    char now[JOB_TIME_SIZE], message[120];
+    time_text(now);
+    snprintf(message, sizeof message, "no word from its worker for %.0f s, seen at %s: stopped, or held up", seconds, now);
+    int64_t changed;
+    const store_status status = sql_run(store->writer, &changed, "UPDATE job SET message=?, eta_seconds=NULL, updated=?" FENCE,
+                                        "ttii", message, now, claim->number, (int64_t)claim->attempt);
+    return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
+}
+
 void job_claim_note(job_claim *claim, const event_batch *events)
 {
     for (size_t i = 0; i < json_array_size(events->checkpoints); i++) {

@@ -6,6 +6,7 @@ import subprocess
 import time
 
 import pytest
+import requests
 
 from conftest import BUILD, SPEC
 
@@ -63,10 +64,11 @@ def test_a_job_that_gets_ahead_outlives_any_number_of_daemons(fake):
     folder = fake.data / "jobs" / job
     for death in range(4):
         info = fake.until(job, lambda info: info["status"] == "running" and info["attempt"] == death + 1)
-        fake.until(job, lambda _: f'"attempt": {death + 1}' in (folder / "events.ndjson").read_text())
+        events = folder / "events.ndjson"
+        fake.until(job, lambda _: events.exists() and f'"attempt": {death + 1}' in events.read_text())
         fake.stop(signal.SIGKILL)
-        with open(folder / "events.ndjson", "a") as events:  # the newest words of its worker, which no daemon has read
-            events.write(json.dumps({"event": "checkpoint", "step": 10 ** 6 + death, "time": 1.0, "attempt": death + 1}) + "\n")
+        with open(events, "a") as words:  # the newest of its worker, which no daemon has read
+            words.write(json.dumps({"event": "checkpoint", "step": 10 ** 6 + death, "time": 1.0, "attempt": death + 1}) + "\n")
         fake.start()
     assert fake.ended(job)["status"] == "successful" and fake.job(job)["attempt"] == 5
 
@@ -82,6 +84,24 @@ def test_what_a_worker_wrote_last_is_in_the_tables_although_the_daemon_died(fake
     fake.start()
     assert fake.job(job)["status"] == "successful"
     assert fake.get(f"/jobs/{job}/samples").json()["samples"][-1]["number"] == 19
+
+
+def test_a_worker_that_says_nothing_is_told_of_and_can_be_dismissed_or_go_on(fake):
+    held, left = [fake.submit(fake="slow", seconds="3") for _ in range(2)]
+    running(fake, held), running(fake, left)
+    for worker in fake.workers():
+        os.kill(worker, signal.SIGSTOP)
+    for job in (held, left):
+        info = fake.until(job, lambda info: "no word from its worker" in info["message"], 40)
+        assert info["status"] == "running" and "eta_seconds" not in info
+    assert requests.delete(f"{fake.url}/jobs/{held}", timeout=30).status_code == 200
+    end = time.monotonic() + 15
+    while len(fake.workers()) > 1:  # SIGTERM does not reach it, SIGKILL does
+        assert time.monotonic() < end
+        time.sleep(0.1)
+    os.kill(fake.workers()[0], signal.SIGCONT)
+    assert fake.ended(left)["message"] == "done" and fake.job(left)["attempt"] == 1
+    assert fake.job(held)["status"] == "dismissed"
 
 
 def test_a_killed_daemon_takes_its_workers_along_and_its_successor_goes_on(fake):
