@@ -212,6 +212,11 @@ def test_every_problem_of_a_fill_is_named_at_once(daemon):
     by_mass = errors_of(daemon, "fill", {key: value for key, value in changed(FILL, stream={"mass_rate": 10}).items() if key != "rate"}
                         | {"stream": {"diameter": 0.012, "mass_rate": 10, "impact_speed": 0.9}})
     assert "10 kg/s, at which the inlet clogs" in by_mass["/inputs/stream/mass_rate"]
+    # Who gives no settling_seconds is not told to shorten them: the stream takes that long.
+    slow = errors_of(daemon, "fill", changed(FILL, stream={"rate": 1e-6}))
+    assert "steps of" in slow["/inputs/stream/rate"] and "/inputs/duration/settling_seconds" not in slow
+    patient = errors_of(daemon, "fill", changed(FILL, duration={"settling_seconds": 3600 * 24}))
+    assert "steps of" in patient["/inputs/duration/settling_seconds"] and "/inputs/stream/rate" not in patient
 
 
 def test_the_examples_are_complete_specifications(daemon):
