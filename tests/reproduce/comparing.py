@@ -8,6 +8,7 @@ normal deviate that is as improbable.
 import math
 
 AGREES = 3.0  # spreads
+BEYOND = 2.0  # spreads, where the paper says only above or below
 
 
 class Mean:
@@ -125,4 +126,4 @@ def judge(row, runs):
         return Verdict(row, here, z, here.value == row["value"] if z is None else abs(z) <= AGREES, len(runs))
     bound, sign = (row["above"], 1.0) if "above" in row else (row["below"], -1.0)
     z = z_of(here, bound, row.get("spread"))
-    return Verdict(row, here, z, sign * (here.value - bound) > 0.0 if z is None else sign * z > AGREES, len(runs))
+    return Verdict(row, here, z, sign * (here.value - bound) > 0.0 if z is None else sign * z > BEYOND, len(runs))

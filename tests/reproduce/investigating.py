@@ -1,6 +1,7 @@
 """Where a row of the paper disagrees by more than three of its spreads: what the paper leaves unsaid is varied, one
 thing at a time, and the row is looked at again."""
 import copy
+import math
 
 from collecting import cases_of, runs_of
 from comparing import judge
@@ -26,8 +27,24 @@ def request_of(document, case):
     return None if patch is None else merge_patch(inputs, patch)
 
 
+def fill_variants(inputs):
+    """What is unsaid of a fill: how wide the stream is, and how dense (by default 5 % of it is particles)."""
+    cylinder, stream = inputs["cylinder"]["diameter"], inputs["stream"]
+    kind = inputs["particles"][0]
+    spheres = {"sphere": 1, "dumbbell": 2, "tetrahedron": 4, "cube": 8}[kind.get("shape", "sphere")]
+    particle = spheres * math.pi / 6 * kind["diameter"] ** 3
+    rate = 0.05 * math.pi / 4 * stream["diameter"] ** 2 * stream["impact_speed"] / particle
+    return [
+        {"name": "stream half as wide as the cylinder", "inputs": {"stream": {"diameter": 0.5 * cylinder}}},
+        {"name": "stream nearly as wide as the cylinder", "inputs": {"stream": {"diameter": 0.9 * cylinder}}},
+        {"name": "a quarter of the rate", "inputs": {"stream": {"rate": round(rate / 4, 1)}}},
+    ]
+
+
 def variants(inputs):
     """What is unsaid: how rough the wall is, how full the drum, how stiff and how elastic the particles."""
+    if "stream" in inputs:
+        return fill_variants(inputs)
     diameter = max(kind["diameter"] for kind in inputs["particles"])
     friction, fill = inputs["wall"]["friction"], inputs["fill_fraction"]
     overlap = inputs["contact"].get("maximum_overlap", 0.01)
@@ -44,12 +61,15 @@ def variants(inputs):
 
 
 def can_vary(collected, row):
-    """Drums alone have all that is varied; a row without a number can't be nearer or further. "vary": false says that a
-    row is an input, or would take too long."""
+    """Drums and fills alone have all that is varied; a row without a number can't be nearer or further. "vary": false says
+    that a row is an input, or would take too long."""
     process = collected["document"]["base"].get("process", "drum")
     inputs = request_of(collected["document"], row["case"])
-    return row.get("vary", True) and process == "drum" and "value" in row and inputs is not None and "fill_fraction" in inputs \
-        and "friction" in inputs.get("wall", {}) and all("diameter" in kind for kind in inputs["particles"])
+    if not row.get("vary", True) or "value" not in row or inputs is None or any("diameter" not in kind for kind in inputs["particles"]):
+        return False
+    if process == "fill":
+        return "impact_speed" in inputs.get("stream", {}) and "diameter" in inputs["stream"]
+    return process == "drum" and "fill_fraction" in inputs and "friction" in inputs.get("wall", {})
 
 
 def document_for(collected, case):
@@ -57,8 +77,11 @@ def document_for(collected, case):
     inputs = request_of(collected["document"], case)
     cases = [entry | {"label": {"paper": "unsaid"}} for entry in variants(inputs)]
     name = f"investigate {collected['document']['name']}: {case}"
-    return {"name": name, "description": f"What the paper leaves unsaid about {case}, varied one thing at a time.",
-            "base": {"inputs": inputs}, "cases": cases, "repeats": 1}
+    base = {"inputs": inputs}
+    if "process" in collected["document"]["base"]:
+        base["process"] = collected["document"]["base"]["process"]
+    return {"name": name, "description": f"What the paper leaves unsaid about {case}, varied one thing at a time.", "base": base,
+            "cases": cases, "repeats": 1}
 
 
 def disagreeing(collected, rows):

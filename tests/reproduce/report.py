@@ -3,7 +3,7 @@ import sections_fast
 import sections_slow
 import sections_standing
 from collecting import cases_of, runs_of
-from comparing import AGREES, judge
+from comparing import AGREES, BEYOND, judge
 from markdown import duration, listed, number, table, with_error, z_text
 from tables import agreement, base_text, failures, here_text, paper_table, runs_table, total, verdicts
 
@@ -26,8 +26,9 @@ HOW = f"""**z** is (here - paper)/sqrt(error here² + spread of the paper²), ma
 as improbable as that quotient is by Student's distribution. The error here is the standard error over the runs of a case, or what the
 runs say of themselves where that is larger. The paper gives no errors. Its angles are whole degrees, read by eye off a
 moving surface: their spread (± in the tables) is taken as 1 degree, half a degree of which is rounding; a range as its middle and
-half its width; what it calls "approximately" or "nearly" as good to a tenth. A row agrees within {AGREES:g} spreads; where one does not, what the
-paper leaves unsaid is varied, one thing at a time, below its table."""
+half its width; what it calls "approximately" or "nearly" as good to a tenth. A row agrees within {AGREES:g} spreads; where the paper says no more
+than "above" or "below", {BEYOND:g} spreads beyond it. Where a row does not agree, what the paper leaves unsaid is varied, one thing at a
+time, below its table."""
 
 
 def report(book, facts):
@@ -113,4 +114,4 @@ def investigation(row, tried, as_studied):
 
 
 def regime_of(runs):
-    return ", ".join(sorted({str((run["results"].get("regime") or {}).get("name")) for run in runs}))
+    return ", ".join(sorted({(run["results"].get("regime") or {}).get("name") or "" for run in runs}))

@@ -72,7 +72,7 @@ def test_bounds_and_words_are_judged():
     runs = [a_run("c", 23, change=one) for one in (0.9, 1.0, 1.1)]
     # t = sqrt(300) with 2 degrees of freedom: 1 - t/sqrt(2 + t^2) = 0.332 %
     assert comparing.judge(grows, runs).z == pytest.approx(2.94, abs=0.01)
-    assert comparing.judge(grows, runs).agrees is False
+    assert comparing.judge(grows, runs).agrees is True
     assert comparing.judge(grows, runs + runs).agrees is True
     assert comparing.judge(grows, [a_run("c", 23, change=one) for one in (-0.9, 1.0, 1.1)]).agrees is False  # 0.4 +- 0.65
     regime = {"case": "c", "what": "regime", "paper": "slumping", "words": ["slumping"], "measure": "results.regime.name"}
