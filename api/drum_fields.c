@@ -58,6 +58,8 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "inner wall of the drum" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
       .meaning = "coefficient of friction between a particle and the wall or its lining" },
+    { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
+      .meaning = "coefficient of rolling friction between a particle and all that is the drum's: wall, ends, lining, lifters. Default: none" },
     { SPEC_WALL, "end_friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(end_friction),
       .meaning = "coefficient of friction between a particle and the walls at the drum's ends. Default: the wall's" },
     { SPEC_WALL, "lining", FIELD_OBJECT_OR_NULL, SPEC_LINING, AT(lining_diameter),

@@ -31,6 +31,8 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall and floor of the cylinder" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
       .meaning = "coefficient of friction between a particle and wall or floor" },
+    { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
+      .meaning = "coefficient of rolling friction between a particle and wall or floor. Default: none" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, .meaning = "how long the run goes on after the stream has ended" },
     { SPEC_DURATION, "settling_seconds", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 1e6), .fallback = 2.0, AT(fill.settling_seconds),

@@ -20,6 +20,8 @@ static const spec_field fields[] = {
                  "from rolling off" },
     { SPEC_PLATE, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(heap.plate_friction),
       .meaning = "coefficient of friction between a particle and the plate or its rim" },
+    { SPEC_PLATE, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(heap.plate_rolling_friction),
+      .meaning = "coefficient of rolling friction between a particle and the plate or its rim. Default: none" },
 
     FIELDS_OF_PARTICLES,
 
@@ -33,6 +35,8 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall of the tube" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
       .meaning = "coefficient of friction between a particle and the tube" },
+    { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
+      .meaning = "coefficient of rolling friction between a particle and the tube. Default: none" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION,
       .meaning = "how long the run goes on from when the tube starts to rise" },

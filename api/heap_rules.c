@@ -48,7 +48,7 @@ static void derive_plate(drum_inputs *inputs, dem_drum_definition *scene, proble
     const double widest = scene_of_species(scene, scene_species_width, true);
     if (isnan(heap->plate_diameter)) heap->plate_diameter = USUAL_PLATE_DIAMETERS * heap->tube_diameter;
     if (isnan(heap->rim_height)) heap->rim_height = USUAL_RIM_SHARE * widest;
-    scene->plate = (dem_plate){ heap->plate_diameter, heap->rim_height, heap->plate_friction };
+    scene->plate = (dem_plate){ heap->plate_diameter, heap->rim_height, heap->plate_friction, heap->plate_rolling_friction };
     const double least = scene->diameter + 2.0 * widest;
     if (heap->plate_diameter < least)
         problem_list_add(problems, "/inputs/plate/diameter",

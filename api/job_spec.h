@@ -53,7 +53,7 @@ typedef struct fill_inputs {
 
 typedef struct heap_inputs {
     double tube_diameter, tube_height, lift_speed;
-    double plate_diameter, rim_height, plate_friction;
+    double plate_diameter, rim_height, plate_friction, plate_rolling_friction;
     double seconds;
 } heap_inputs;
 
@@ -64,12 +64,12 @@ typedef struct drum_inputs {
     species_inputs species[DEM_MAXIMUM_SPECIES];
     double share_by;                                   /* a share_basis */
     double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
-    double contact_law, friction, tangential_stiffness_ratio;
+    double contact_law, friction, rolling_friction, tangential_stiffness_ratio;
     double restitution, unloading_slope;               /* one of the two */
     double unloading;                                  /* 0: constant, 1: variable */
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
     double poissons_ratio;
-    double wall_friction, end_friction, lining_diameter, lining_pitch;
+    double wall_friction, wall_rolling_friction, end_friction, lining_diameter, lining_pitch;
     double lifter_count, lifter_height, lifter_width, lifter_friction; /* NaN: no lifters */
     double revolutions, seconds, until_standard_error; /* one of the three */
     double at_most_revolutions;                        /* beside the last */

@@ -54,6 +54,9 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
       .meaning = "coefficient of friction between particles" }, \
+    { SPEC_CONTACT, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(rolling_friction), \
+      .meaning = "coefficient of rolling friction between particles: a contact bears a moment of it times the normal force " \
+                 "times the effective radius. Default: none" }, \
     { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.3, 1.0), .fallback = 0.8, \
       .excludes = "unloading_slope", AT(restitution), \
       .meaning = "coefficient of normal restitution; with variable unloading: of the hardest impact expected" }, \

@@ -194,6 +194,8 @@ void scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_dr
         .friction = inputs->friction,
         .wall_friction = inputs->wall_friction,
         .tangential_stiffness_ratio = inputs->tangential_stiffness_ratio,
+        .rolling_friction = inputs->rolling_friction,
+        .wall_rolling_friction = inputs->wall_rolling_friction,
     };
     check_unloading(inputs, problems);
     if (law == DEM_HERTZ_MINDLIN && !isnan(inputs->stiffness))

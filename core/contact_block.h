@@ -26,6 +26,8 @@ typedef struct contact_block {
     real mu_n[BLOCK];       /* N, limit of friction */
     real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
     real s_p[BLOCK];        /* m, displacement along h */
+    real spin[3][BLOCK];    /* rad/s, first less second; this and the next where contacts resist rolling */
+    real moment[3][BLOCK];  /* N m, of rolling friction on the first */
 } __attribute__((aligned(ALIGNMENT))) contact_block;
 
 WIDE_INLINE void store_vector(real to[3][BLOCK], int k, const wide x[3])
@@ -42,5 +44,8 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
 void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact);
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
                                   bool is_wall, double dt);
+/* Rolling friction of a block, after its law and its rows: adds to these the moments (contact_rolling.c). */
+void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, bool is_wall,
+                        double dt);
 
 #endif

@@ -28,6 +28,16 @@ static void gather_spheres(contact_block *restrict block, const spheres *s, cons
     }
 }
 
+/* For rolling friction alone: the rows' sums don't tell. */
+static void gather_spins(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
+                         const int32_t *restrict second)
+{
+    for (int k = 0; k < BLOCK; k++) {
+        const sphere_row *row_a = &s->row[first[k]], *row_b = &s->row[second[k]];
+        for (int c = 0; c < 3; c++) block->spin[c][k] = row_a->omega[c] - row_b->omega[c];
+    }
+}
+
 /* Unit normal and overlap. The overlap is the difference of squares, which was taken in double, over the sum: a
  * small overlap keeps its digits. */
 static void normals(contact_block *restrict block)
@@ -103,6 +113,7 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
     write_rows(block, list->first_radius + start, list->row + start, list->second_row ? list->second_row + start : NULL);
+    if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
     keep_overlaps(block, list->overlap + start, largest);
 }
 
@@ -117,6 +128,7 @@ double contact_forces_between_spheres(contact_list *pairs, const spheres *s, con
         for (size_t b = part_start(blocks, part, threads); b < part_start(blocks, part + 1, threads); b++) {
             contact_block block;
             gather_spheres(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
+            if (pairs->has_rolling) gather_spins(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
             contact_block_forces(pairs, b * BLOCK, &block, contact, false, dt, &largest_here);
         }
         largest = fmax(largest, wide_largest_lane(largest_here));

@@ -1,7 +1,8 @@
 /* The contact laws as pure functions of numbers, free of branches, so that a loop over contacts becomes wide
  * arithmetic. Walton & Braun: a latching normal spring and incremental friction (Walton & Braun 1993, text of
  * "Method"; the friction's three-dimensional form after Walton 1993b and Walton & Braun 1986). Damped springs: linear
- * (the paper's footnote) or Hertz-Mindlin, with friction that cuts the tangential force and pulls its spring back. */
+ * (the paper's footnote) or Hertz-Mindlin, with friction that cuts the tangential force and pulls its spring back. All of
+ * them with rolling friction, where it is asked for. */
 #ifndef CONTACT_LAW_H
 #define CONTACT_LAW_H
 
@@ -12,6 +13,7 @@ typedef struct contact_history {
     real t[3];    /* T, N: friction force on the first body; damped laws: m, stretch of its spring */
     real t_star;  /* T at the last turning point over mu N, signed along T */
     real alpha_0; /* m: overlap at which the unloading branch reaches zero */
+    real roll[3]; /* N: rolling moment on the first body over R* */
 } contact_history;
 
 /* N2: a stored friction force below its root has no direction; elsewhere: a square whose root counts as none. */
@@ -154,6 +156,23 @@ static inline void damped_friction_increment(const real n[3], const real ds[3], 
         force[c] *= scale;
         stretch[c] = pressed ? (cut ? (force[c] - dashpot[c]) * compliance : stretch[c]) : 0;
     }
+}
+
+/* One increment of rolling friction: an elastic spring of stiffness K_T R*^2 against the relative rotation in the tangent
+ * plane, which yields at mu_r R* N (Iwashita & Oda 1998; Ai et al. 2011, model C; Wensrich & Katterfeld 2012; none of its
+ * dashpot). Written as forces on the arm R*. ds: m, R* times the rotation in this step of the first less the second, its
+ * part along n taken out; limit: mu_r |N|; k_t: tangential stiffness now, N/m. The second body has the opposite moment. */
+static inline void rolling_increment(const real n[3], const real ds[3], real limit, real k_t, real roll[3])
+{
+    const real rn = dot(roll, n);
+    const real u[3] = { fused(-rn, n[0], roll[0]), fused(-rn, n[1], roll[1]), fused(-rn, n[2], roll[2]) };
+    /* |roll|/|u|, as above by two terms of the root; 1 exactly where nothing turns, so that nothing leaks away */
+    const real uu = dot(u, u), off2 = uu > TINY_SQUARE ? rn * rn * inverse(uu) : 0;
+    const real keep = fused((real)0.5, lesser(off2, 1), 1);
+    for (int c = 0; c < 3; c++) roll[c] = fused(-k_t, ds[c], keep * u[c]);
+    const real size2 = dot(roll, roll);
+    const real scale = size2 > limit * limit ? limit * inverse_root(size2) : 1;
+    for (int c = 0; c < 3; c++) roll[c] = limit > TINY_FORCE ? roll[c] * scale : 0;
 }
 
 #endif

@@ -1,8 +1,9 @@
 #include "contact_list.h"
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count)
+dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling)
 {
     memset(list, 0, sizeof *list);
+    list->has_rolling = has_rolling;
     list->start = array_create(sphere_count + 1, sizeof *list->start);
     if (!list->start) return DEM_NO_MEMORY;
     return contact_list_reserve(list, BLOCK);
@@ -18,6 +19,8 @@ static void slots_free(contact_list *list)
     for (int c = 0; c < 3; c++) free(list->t[c]);
     free(list->t_star);
     free(list->alpha_0);
+    free(list->rolling_friction);
+    for (int c = 0; c < 3; c++) free(list->roll[c]);
     free(list->overlap);
 }
 
@@ -28,10 +31,20 @@ void contact_list_clear(contact_list *list)
     memset(list, 0, sizeof *list);
 }
 
+static bool rolling_create(contact_list *list)
+{
+    list->rolling_friction = array_create(list->capacity, sizeof *list->rolling_friction);
+    for (int c = 0; c < 3; c++) list->roll[c] = array_create(list->capacity, sizeof *list->roll[c]);
+    return list->rolling_friction && list->roll[0] && list->roll[1] && list->roll[2];
+}
+
 dem_status contact_list_reserve(contact_list *list, size_t count)
 {
     if (count <= list->capacity) return DEM_OK;
-    contact_list grown = { .start = list->start, .count = list->count, .capacity = round_up_to_block(count + count / 4) };
+    contact_list grown = { .start = list->start,
+                           .count = list->count,
+                           .capacity = round_up_to_block(count + count / 4),
+                           .has_rolling = list->has_rolling };
     const size_t n = grown.capacity;
     grown.first = array_create(n, sizeof *grown.first);
     grown.second = array_create(n, sizeof *grown.second);
@@ -43,7 +56,7 @@ dem_status contact_list_reserve(contact_list *list, size_t count)
     grown.alpha_0 = array_create(n, sizeof *grown.alpha_0);
     grown.overlap = array_create(n, sizeof *grown.overlap);
     if (!grown.first || !grown.second || !grown.friction || !grown.first_radius || !grown.mass || !grown.t[0] || !grown.t[1]
-        || !grown.t[2] || !grown.t_star || !grown.alpha_0 || !grown.overlap) {
+        || !grown.t[2] || !grown.t_star || !grown.alpha_0 || !grown.overlap || (grown.has_rolling && !rolling_create(&grown))) {
         slots_free(&grown);
         return DEM_NO_MEMORY;
     }
@@ -64,15 +77,18 @@ void contact_list_pad(contact_list *list, int32_t first, int32_t second)
         list->first[k] = first;
         list->second[k] = second;
         list->friction[k] = list->first_radius[k] = list->mass[k] = 0;
+        if (list->has_rolling) list->rolling_friction[k] = 0;
         contact_list_forget(list, k);
     }
 }
 
 contact_history contact_list_history(const contact_list *list, size_t k)
 {
-    return (contact_history){ .t = { list->t[0][k], list->t[1][k], list->t[2][k] },
-                              .t_star = list->t_star[k],
-                              .alpha_0 = list->alpha_0[k] };
+    contact_history history = { .t = { list->t[0][k], list->t[1][k], list->t[2][k] },
+                                .t_star = list->t_star[k],
+                                .alpha_0 = list->alpha_0[k] };
+    for (int c = 0; list->has_rolling && c < 3; c++) history.roll[c] = list->roll[c][k];
+    return history;
 }
 
 void contact_list_set_history(contact_list *list, size_t k, const contact_history *history)
@@ -80,6 +96,7 @@ void contact_list_set_history(contact_list *list, size_t k, const contact_histor
     for (int c = 0; c < 3; c++) list->t[c][k] = history->t[c];
     list->t_star[k] = history->t_star;
     list->alpha_0[k] = history->alpha_0;
+    for (int c = 0; list->has_rolling && c < 3; c++) list->roll[c][k] = history->roll[c];
 }
 
 void contact_list_carry(contact_list *list, const contact_list *before, size_t i)

@@ -12,7 +12,7 @@
 #include "wide.h"
 
 /* What a contact gives: f on the first (N), 0, moment about a centre (N m), 0. The second has -f, and the same moment
- * where radii are all the same: then one row serves both ends, else each has a row of its own. */
+ * where radii are all the same and nothing resists rolling: then one row serves both ends, else each has a row of its own. */
 typedef row8 contact_row;
 
 typedef struct contact_list {
@@ -25,13 +25,16 @@ typedef struct contact_list {
     real *t[3];              /* (capacity) N   contact_history, by component */
     real *t_star;            /* (capacity) */
     real *alpha_0;           /* (capacity) m */
+    bool has_rolling;        /* else there are none of the next two */
+    real *rolling_friction;  /* (capacity) mu_r */
+    real *roll[3];           /* (capacity) N   contact_history, by component */
     contact_row *row;        /* (capacity) part of the neighbor list's rows */
     contact_row *second_row; /* (capacity) likewise, for second ends; NULL: the same as for the first */
     real *overlap;           /* (capacity) m at the last step; negative: apart */
     size_t *start;           /* (spheres + 1) where each first sphere's contacts begin */
 } contact_list;
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count);
+dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling);
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);

@@ -100,9 +100,19 @@ static double wall_friction(const container *c, const dem_drum_definition *defin
     return definition->contact.wall_friction;
 }
 
+/* All that belongs to the drum has one; a plate and its rim have their own. */
+static double wall_rolling_friction(const container *c, const dem_drum_definition *definition, int k)
+{
+    const bool is_plate = c->wall[k].kind == WALL_DISC || (c->wall[k].kind == WALL_SHELL && k > 0);
+    return is_plate ? definition->plate.rolling_friction : definition->contact.wall_rolling_friction;
+}
+
 void container_set_friction(container *c, const dem_drum_definition *definition, bool has_friction)
 {
-    for (int k = 0; k < c->wall_count; k++) c->wall[k].friction = has_friction ? wall_friction(c, definition, k) : 0.0;
+    for (int k = 0; k < c->wall_count; k++) {
+        c->wall[k].friction = has_friction ? wall_friction(c, definition, k) : 0.0;
+        c->wall[k].rolling_friction = has_friction ? wall_rolling_friction(c, definition, k) : 0.0;
+    }
 }
 
 static bool turn_drum(container *c, double rate, double time)

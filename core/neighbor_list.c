@@ -7,12 +7,13 @@
 /* Shares of the smallest diameter, chosen by measurement: core/NUMERICS.md, "Neighbor lists". */
 static const double SKIN = 0.4, MARGIN = 0.006;
 
-dem_status neighbor_list_init(neighbor_list *list, const spheres *s)
+dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_rolling)
 {
     memset(list, 0, sizeof *list);
     list->skin = SKIN * s->smallest_diameter;
     list->margin = MARGIN * s->smallest_diameter;
-    for (size_t i = 1; i < spheres_count(s); i++) list->radii_differ = list->radii_differ || s->full_radius[i] != s->full_radius[0];
+    list->rows_differ = has_rolling;
+    for (size_t i = 1; i < spheres_count(s); i++) list->rows_differ = list->rows_differ || s->full_radius[i] != s->full_radius[0];
     cell_grid_init(&list->grid);
     const size_t n = s->mobile_count;
     list->start = array_create(n + 1, sizeof *list->start);
@@ -22,7 +23,7 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s)
     list->ends_second = array_create(n, sizeof *list->ends_second);
     bool enough = list->start && list->built_at && list->picked_velocity && list->ends_start && list->ends_second;
     contact_list *const all[] = { &list->pairs, &list->pairs_before, &list->walls, &list->walls_before };
-    for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n) == DEM_OK && enough;
+    for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n, has_rolling) == DEM_OK && enough;
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
     return DEM_NO_MEMORY;
@@ -276,7 +277,7 @@ static void starts_from_counts(contact_list *list, size_t n)
 static dem_status rows_reserve(neighbor_list *list)
 {
     const size_t pairs = round_up_to_block(list->pairs.count), walls = round_up_to_block(list->walls.count);
-    const size_t seconds = list->radii_differ ? pairs : 0, needed = pairs + walls + seconds + 1;
+    const size_t seconds = list->rows_differ ? pairs : 0, needed = pairs + walls + seconds + 1;
     if (needed > list->row_capacity) {
         contact_row *rows = array_create(needed + needed / 4, sizeof *rows);
         if (!rows) return DEM_NO_MEMORY;
@@ -286,7 +287,7 @@ static dem_status rows_reserve(neighbor_list *list)
     }
     list->pairs.row = list->rows;
     list->walls.row = list->rows + pairs;
-    list->pairs.second_row = list->radii_differ ? list->walls.row + walls : NULL;
+    list->pairs.second_row = list->rows_differ ? list->walls.row + walls : NULL;
     list->rows[needed - 1] = (contact_row){ 0 };
     return DEM_OK;
 }
@@ -309,7 +310,7 @@ static dem_status ends_build(neighbor_list *list, const spheres *s)
 {
     const contact_list *pairs = &list->pairs, *walls = &list->walls;
     const size_t n = s->mobile_count, wall_rows = round_up_to_block(pairs->count),
-                 all = wall_rows + round_up_to_block(walls->count), second_rows = list->radii_differ ? all : 0,
+                 all = wall_rows + round_up_to_block(walls->count), second_rows = list->rows_differ ? all : 0,
                  zeros = second_rows ? second_rows + wall_rows : all;
     size_t *start = list->ends_start;
     int32_t *second = list->ends_second;
@@ -369,6 +370,8 @@ static void fill_slots_of(neighbor_list *list, const spheres *s, const container
     for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
         const bool between_mobile = (size_t)pairs->second[k] < s->mobile_count;
         pairs->friction[k] = (real)(between_mobile ? contact->friction : contact->wall_friction);
+        if (pairs->has_rolling)
+            pairs->rolling_friction[k] = (real)(between_mobile ? contact->rolling_friction : contact->wall_rolling_friction);
         pairs->mass[k] = (real)(1 / (between_mobile ? own + s->inverse_mass[pairs->second[k]] : own));
         pairs->first_radius[k] = (real)s->full_radius[i];
     }

@@ -40,8 +40,8 @@ typedef struct neighbor_list {
     vector4 *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
-    contact_row *rows;                /* of pairs, of walls, of second ends where radii differ, then one of zeros */
-    bool radii_differ;
+    contact_row *rows;                /* of pairs, of walls, of second ends where rows differ, then one of zeros */
+    bool rows_differ;                 /* a contact's two ends have different moments */
     size_t row_capacity;
     /* the rows of each sphere's contacts, for its sum: those where it is second, by id of the first, then those where it
      * is first, by id of the second, then walls; filled up to whole groups with the row of zeros */
@@ -52,7 +52,8 @@ typedef struct neighbor_list {
     int64_t outer_builds, inner_picks;
 } neighbor_list;
 
-dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres);
+/* has_rolling: contacts resist rolling. */
+dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, bool has_rolling);
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand */
 /* Spheres were added behind the last one: they have touched nothing yet. Invalidate, too. */

@@ -4,6 +4,11 @@
 #include "parameters.h"
 #include "stream.h"
 
+static bool has_rolling_friction(const dem_drum_definition *d)
+{
+    return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->plate.rolling_friction > 0;
+}
+
 dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
 {
     *out = NULL;
@@ -25,7 +30,7 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     else if (status == DEM_OK && has_stream(definition)) status = stream_init(scene);
     else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
     if (status == DEM_OK) status = lost_init(scene);
-    if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres);
+    if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres, has_rolling_friction(definition));
     if (status != DEM_OK) {
         dem_scene_free(scene);
         return status;
@@ -52,7 +57,10 @@ void scene_enter_phase(dem_scene *scene, dem_phase phase)
     scene->phase = phase;
     scene->contact = definition->contact;
     /* Grown without friction, spheres slip into place instead of locking each other. */
-    if (phase == DEM_PHASE_GROWING) scene->contact.friction = scene->contact.wall_friction = 0.0;
+    if (phase == DEM_PHASE_GROWING) {
+        scene->contact.friction = scene->contact.wall_friction = 0.0;
+        scene->contact.rolling_friction = scene->contact.wall_rolling_friction = 0.0;
+    }
     container_set_friction(&scene->drum, definition, phase != DEM_PHASE_GROWING);
     container_move(&scene->drum, definition, phase == DEM_PHASE_ROTATING, scene_time_in_motion(scene));
     container_turn_lining(&scene->drum, &scene->spheres);

@@ -7,7 +7,7 @@
 #include "step.h"
 #include "stream.h"
 
-enum { HISTORY_NUMBERS = 5 };
+enum { HISTORY_NUMBERS = 8 };
 
 static void *state_add(dem_state *state, const char *name, dem_element element, size_t rows, size_t columns)
 {
@@ -28,7 +28,8 @@ const dem_state_array *state_find(const dem_state *state, const char *name, dem_
 
 static bool is_remembered(const contact_history *h)
 {
-    return h->t[0] != 0 || h->t[1] != 0 || h->t[2] != 0 || h->t_star != 0 || h->alpha_0 != 0;
+    return h->t[0] != 0 || h->t[1] != 0 || h->t[2] != 0 || h->t_star != 0 || h->alpha_0 != 0 || h->roll[0] != 0 || h->roll[1] != 0
+           || h->roll[2] != 0;
 }
 
 /* Two arrays: the spheres of each contact that remembers something, and what it remembers. */
@@ -50,6 +51,7 @@ static bool save_contacts(dem_state *state, const contact_list *list, const char
         for (int c = 0; c < 3; c++) *numbers++ = (double)h.t[c];
         *numbers++ = (double)h.t_star;
         *numbers++ = (double)h.alpha_0;
+        for (int c = 0; c < 3; c++) *numbers++ = (double)h.roll[c];
     }
     return true;
 }
@@ -144,9 +146,11 @@ static void restore_contacts(const dem_state *state, contact_list *list, size_t 
     for (size_t k = 0; k < id->rows; k++, pair += 2, h += HISTORY_NUMBERS) {
         list->first[k] = pair[0];
         list->second[k] = pair[1];
-        contact_list_set_history(
-            list, k,
-            &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] }, .t_star = (real)h[3], .alpha_0 = (real)h[4] });
+        contact_list_set_history(list, k,
+                                 &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] },
+                                                     .t_star = (real)h[3],
+                                                     .alpha_0 = (real)h[4],
+                                                     .roll = { (real)h[5], (real)h[6], (real)h[7] } });
         list->start[pair[0] + 1]++;
     }
     for (size_t i = 0; i < n; i++) list->start[i + 1] += list->start[i];

@@ -15,7 +15,7 @@ typedef enum wall_kind {
 
 typedef struct container_wall {
     wall_kind kind;
-    double friction;
+    double friction, rolling_friction;
     double radius;        /* m: of cylinder, disc and shell; of a bar, the distance of its top from the axis */
     double low, high;     /* m: the shell's edges along z; plane and disc are at low */
     double facing;        /* plane: 1 up z, -1 down z */

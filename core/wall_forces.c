@@ -50,6 +50,17 @@ static void gather_wall(contact_block *restrict block, int k, const spheres *s, 
     }
 }
 
+/* For rolling friction alone: less the wall's own turning about z. */
+static void gather_spins(contact_block *restrict block, const contact_list *walls, size_t start, const spheres *s,
+                         const container *c)
+{
+    for (int k = 0; k < BLOCK; k++) {
+        const sphere_row *row = &s->row[walls->first[start + (size_t)k]];
+        for (int a = 0; a < 3; a++) block->spin[a][k] = row->omega[a];
+        block->spin[2][k] -= (real)c->wall[walls->second[start + (size_t)k]].rotation_rate;
+    }
+}
+
 static void gather(contact_block *restrict block, const contact_list *walls, size_t start, const spheres *s, const container *c)
 {
     const int32_t *first = walls->first + start, *second = walls->second + start;
@@ -75,6 +86,7 @@ double contact_forces_with_walls(contact_list *walls, const spheres *s, const co
         for (size_t b = part_start(blocks, part, threads); b < part_start(blocks, part + 1, threads); b++) {
             contact_block block;
             gather(&block, walls, b * BLOCK, s, c);
+            if (walls->has_rolling) gather_spins(&block, walls, b * BLOCK, s, c);
             contact_block_forces(walls, b * BLOCK, &block, contact, true, dt, &largest_here);
         }
         largest = fmax(largest, wide_largest_lane(largest_here));

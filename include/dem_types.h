@@ -70,6 +70,8 @@ typedef struct dem_contact_parameters {
     double friction;                   /* mu between particles */
     double wall_friction;              /* mu_w, particle against the cylinder (drum, tube) or its lining */
     double tangential_stiffness_ratio; /* K_T0/K1 */
+    double rolling_friction;           /* mu_r between particles: a contact bears a moment of mu_r R* N; 0: none */
+    double wall_rolling_friction;      /* likewise, particle against all that is the container's but a plate */
 } dem_contact_parameters;
 
 /* Spheres glued to the inner wall, turning with it. diameter 0: no lining, a smooth wall. */
@@ -108,7 +110,7 @@ typedef struct dem_lift {
 typedef struct dem_plate {
     double diameter;   /* m */
     double rim_height; /* m; 0: no rim */
-    double friction;
+    double friction, rolling_friction;
 } dem_plate;
 
 /* Particles that enter a standing cylinder one after the other: dem_stream.h. */

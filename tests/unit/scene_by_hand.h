@@ -78,7 +78,7 @@ static inline dem_state_array *state_array(dem_state *state, const char *name)
 }
 
 /* What a contact remembers, as a saved state has it. */
-enum { HISTORY_T = 0, HISTORY_T_STAR = 3, HISTORY_ALPHA_0 = 4, HISTORY_WIDTH = 5 };
+enum { HISTORY_T = 0, HISTORY_T_STAR = 3, HISTORY_ALPHA_0 = 4, HISTORY_ROLL = 5, HISTORY_WIDTH = 8 };
 
 /* What a test puts into a scene; NULL: all zero. */
 typedef struct placement {

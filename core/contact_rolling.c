@@ -1,0 +1,55 @@
+/* rolling_increment of contact_law.h for a block of contacts, LANES at a time. */
+#include "contact_block.h"
+
+/* k_t: N/m, of each contact. */
+static void rolling_moments(contact_block *restrict block, real *restrict roll_x, real *restrict roll_y, real *restrict roll_z,
+                            const real *restrict rolling_friction, const real *restrict first_radius, const real *restrict k_t,
+                            bool is_wall, real time_step)
+{
+    real *const roll[3] = { roll_x, roll_y, roll_z };
+    const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
+    const wide dt = wide_all(time_step);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
+        const wide spin[3] = { wide_load(block->spin[0] + k), wide_load(block->spin[1] + k), wide_load(block->spin[2] + k) };
+        const wide before[3] = { wide_load(roll_x + k), wide_load(roll_y + k), wide_load(roll_z + k) };
+        const wide r_i = wide_load(first_radius + k), radii = wide_load(block->radii + k);
+        const wide radius = is_wall ? r_i : r_i * (radii - r_i) * wide_inverse(radii); /* R* */
+        const wide rn = -wide_dot(before, n), twist = -wide_dot(spin, n), stiffness = -wide_load(k_t + k), arm_dt = radius * dt;
+        const wide u[3] = { wide_fused(rn, n[0], before[0]), wide_fused(rn, n[1], before[1]), wide_fused(rn, n[2], before[2]) };
+        const wide uu = wide_dot(u, u), off2 = wide_select(wide_exceeds(uu, tiny), rn * rn * wide_inverse(uu), zero);
+        const wide keep = wide_fused(half, wide_lesser(off2, one), one);
+        const wide f_n = wide_load(block->f_n + k), limit = wide_load(rolling_friction + k) * wide_greater(f_n, -f_n);
+        wide f[3];
+        for (int c = 0; c < 3; c++) f[c] = wide_fused(stiffness, wide_fused(twist, n[c], spin[c]) * arm_dt, keep * u[c]);
+        const wide size2 = wide_dot(f, f);
+        const wide scale = wide_select(wide_exceeds(size2, limit * limit), limit * wide_inverse_root(size2), one);
+        const wide_mask pressed = wide_exceeds(limit, wide_all(TINY_FORCE));
+        for (int c = 0; c < 3; c++) {
+            f[c] = wide_select(pressed, f[c] * scale, zero);
+            wide_store(roll[c] + k, f[c]);
+            wide_store(block->moment[c] + k, f[c] * radius);
+        }
+    }
+}
+
+static void add_moments(const contact_block *restrict block, contact_row *restrict row, contact_row *restrict second)
+{
+    for (int k = 0; k < BLOCK; k++) {
+        const contact_row moment = { 0, 0, 0, 0, block->moment[0][k], block->moment[1][k], block->moment[2][k], 0 };
+        row[k] += moment;
+        if (second) second[k] -= moment;
+    }
+}
+
+void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, bool is_wall,
+                        double dt)
+{
+    /* What the damped laws have left there; the other's is one for all. */
+    real *const k_t = block->stored;
+    if (contact->law == DEM_WALTON_BRAUN)
+        for (int k = 0; k < BLOCK; k++) k_t[k] = (real)(contact->stiffness * contact->tangential_stiffness_ratio);
+    rolling_moments(block, list->roll[0] + start, list->roll[1] + start, list->roll[2] + start, list->rolling_friction + start,
+                    list->first_radius + start, k_t, is_wall, (real)dt);
+    add_moments(block, list->row + start, list->second_row ? list->second_row + start : NULL);
+}
