@@ -44,7 +44,8 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
 void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact);
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
                                   bool is_wall, double dt);
-/* Rolling friction of a block, after its law and its rows: adds to these the moments (contact_rolling.c). */
+/* Rolling friction of a block, right after its law, which has left stiffnesses in the block: sets the moments
+ * (contact_rolling.c). */
 void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, bool is_wall,
                         double dt);
 

@@ -32,9 +32,10 @@ static void gather_spheres(contact_block *restrict block, const spheres *s, cons
 static void gather_spins(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
                          const int32_t *restrict second)
 {
-    for (int k = 0; k < BLOCK; k++) {
-        const sphere_row *row_a = &s->row[first[k]], *row_b = &s->row[second[k]];
-        for (int c = 0; c < 3; c++) block->spin[c][k] = row_a->omega[c] - row_b->omega[c];
+    for (int k = 0; k < BLOCK; k += LANES) {
+        wide spin[3];
+        wide_row_spins(s->row, first + k, second + k, spin);
+        store_vector(block->spin, k, spin);
     }
 }
 
@@ -74,9 +75,10 @@ static void displacements(contact_block *restrict block, real time_step)
 }
 
 /* f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
- * spheres grow, radii are below full size, but then there is no friction, hence no moment.) second: may be NULL. */
-static void write_rows(const contact_block *restrict block, const real *restrict first_radius, contact_row *restrict row,
-                       contact_row *restrict second)
+ * spheres grow, radii are below full size, but then there is no friction, hence no moment.) rolls: with the
+ * moments of rolling friction, opposite for the two ends. second: may be NULL. */
+WIDE_INLINE void write_rows(const contact_block *restrict block, const real *restrict first_radius, bool rolls,
+                            contact_row *restrict row, contact_row *restrict second)
 {
     const wide half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -84,15 +86,17 @@ static void write_rows(const contact_block *restrict block, const real *restrict
         const wide t[3] = { wide_load(block->force[0] + k), wide_load(block->force[1] + k), wide_load(block->force[2] + k) };
         const wide f_n = -wide_load(block->f_n + k), less = half * wide_load(block->overlap + k);
         const wide r_first = wide_load(first_radius + k), r_a = r_first - less;
-        wide f[3], q[3];
+        wide f[3], q[3], moment[3];
         for (int c = 0; c < 3; c++) {
             f[c] = wide_fused(f_n, n[c], t[c]);
             q[c] = cross(n, t, c);
+            moment[c] = rolls ? wide_fused(r_a, q[c], wide_load(block->moment[c] + k)) : r_a * q[c];
         }
-        wide_store_rows(row + k, f, (wide[3]){ r_a * q[0], r_a * q[1], r_a * q[2] });
+        wide_store_rows(row + k, f, moment);
         if (!second) continue;
         const wide r_b = wide_load(block->radii + k) - r_first - less;
-        wide_store_rows(second + k, f, (wide[3]){ r_b * q[0], r_b * q[1], r_b * q[2] });
+        for (int c = 0; c < 3; c++) moment[c] = rolls ? wide_fused(r_b, q[c], -wide_load(block->moment[c] + k)) : r_b * q[c];
+        wide_store_rows(second + k, f, moment);
     }
 }
 
@@ -112,8 +116,10 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     displacements(block, (real)dt);
     if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
-    write_rows(block, list->first_radius + start, list->row + start, list->second_row ? list->second_row + start : NULL);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
+    contact_row *const row = list->row + start, *const second = list->second_row ? list->second_row + start : NULL;
+    if (list->has_rolling) write_rows(block, list->first_radius + start, true, row, second);
+    else write_rows(block, list->first_radius + start, false, row, second);
     keep_overlaps(block, list->overlap + start, largest);
 }
 

@@ -33,15 +33,6 @@ static void rolling_moments(contact_block *restrict block, real *restrict roll_x
     }
 }
 
-static void add_moments(const contact_block *restrict block, contact_row *restrict row, contact_row *restrict second)
-{
-    for (int k = 0; k < BLOCK; k++) {
-        const contact_row moment = { 0, 0, 0, 0, block->moment[0][k], block->moment[1][k], block->moment[2][k], 0 };
-        row[k] += moment;
-        if (second) second[k] -= moment;
-    }
-}
-
 void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, bool is_wall,
                         double dt)
 {
@@ -51,5 +42,4 @@ void contact_block_roll(contact_block *block, contact_list *list, size_t start, 
         for (int k = 0; k < BLOCK; k++) k_t[k] = (real)(contact->stiffness * contact->tangential_stiffness_ratio);
     rolling_moments(block, list->roll[0] + start, list->roll[1] + start, list->roll[2] + start, list->rolling_friction + start,
                     list->first_radius + start, k_t, is_wall, (real)dt);
-    add_moments(block, list->row + start, list->second_row ? list->second_row + start : NULL);
 }

@@ -147,6 +147,23 @@ WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_
     }
 }
 
+/* Of LANES pairs of spheres the first's spin less the second's, which the above leaves out. */
+WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_t *b, wide out[3])
+{
+    enum { SPIN = 12, ROW = 16 }; /* where in a row, and how long that is */
+    const float *all = rows;
+    __m512 pairs[4], to[4];
+    for (int k = 0; k < 4; k++) {
+        __m128 spin[4]; /* of pairs k, 4 + k, 8 + k, 12 + k */
+        for (int g = 0; g < 4; g++)
+            spin[g] = _mm_load_ps(all + ROW * (size_t)a[4 * g + k] + SPIN) - _mm_load_ps(all + ROW * (size_t)b[4 * g + k] + SPIN);
+        const __m512 two = _mm512_insertf32x4(_mm512_castps128_ps512(spin[0]), spin[1], 1);
+        pairs[k] = _mm512_insertf32x4(_mm512_insertf32x4(two, spin[2], 2), spin[3], 3);
+    }
+    transpose_quarters(pairs, to);
+    for (int c = 0; c < 3; c++) out[c] = (wide)to[c];
+}
+
 WIDE_INLINE wide wide_rint(wide x) { return (wide)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
 WIDE_INLINE uint32_t wide_mask_bits(wide_mask m) { return m; }
 WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
@@ -298,6 +315,15 @@ WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_
             out->omega[c][k] = row_b->number[8 + c] + row_a->number[8 + c];
         }
     }
+}
+
+WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_t *b, wide out[3])
+{
+    enum { SPIN = 12, ROW = 16 };
+    const real *all = rows;
+    for (int k = 0; k < LANES; k++)
+        for (int c = 0; c < 3; c++)
+            out[c][k] = all[ROW * (size_t)a[k] + SPIN + (size_t)c] - all[ROW * (size_t)b[k] + SPIN + (size_t)c];
 }
 
 /* LANES rows of 8: f, 0, q, 0. */
