@@ -9,6 +9,7 @@
 #define THREAD_GAIN 0.7
 /* Particles that hold one another by friction touch fewer others: cost falls with the logarithm of friction. */
 #define COST_A_DECADE_OF_FRICTION (-0.1)
+#define FACTOR_OF_ROLLING_FRICTION 1.3
 #define REFERENCE_FRICTION 0.1
 
 #define FORMAT 1
@@ -57,7 +58,8 @@ double calibration_seconds_a_step(const calibration *machine, const calibration_
     const double one = load->clusters ? machine->cluster[load->law] : machine->sphere[load->law];
     const int threads = load->threads < machine->cores ? load->threads : machine->cores;
     return 1e-9 * one * load->spheres * factor_of_size(machine, load->spheres) * factor_of_friction(load->friction)
-           * machine->correction / (1.0 + THREAD_GAIN * (threads - 1));
+           * (load->rolling_friction ? FACTOR_OF_ROLLING_FRICTION : 1.0) * machine->correction
+           / (1.0 + THREAD_GAIN * (threads - 1));
 }
 
 /* --- the file --- */

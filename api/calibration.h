@@ -34,6 +34,7 @@ typedef struct calibration_load {
     bool clusters;
     dem_contact_law law;
     double friction;
+    bool rolling_friction;
     int threads; /* asked for; no more count than there are cores */
 } calibration_load;
 

@@ -79,6 +79,7 @@ job_estimate standing_estimate(const job_spec *spec, const calibration *machine,
                                     .clusters = spheres > particles,
                                     .law = scene->contact.law,
                                     .friction = scene->contact.friction,
+                                    .rolling_friction = dem_has_rolling_friction(scene),
                                     .threads = scene->threads };
     estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &load);
     estimate.memory_bytes = dem_memory_estimate(spheres) + FRAME_BYTES * spec->duration / spec->sample_interval;

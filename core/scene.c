@@ -1,13 +1,9 @@
 #include "scene.h"
 
+#include "dem_rules.h"
 #include "lost.h"
 #include "parameters.h"
 #include "stream.h"
-
-static bool has_rolling_friction(const dem_drum_definition *d)
-{
-    return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->plate.rolling_friction > 0;
-}
 
 dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
 {
@@ -30,7 +26,7 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     else if (status == DEM_OK && has_stream(definition)) status = stream_init(scene);
     else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
     if (status == DEM_OK) status = lost_init(scene);
-    if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres, has_rolling_friction(definition));
+    if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres, dem_has_rolling_friction(definition));
     if (status != DEM_OK) {
         dem_scene_free(scene);
         return status;

@@ -159,4 +159,10 @@ static inline double dem_settling_time_estimate(double drum_diameter, double gra
 /* Resident memory of a run, bytes. */
 static inline double dem_memory_estimate(double particles) { return 20e6 + 1500.0 * particles; }
 
+/* Of particles, walls or plate: then every contact carries a moment. */
+static inline bool dem_has_rolling_friction(const dem_drum_definition *d)
+{
+    return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->plate.rolling_friction > 0;
+}
+
 #endif

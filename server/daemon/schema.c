@@ -229,6 +229,9 @@ static const char run_summary_with_more_measures[] =
     "  coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"
     "  coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"
     "  coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"
+    /* told by the specification alone; null where it says nothing */
+    "  job.spec->>'$.inputs.contact.rolling_friction' AS rolling_friction,"
+    "  job.spec->>'$.inputs.wall.rolling_friction' AS wall_rolling_friction,"
     "  coalesce(i.tangential_stiffness_ratio, fi.tangential_stiffness_ratio, hi.tangential_stiffness_ratio)"
     "   AS tangential_stiffness_ratio,"
     "  coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, i.lining_diameter,"

@@ -1,30 +1,45 @@
 /* One sphere under its weight on the wall of a drum at rest, in the scene's own step. Prints its motion as JSON lists:
  * time, angle from the lowest line, place along the axis, speed along it, spin about the drum's x axis.
  *
- * Starts at rest, or moving along the axis without spin, at the overlap that carries its weight there. */
+ * Starts at rest, or moving along the axis and spinning, at the overlap that carries its weight there. */
 #include "named_numbers.h"
 
-enum { RADIUS, DRUM_RADIUS, STIFFNESS, MU, ANGLE, V_Z, STEP, EVERY, SAMPLES };
+enum { RADIUS, DRUM_RADIUS, STIFFNESS, MU, ANGLE, V_Z, STEP, EVERY, SAMPLES, LAW, YOUNGS_MODULUS, ROLLING, SPIN };
 
 static named_number asked[] = {
-    { "radius", 0.002 },   { "drum_radius", 0.1 },
-    { "stiffness", 4000 }, { "friction", 0.5 },
+    { "radius", 0.002 },
+    { "drum_radius", 0.1 },
+    { "stiffness", 4000 },
+    { "friction", 0.5 },
     { "angle", 0 }, /* rad */
-    { "v_z", 0 },          { "time_step", 1e-5 },
+    { "v_z", 0 },
+    { "time_step", 1e-5 },
     { "every", 10 }, /* steps between samples */
-    { "samples", 100 },    { NULL, 0 },
+    { "samples", 100 },
+    { "law", DEM_WALTON_BRAUN },
+    { "youngs_modulus", 5e7 }, /* Hertz-Mindlin, both bodies, Poisson's ratio 0.3 */
+    { "rolling_friction", 0 },
+    { "spin", 0 }, /* rad/s, about x */
+    { NULL, 0 },
 };
 
 static double of(int which) { return asked[which].value; }
 
+static double overlap_under(double force)
+{
+    const double e_star = of(YOUNGS_MODULUS) / (2 * (1 - 0.3 * 0.3));
+    return of(LAW) == DEM_HERTZ_MINDLIN ? pow(3 * force / (4 * e_star * sqrt(of(RADIUS))), 2.0 / 3) : force / of(STIFFNESS);
+}
+
 static dem_scene *sphere_on_the_wall(const dem_drum_definition *d)
 {
     dem_scene *scene = hand_scene(d);
-    const double alpha = species_mass(&d->species[0]) * d->gravity * cos(of(ANGLE)) / d->contact.stiffness;
+    const double alpha = overlap_under(species_mass(&d->species[0]) * d->gravity * cos(of(ANGLE)));
     const double rho = scene->drum.radius - scene->spheres.full_radius[0] + alpha;
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
                                        .position = (double[]){ rho * sin(of(ANGLE)), -rho * cos(of(ANGLE)), 0 },
-                                       .velocity = (double[]){ 0, 0, of(V_Z) } });
+                                       .velocity = (double[]){ 0, 0, of(V_Z) },
+                                       .spin = (double[]){ of(SPIN), 0, 0 } });
     return scene;
 }
 
@@ -44,6 +59,9 @@ int main(int argc, char **argv)
     d.length = 5 * of(DRUM_RADIUS); /* the parked spheres fall beside it, and reach the wall after sqrt(2 R/g) */
     d.contact.stiffness = of(STIFFNESS);
     d.contact.wall_friction = of(MU);
+    d.contact.law = (dem_contact_law)of(LAW);
+    d.contact.particle = d.contact.wall = (dem_elasticity){ of(YOUNGS_MODULUS), 0.3 };
+    d.contact.wall_rolling_friction = of(ROLLING);
     d.time_step = of(STEP);
     dem_scene *scene = sphere_on_the_wall(&d);
     const size_t n = (size_t)of(SAMPLES);

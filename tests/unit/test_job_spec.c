@@ -568,6 +568,19 @@ static void variable_unloading_takes_its_slope_from_the_restitution_or_the_other
                    "law \"walton-braun\"\n");
 }
 
+static void contacts_resist_rolling_where_asked_for(void **state)
+{
+    (void)state;
+    expect_problem("contact/rolling_friction", "1.5", "/inputs/contact/rolling_friction: is 1.5; must be in [0, 1]\n");
+    expect_problem("wall", "{\"rolling_friction\": -0.1}", "/inputs/wall/rolling_friction: is -0.1; must be in [0, 1]\n");
+    job_spec spec = parse_or_fail(minimal_with("contact/rolling_friction", "0.1"));
+    assert_true(spec.drum.contact.rolling_friction == 0.1 && spec.drum.contact.wall_rolling_friction == 0);
+    job_spec_clear(&spec);
+    spec = parse_or_fail(minimal_with("wall", "{\"rolling_friction\": 0.2}"));
+    assert_true(spec.drum.contact.rolling_friction == 0 && spec.drum.contact.wall_rolling_friction == 0.2);
+    job_spec_clear(&spec);
+}
+
 static void corrector_passes_are_one_unless_asked_for(void **state)
 {
     (void)state;
@@ -724,6 +737,7 @@ int main(void)
         cmocka_unit_test(a_minimal_request_gets_every_default),
         cmocka_unit_test(shares_by_volume_and_mass_become_shares_by_number),
         cmocka_unit_test(variable_unloading_takes_its_slope_from_the_restitution_or_the_other_way_round),
+        cmocka_unit_test(contacts_resist_rolling_where_asked_for),
         cmocka_unit_test(corrector_passes_are_one_unless_asked_for),
         cmocka_unit_test(a_list_of_particles_says_how_many_there_are_of_each),
         cmocka_unit_test(particles_outside_the_drum_or_within_each_other_are_all_told),
