@@ -22,7 +22,10 @@ typedef struct contact_history {
 /* The same contact seen from the other body: n points the other way, and so do all vectors. */
 static inline void contact_history_turn(contact_history *history)
 {
-    for (int c = 0; c < 3; c++) history->t[c] = -history->t[c];
+    for (int c = 0; c < 3; c++) {
+        history->t[c] = -history->t[c];
+        history->roll[c] = -history->roll[c];
+    }
 }
 
 /* Normal force, N, of the latching spring: K1 when loading beyond all before, K2 on unloading and reloading
