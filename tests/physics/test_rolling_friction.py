@@ -34,6 +34,7 @@ def test_a_sphere_on_a_slope_goes_above_mu_r(record, build, name):
                "curvature takes 1.5 %", "um")
 
 
+@pytest.mark.long
 def test_a_drum_stands_steeper_the_more_its_particles_resist_rolling(record, drums):
     """A small drum, at the friction at which spheres that roll freely stand no steeper for more of it."""
     results = drums({mu_r: drum(0.5, math.pi, diameter=0.06, length=0.016, grain=0.004, revolutions=1, contact={"rolling_friction": mu_r})
