@@ -19,46 +19,47 @@ static const char *word_of(const job_spec *spec, spec_group group, const char *n
 static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *spec)
 {
     const dem_drum_definition *drum = &spec->drum;
-    return sql_run(writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+    return sql_run(writer, NULL, "INSERT INTO drum_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
                    "idddddii"
                    "dddddddddd"
-                   "itit",
+                   "ititdd",
                    job, drum->diameter, drum->length, drum->rotation_rate, drum->gravity, drum->fill_fraction,
                    (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter, drum->species[0].density,
                    drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
                    drum->contact.tangential_stiffness_ratio, drum->contact.stiffness, drum->lining.diameter, drum->time_step,
                    spec->duration, (int64_t)drum->seed, word_of(spec, SPEC_DRUM, "ends", spec->inputs.drum_ends),
-                   (int64_t)drum->lifters.count, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape));
+                   (int64_t)drum->lifters.count, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape),
+                   drum->contact.rolling_friction, drum->contact.wall_rolling_friction);
 }
 
 static store_status insert_fill(sqlite3 *writer, int64_t job, const job_spec *spec)
 {
     const dem_drum_definition *scene = &spec->drum;
-    return sql_run(writer, NULL, "INSERT INTO fill_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+    return sql_run(writer, NULL, "INSERT INTO fill_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
                    "idddd"
                    "diiddt"
-                   "dddddddi",
+                   "dddddddidd",
                    job, scene->diameter, scene->stream.diameter, scene->stream.rate, scene->stream.impact_speed, scene->gravity,
                    (int64_t)scene->particle_count, (int64_t)scene->species_count, scene->species[0].diameter,
                    scene->species[0].density, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape),
                    scene->contact.friction, scene->contact.restitution, scene->contact.wall_friction,
                    scene->contact.tangential_stiffness_ratio, scene->contact.stiffness, scene->time_step, spec->duration,
-                   (int64_t)scene->seed);
+                   (int64_t)scene->seed, scene->contact.rolling_friction, scene->contact.wall_rolling_friction);
 }
 
 static store_status insert_heap(sqlite3 *writer, int64_t job, const job_spec *spec)
 {
     const dem_drum_definition *scene = &spec->drum;
-    return sql_run(writer, NULL, "INSERT INTO heap_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
+    return sql_run(writer, NULL, "INSERT INTO heap_input VALUES(?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)",
                    "iddddd"
                    "diiddt"
-                   "dddddddi",
+                   "dddddddidd",
                    job, scene->diameter, scene->lift.speed, scene->plate.diameter, scene->plate.rim_height, scene->plate.friction,
                    scene->gravity, (int64_t)scene->particle_count, (int64_t)scene->species_count, scene->species[0].diameter,
                    scene->species[0].density, word_of(spec, SPEC_PARTICLES, "shape", spec->inputs.species[0].shape),
                    scene->contact.friction, scene->contact.restitution, scene->contact.wall_friction,
                    scene->contact.tangential_stiffness_ratio, scene->contact.stiffness, scene->time_step, spec->duration,
-                   (int64_t)scene->seed);
+                   (int64_t)scene->seed, scene->contact.rolling_friction, scene->contact.wall_rolling_friction);
 }
 
 static store_status insert_granule(sqlite3 *writer, int64_t job, const job_spec *spec)

@@ -180,6 +180,8 @@ static const char drums_closed_and_with_lifters[] =
     "ALTER TABLE drum_input ADD COLUMN ends TEXT NOT NULL DEFAULT 'periodic';"
     "ALTER TABLE drum_input ADD COLUMN lifters INTEGER NOT NULL DEFAULT 0;"   /* how many */
     "ALTER TABLE drum_input ADD COLUMN shape TEXT NOT NULL DEFAULT 'sphere';" /* of the first species */
+    "ALTER TABLE drum_input ADD COLUMN rolling_friction REAL NOT NULL DEFAULT 0;"
+    "ALTER TABLE drum_input ADD COLUMN wall_rolling_friction REAL NOT NULL DEFAULT 0;"
     "UPDATE drum_input SET shape=coalesce((SELECT CASE json_type(job.spec,'$.inputs.particles[0].shape')"
     "  WHEN 'text' THEN job.spec->>'$.inputs.particles[0].shape' WHEN 'object' THEN 'spheres' END"
     "  FROM job WHERE job.number=drum_input.job), 'sphere');";
@@ -193,7 +195,8 @@ static const char fill_and_heap_tables[] =
     "  density REAL NOT NULL, shape TEXT NOT NULL," /* of the first species */
     "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"
     "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, time_step REAL NOT NULL,"
-    "  duration REAL NOT NULL, seed INTEGER NOT NULL) STRICT;"
+    "  duration REAL NOT NULL, seed INTEGER NOT NULL,"
+    "  rolling_friction REAL NOT NULL, wall_rolling_friction REAL NOT NULL) STRICT;"
     "CREATE TABLE heap_input("
     "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
     "  tube_diameter REAL NOT NULL, lift_speed REAL NOT NULL, plate_diameter REAL NOT NULL, rim_height REAL NOT NULL,"
@@ -202,7 +205,8 @@ static const char fill_and_heap_tables[] =
     "  density REAL NOT NULL, shape TEXT NOT NULL," /* of the first species */
     "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"
     "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, time_step REAL NOT NULL,"
-    "  duration REAL NOT NULL, seed INTEGER NOT NULL) STRICT;"
+    "  duration REAL NOT NULL, seed INTEGER NOT NULL,"
+    "  rolling_friction REAL NOT NULL, wall_rolling_friction REAL NOT NULL) STRICT;"
     "CREATE TABLE surface_result("
     "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
     "  height REAL, center_height REAL, wall_height REAL, base_diameter REAL, volume REAL, static_cohesive_index REAL) STRICT;"
@@ -229,9 +233,8 @@ static const char run_summary_with_more_measures[] =
     "  coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"
     "  coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"
     "  coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"
-    /* told by the specification alone; null where it says nothing */
-    "  job.spec->>'$.inputs.contact.rolling_friction' AS rolling_friction,"
-    "  job.spec->>'$.inputs.wall.rolling_friction' AS wall_rolling_friction,"
+    "  coalesce(i.rolling_friction, fi.rolling_friction, hi.rolling_friction) AS rolling_friction,"
+    "  coalesce(i.wall_rolling_friction, fi.wall_rolling_friction, hi.wall_rolling_friction) AS wall_rolling_friction,"
     "  coalesce(i.tangential_stiffness_ratio, fi.tangential_stiffness_ratio, hi.tangential_stiffness_ratio)"
     "   AS tangential_stiffness_ratio,"
     "  coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, i.lining_diameter,"
