@@ -60,7 +60,7 @@ static const result_field fields[] = {
     { "regime", "evidence", "fallen_fraction", RESULT_REAL, REGIME(fallen_fraction), "",
       "share of particles lately nearer the axis than the bed's inner surface less 2 diameters" },
     { "regime", "evidence", "surface_lag", RESULT_REAL, REGIME(surface_lag), "rad/revolution",
-      "by which the inner surface lags the drum" },
+      "by which the inner surface lags the drum, in the last four revolutions" },
 
     { "segregation", NULL, "radial_index", RESULT_REAL, SEGREGATION(radial_index), "",
       "mean distance from the axis, largest less smallest species, over the drum's radius; null: one species" },

@@ -75,14 +75,25 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     frame[FRAME_SURFACE_LAG] = rate != 0 ? 2 * DEM_PI * (1 - mean_of(&surface_spin) / rate) : NAN;
 }
 
-/* Share of particles seen nearer the axis than R_i - 2d in the last four revolutions (or the window, if shorter). */
-static double fallen_fraction(const dem_scene *scene, const frame_window *window)
+/* Share of particles seen nearer the axis than R_i - 2d since then. */
+static double fallen_fraction(const dem_scene *scene, double since)
 {
-    const double revolution = 2 * DEM_PI / fabs(scene->definition.rotation_rate);
-    const double since = fmax(window->frames[FRAME_TIME], dem_scene_time(scene) - 4 * revolution);
     double fallen = 0.0;
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) fallen += scene->spheres.fallen_time[i] >= since;
     return fallen / (double)scene->spheres.mobile_count;
+}
+
+/* Fast beds take revolutions to form: they are judged by the last four (or the window, if shorter). */
+static frame_window last_revolutions(const dem_scene *scene, const frame_window *window, double *since)
+{
+    const double revolution = 2 * DEM_PI / fabs(scene->definition.rotation_rate);
+    *since = fmax(window->frames[FRAME_TIME], dem_scene_time(scene) - 4 * revolution);
+    frame_window last = *window;
+    while (last.count > 1 && last.frames[FRAME_TIME] < *since) {
+        last.frames += last.width;
+        last.count--;
+    }
+    return last;
 }
 
 /* A bed spread over the whole wall: raining, sliding or centrifuging. */
@@ -119,9 +130,11 @@ void measure_regime_results(const dem_scene *scene, const frame_window *window, 
     r->angle_fluctuation_deg = frame_window_deviation(window, FRAME_CENTER_OF_MASS);
     r->flow_fluctuation = frame_window_deviation(window, FRAME_FLOW_SPEED) / frame_window_mean(window, FRAME_FLOW_SPEED);
     r->airborne_fraction = frame_window_mean(window, FRAME_AIRBORNE);
-    r->wall_coverage = frame_window_mean(window, FRAME_WALL_COVERAGE);
     r->curvature_deg = repose->angle[DEM_UPPER_CHORD].mean_deg - repose->angle[DEM_LOWER_CHORD].mean_deg;
-    r->fallen_fraction = fallen_fraction(scene, window);
-    r->surface_lag = frame_window_mean(window, FRAME_SURFACE_LAG);
+    double since;
+    const frame_window last = last_revolutions(scene, window, &since);
+    r->fallen_fraction = fallen_fraction(scene, since);
+    r->surface_lag = frame_window_mean(&last, FRAME_SURFACE_LAG);
+    r->wall_coverage = frame_window_mean(&last, FRAME_WALL_COVERAGE);
     r->regime = r->wall_coverage > 0.95 && r->omega2_outer > 1 ? fast_regime(r) : slow_regime(r);
 }
