@@ -97,10 +97,10 @@ def test_a_body_of_more_than_a_megabyte_is_refused(fake):
 
 
 def test_unknown_addresses_and_methods_are_problems(fake):
-    for path in ("/nothing", "/jobs/x/y/z", "/processes/heap", "/jobs/20200101-000000-00000000", "/web/none.js", "/web/.git", "/study"):
+    for path in ("/nothing", "/jobs/x/y/z", "/processes/mill", "/jobs/20200101-000000-00000000", "/web/none.js", "/web/.git", "/study"):
         answer = fake.get(path)
         assert answer.status_code == 404 and answer.json()["status"] == 404, path
-    assert fake.get("/processes/heap").json()["type"].endswith("/no-such-process")
+    assert fake.get("/processes/mill").json()["type"].endswith("/no-such-process")
     assert fake.get("/jobs/20200101-000000-00000000").json()["type"].endswith("/no-such-job")
     answer = requests.put(f"{fake.url}/jobs")
     assert answer.status_code == 405 and answer.headers["Allow"] == "GET, HEAD"
