@@ -41,7 +41,9 @@ class Daemon:
         """On the port it had before, if it was running before."""
         command = [BUILD / "reposed", "serve", "--port", str(self.port), "--data", self.data, *self.options]
         with open(self.folder / "daemon.log", "ab") as log:
-            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True)
+            # SIGHUP as it is by default, also where nohup has it ignored
+            self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True,
+                                            preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
         line = self.process.stdout.readline()
         assert line.startswith("listening on http://"), self.log()
         self.port = int(line.rsplit(":", 1)[1])
