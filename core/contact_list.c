@@ -99,6 +99,13 @@ void contact_list_set_history(contact_list *list, size_t k, const contact_histor
     for (int c = 0; list->has_rolling && c < 3; c++) list->roll[c][k] = history->roll[c];
 }
 
+void contact_list_swap(contact_list *a, contact_list *b)
+{
+    const contact_list c = *a;
+    *a = *b;
+    *b = c;
+}
+
 void contact_list_carry(contact_list *list, const contact_list *before, size_t i)
 {
     /* Both are ordered by second, so one walk along each is enough. */

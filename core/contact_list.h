@@ -1,9 +1,9 @@
 /* Contacts in reach: pairs (or sphere and wall) that touch or can touch before the list is made again, with
  * what each remembers, and the rows of force that each writes.
  *
- * Order: by first sphere, then by second; the two ends of a pair are ordered by id, first < second. Each
- * sphere's sum over its contacts therefore runs in an order that depends on ids alone, not on when a list was
- * made or on how many threads made it: the same bits either way. */
+ * Order: by first sphere, then by second, first < second, as they lie in memory (sorting.h). Each sphere's sum over
+ * its contacts therefore runs in an order that does not depend on when a list was made or on how many threads made
+ * it: the same bits either way. */
 #ifndef CONTACT_LIST_H
 #define CONTACT_LIST_H
 
@@ -43,6 +43,7 @@ void contact_list_pad(contact_list *list, int32_t first, int32_t second);
 void contact_list_forget(contact_list *list, size_t slot);
 contact_history contact_list_history(const contact_list *list, size_t slot);
 void contact_list_set_history(contact_list *list, size_t slot, const contact_history *history);
+void contact_list_swap(contact_list *a, contact_list *b);
 /* Copy the histories of sphere i's contacts from the list before (same first, same second). */
 void contact_list_carry(contact_list *list, const contact_list *before, size_t i);
 

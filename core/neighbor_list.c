@@ -259,13 +259,6 @@ static void mark_in_reach(neighbor_list *list, const spheres *s, const container
     }
 }
 
-static void swap_lists(contact_list *a, contact_list *b)
-{
-    const contact_list c = *a;
-    *a = *b;
-    *b = c;
-}
-
 static void starts_from_counts(contact_list *list, size_t n)
 {
     list->start[0] = 0;
@@ -305,7 +298,7 @@ static dem_status ends_reserve(neighbor_list *list, size_t count)
 
 static inline uint32_t row_offset(size_t k) { return (uint32_t)(k * sizeof(contact_row)); }
 
-/* Ends in a fixed order: contacts with spheres of lower id, then of higher id, then walls. */
+/* Ends in a fixed order: contacts with spheres before it in memory, then behind it, then walls. */
 static dem_status ends_build(neighbor_list *list, const spheres *s)
 {
     const contact_list *pairs = &list->pairs, *walls = &list->walls;
@@ -364,8 +357,6 @@ static void fill_slots_of(neighbor_list *list, const spheres *s, const container
 {
     contact_list *pairs = &list->pairs, *walls = &list->walls;
     const wall_outlook ahead = { duration, list->margin };
-    double unit[3];
-    spheres_ring_unit(s, unit);
     const double own = s->inverse_mass[i];
     for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
         const bool between_mobile = (size_t)pairs->second[k] < s->mobile_count;
@@ -384,8 +375,8 @@ static dem_status inner_pick(neighbor_list *list, const spheres *s, const contai
                              double duration, int threads)
 {
     const size_t n = s->mobile_count;
-    swap_lists(&list->pairs, &list->pairs_before);
-    swap_lists(&list->walls, &list->walls_before);
+    contact_list_swap(&list->pairs, &list->pairs_before);
+    contact_list_swap(&list->walls, &list->walls_before);
     mark_in_reach(list, s, drum, duration, threads);
     dem_status status = pairs_pick(list, n);
     starts_from_counts(&list->walls, n);

@@ -43,8 +43,8 @@ typedef struct neighbor_list {
     contact_row *rows;                /* of pairs, of walls, of second ends where rows differ, then one of zeros */
     bool rows_differ;                 /* a contact's two ends have different moments */
     size_t row_capacity;
-    /* the rows of each sphere's contacts, for its sum: those where it is second, by id of the first, then those where it
-     * is first, by id of the second, then walls; filled up to whole groups with the row of zeros */
+    /* the rows of each sphere's contacts, for its sum: those where it is second, by the first, then those where it
+     * is first, by the second, then walls; filled up to whole groups with the row of zeros */
     size_t *ends_start;   /* (mobile + 1) */
     int32_t *ends_second; /* (mobile) contacts in which it is second */
     uint32_t *ends;       /* bytes from the first row */

@@ -158,13 +158,6 @@ static void contacts_move(contact_list *to, const contact_list *from, const int3
     to->count = from->count;
 }
 
-static void swap(contact_list *a, contact_list *b)
-{
-    const contact_list c = *a;
-    *a = *b;
-    *b = c;
-}
-
 static dem_status sort(dem_scene *scene, int32_t *order, int32_t *sphere_order, int32_t *now_at)
 {
     spheres *s = &scene->spheres;
@@ -179,8 +172,8 @@ static dem_status sort(dem_scene *scene, int32_t *order, int32_t *sphere_order, 
     for (size_t k = 0; k < s->mobile_count; k++) now_at[sphere_order[k]] = (int32_t)k;
     contacts_move(&list->pairs_before, &list->pairs, now_at, s->mobile_count, true);
     contacts_move(&list->walls_before, &list->walls, now_at, s->mobile_count, false);
-    swap(&list->pairs, &list->pairs_before);
-    swap(&list->walls, &list->walls_before);
+    contact_list_swap(&list->pairs, &list->pairs_before);
+    contact_list_swap(&list->walls, &list->walls_before);
     neighbor_list_invalidate(list);
     return DEM_OK;
 }
