@@ -1,0 +1,104 @@
+/* What wide.h needs, for any processor and precision, by the compiler's vectors and plain loops: the baseline in single
+ * precision, and double precision everywhere. Included by wide.h alone. */
+#ifndef WIDE_ANY_H
+#define WIDE_ANY_H
+
+#ifdef DEM_DOUBLE
+typedef int64_t wide_mask __attribute__((vector_size(WIDE_BYTES)));
+#else
+typedef int32_t wide_mask __attribute__((vector_size(WIDE_BYTES)));
+#endif
+
+WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return (wide_mask)(a > b); }
+WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)((m & (wide_mask)a) | (~m & (wide_mask)b)); }
+WIDE_INLINE wide wide_greater(wide a, wide b) { return wide_select(wide_exceeds(a, b), a, b); }
+WIDE_INLINE wide wide_lesser(wide a, wide b) { return wide_select(wide_exceeds(b, a), a, b); }
+WIDE_INLINE wide wide_rint(wide x)
+{
+    for (int k = 0; k < LANES; k++) x[k] = (real)rint((double)x[k]);
+    return x;
+}
+/* Bit k: index[k] > i. */
+WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
+{
+    uint32_t bits = 0;
+    for (int k = 0; k < LANES; k++) bits |= (uint32_t)(index[k] > i) << k;
+    return bits;
+}
+WIDE_INLINE uint32_t wide_mask_bits(wide_mask m)
+{
+    uint32_t bits = 0;
+#pragma GCC unroll 8
+    for (int k = 0; k < LANES; k++) bits |= (uint32_t)(m[k] & 1) << k;
+    return bits;
+}
+
+typedef real wide_part __attribute__((vector_size(DOUBLES * sizeof(real)))); /* what becomes one wide_double */
+typedef union wide_parts {
+    wide all;
+    wide_part part[HALVES];
+} wide_parts;
+
+WIDE_INLINE wide wide_from_doubles(const wide_double x[HALVES])
+{
+    wide_parts y;
+    for (int h = 0; h < HALVES; h++) y.part[h] = __builtin_convertvector(x[h], wide_part);
+    return y.all;
+}
+WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
+{
+    const wide_parts y = { x };
+    for (int h = 0; h < HALVES; h++) to[h] = __builtin_convertvector(y.part[h], wide_double);
+}
+
+/* The way round from a to b, in units. */
+WIDE_INLINE double ring_difference(on_ring a, on_ring b)
+{
+#ifdef DEM_DOUBLE
+    return b - a - rint(b - a);
+#else
+    return (double)(int32_t)((uint32_t)b - (uint32_t)a);
+#endif
+}
+
+WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
+{
+    typedef struct row {
+        on_ring place[3];
+        real radius, number[12];
+    } __attribute__((aligned(64))) row;
+    const row *all = rows;
+    *out = (wide_pairs){ 0 };
+#pragma GCC unroll 8
+    for (int k = 0; k < LANES; k++) {
+        const row *row_a = &all[a[k]], *row_b = &all[b[k]];
+        out->radii[k] = row_b->radius + row_a->radius;
+        for (int c = 0; c < 3; c++) {
+            const double turned = ring_difference(row_a->place[c], row_b->place[c]);
+            out->x[c][k / DOUBLES][k % DOUBLES] = turned * unit[c];
+            out->n[c][k] = (real)turned * (real)unit[c];
+            out->v[c][k] = row_b->number[c] - row_a->number[c];
+            out->r_omega[c][k] = row_b->number[4 + c] + row_a->number[4 + c];
+            out->omega[c][k] = row_b->number[8 + c] + row_a->number[8 + c];
+        }
+    }
+}
+
+/* Of LANES pairs of spheres the first's spin less the second's, which the above leaves out. */
+WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_t *b, wide out[3])
+{
+    enum { SPIN = 12, ROW = 16 };
+    const real *all = rows;
+    for (int k = 0; k < LANES; k++)
+        for (int c = 0; c < 3; c++)
+            out[c][k] = all[ROW * (size_t)a[k] + SPIN + (size_t)c] - all[ROW * (size_t)b[k] + SPIN + (size_t)c];
+}
+
+/* LANES rows of 8: f, 0, q, 0. */
+WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
+{
+#pragma GCC unroll 8
+    for (int k = 0; k < LANES; k++) rows[k] = (row8){ f[0][k], f[1][k], f[2][k], 0, q[0][k], q[1][k], q[2][k], 0 };
+}
+
+#endif

@@ -1,0 +1,116 @@
+/* What wide.h needs of AVX2, in single precision: 8 lanes. Included by wide.h alone.
+ *
+ * A vector's two halves of 16 bytes hardly talk to each other on such processors. So halves are filled from the start
+ * with what belongs there: pair k beside pair k + 4. */
+#ifndef WIDE_AVX2_H
+#define WIDE_AVX2_H
+
+typedef __m256 wide_mask; /* a lane's bits all set, or none */
+
+WIDE_INLINE wide wide_greater(wide a, wide b) { return (wide)_mm256_max_ps((__m256)a, (__m256)b); }
+WIDE_INLINE wide wide_lesser(wide a, wide b) { return (wide)_mm256_min_ps((__m256)a, (__m256)b); }
+WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return _mm256_cmp_ps((__m256)a, (__m256)b, _CMP_GT_OQ); }
+WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)_mm256_blendv_ps((__m256)b, (__m256)a, m); }
+WIDE_INLINE wide wide_rint(wide x) { return (wide)_mm256_round_ps((__m256)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
+WIDE_INLINE uint32_t wide_mask_bits(wide_mask m) { return (uint32_t)_mm256_movemask_ps(m); }
+WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
+{
+    const __m256i above = _mm256_cmpgt_epi32(_mm256_loadu_si256((const __m256i_u *)index), _mm256_set1_epi32(i));
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(above));
+}
+
+WIDE_INLINE wide wide_from_doubles(const wide_double x[HALVES])
+{
+    return (wide)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)x[0])), _mm256_cvtpd_ps((__m256d)x[1]), 1);
+}
+WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
+{
+    to[0] = (wide_double)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)x));
+    to[1] = (wide_double)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)x, 1));
+}
+
+/* 4 x 4 numbers within each half of a vector: to[c] has in half L what from[0..3] have at 4 L + c. */
+WIDE_INLINE void transpose_halves(const __m256 from[4], __m256 to[4])
+{
+    const __m256d low_01 = _mm256_castps_pd(_mm256_unpacklo_ps(from[0], from[1])),
+                  high_01 = _mm256_castps_pd(_mm256_unpackhi_ps(from[0], from[1]));
+    const __m256d low_23 = _mm256_castps_pd(_mm256_unpacklo_ps(from[2], from[3])),
+                  high_23 = _mm256_castps_pd(_mm256_unpackhi_ps(from[2], from[3]));
+    to[0] = _mm256_castpd_ps(_mm256_unpacklo_pd(low_01, low_23));
+    to[1] = _mm256_castpd_ps(_mm256_unpackhi_pd(low_01, low_23));
+    to[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(high_01, high_23));
+    to[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(high_01, high_23));
+}
+
+/* One quarter of two rows. */
+WIDE_INLINE __m256 row_quarters(const float *rows, int32_t i, int32_t j, int quarter)
+{
+    enum { ROW = 16 };
+    const __m128 low = _mm_load_ps(rows + ROW * (size_t)(uint32_t)i + 4 * quarter);
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), _mm_load_ps(rows + ROW * (size_t)(uint32_t)j + 4 * quarter), 1);
+}
+
+/* Places' differences as the integers they are, and the sum of the radii behind them. */
+WIDE_INLINE __m256 place_pair(__m256 a, __m256 b)
+{
+    enum { PLACES = 0x77 }; /* whose bits, read as floats, might be denormal and slow */
+    const __m256 zero = _mm256_setzero_ps(),
+                 sum = _mm256_add_ps(_mm256_blend_ps(b, zero, PLACES), _mm256_blend_ps(a, zero, PLACES));
+    const __m256i turned = _mm256_sub_epi32(_mm256_castps_si256(b), _mm256_castps_si256(a));
+    return _mm256_blend_ps(sum, _mm256_castsi256_ps(turned), PLACES);
+}
+
+WIDE_INLINE void ring_displacement(__m256i turned, double unit, wide_double x[2], wide *n)
+{
+    const __m256d m = _mm256_set1_pd(unit);
+    x[0] = (wide_double)_mm256_mul_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(turned)), m);
+    x[1] = (wide_double)_mm256_mul_pd(_mm256_cvtepi32_pd(_mm256_extracti128_si256(turned, 1)), m);
+    *n = (wide)_mm256_mul_ps(_mm256_cvtepi32_ps(turned), _mm256_set1_ps((float)unit));
+}
+
+WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
+{
+    __m256 difference[4][4], t[4][4]; /* [quarter of the row][pairs k and k + 4; then column] */
+    for (int quarter = 0; quarter < 4; quarter++) {
+        for (int k = 0; k < 4; k++) {
+            const __m256 of_a = row_quarters(rows, a[k], a[k + 4], quarter), of_b = row_quarters(rows, b[k], b[k + 4], quarter);
+            difference[quarter][k] = quarter == 0   ? place_pair(of_a, of_b)
+                                     : quarter == 1 ? _mm256_sub_ps(of_b, of_a)
+                                                    : _mm256_add_ps(of_b, of_a);
+        }
+        transpose_halves(difference[quarter], t[quarter]);
+    }
+    for (int c = 0; c < 3; c++) {
+        ring_displacement(_mm256_castps_si256(t[0][c]), unit[c], out->x[c], &out->n[c]);
+        out->v[c] = (wide)t[1][c];
+        out->r_omega[c] = (wide)t[2][c];
+        out->omega[c] = (wide)t[3][c];
+    }
+    out->radii = (wide)t[0][3];
+}
+
+/* Of LANES pairs of spheres the first's spin less the second's, which the above leaves out. */
+WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_t *b, wide out[3])
+{
+    __m256 pairs[4], to[4];
+    for (int k = 0; k < 4; k++)
+        pairs[k] = _mm256_sub_ps(row_quarters(rows, a[k], a[k + 4], 3), row_quarters(rows, b[k], b[k + 4], 3));
+    transpose_halves(pairs, to);
+    for (int c = 0; c < 3; c++) out[c] = (wide)to[c];
+}
+
+/* LANES rows of 8: f, 0, q, 0. */
+WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
+{
+    const __m256 low[4] = { (__m256)f[0], (__m256)f[1], (__m256)f[2], _mm256_setzero_ps() };
+    const __m256 high[4] = { (__m256)q[0], (__m256)q[1], (__m256)q[2], _mm256_setzero_ps() };
+    __m256 a[4], b[4];
+    transpose_halves(low, a);
+    transpose_halves(high, b);
+    for (int k = 0; k < 4; k++) {
+        rows[k] = (row8)_mm256_permute2f128_ps(a[k], b[k], 0x20);
+        rows[4 + k] = (row8)_mm256_permute2f128_ps(a[k], b[k], 0x31);
+    }
+}
+
+#endif
