@@ -11,8 +11,6 @@ PYTHON := /usr/bin/python3
 BUILD := build
 DATA := data
 PORT := 8080
-# The processor's own instructions: the program is built where it runs. MARCH=x86-64-v3 for another machine.
-MARCH := native
 CC := gcc
 OPT := -O2
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wundef -Wvla $(if $(CI),-Werror)
@@ -21,28 +19,53 @@ CFLAGS := -std=c17 -g $(OPT) $(WARNINGS) -MMD -MP $(SANITIZE)
 LDFLAGS := $(SANITIZE)
 
 # Contraction off: an expression has the same bits wherever the compiler inlines it.
-CORE_FLAGS := -O3 -march=$(MARCH) -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp $(if $(DOUBLE),-DDEM_DOUBLE) \
-              -Iinclude -Icore
+CORE_FLAGS := -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp -Wno-psabi -Iinclude -Icore
+# The core is compiled once for each set of instructions, and for each in both precisions: single-avx512, double-plain, ...
+# repose is single-plain, which any x86-64 runs, and hands over to the program for the processor it is on.
+VARIANTS := $(foreach p,single double,$(foreach i,avx512 avx2 plain,$(p)-$(i)))
+avx512_FLAGS := -O3 -march=x86-64-v4
+avx2_FLAGS := -O3 -march=x86-64-v3
+plain_FLAGS := -O2
+isa = $(lastword $(subst -, ,$(1)))
+variant_flags = $($(call isa,$(1))_FLAGS) $(if $(filter double-%,$(1)),-DDEM_DOUBLE)
+# What this machine can run: tests and benchmarks are built for the best of it. ISA=avx2: for another.
+CPU_FLAGS := $(shell grep -m 1 '^flags' /proc/cpuinfo)
+ISAS := $(if $(filter avx512vl,$(CPU_FLAGS)),avx512) $(if $(filter avx2,$(CPU_FLAGS)),avx2) plain
+ISA := $(firstword $(ISAS))
+VARIANT := $(if $(DOUBLE),double,single)-$(ISA)
+RUNNABLE := $(foreach i,$(ISAS),$(filter %-$(i),$(VARIANTS)))
 API_FLAGS := -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi
 WORKER_FLAGS = -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi -Iserver/worker $(shell pkg-config --cflags hdf5-serial)
 DAEMON_FLAGS := -D_GNU_SOURCE $(HARDENING) -pthread -Iinclude -Iapi -Iserver/daemon
 
-CORE := $(patsubst %.c,$(BUILD)/%.o,$(wildcard core/*.c))
+CORE_SOURCES := $(wildcard core/*.c)
+DEM := $(BUILD)/core/$(VARIANT)/libdem.a
 API := $(patsubst %.c,$(BUILD)/%.o,$(wildcard api/*.c))
 WORKER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/worker/*.c))
 DAEMON := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/daemon/*.c))
 DAEMON_PARTS := $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
-PHYSICS := $(patsubst %.c,$(BUILD)/%,$(wildcard tests/physics/*.c))
-UNIT_TESTS := $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(wildcard tests/unit/test_*.c))
+PHYSICS := $(patsubst tests/physics/%.c,%,$(wildcard tests/physics/*.c))
+# What differs from variant to variant, once for each that this machine can run.
+KERNEL_TESTS = $(foreach v,$(filter-out $(VARIANT),$(RUNNABLE)),$(patsubst %,$(BUILD)/tests/unit/%-$(v),test_contact_forces test_two_bodies test_cell_grid))
+UNIT_TESTS = $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(wildcard tests/unit/test_*.c)) $(KERNEL_TESTS)
 
-programs: $(BUILD)/repose $(BUILD)/reposed
+programs: $(BUILD)/repose $(patsubst %,$(BUILD)/repose-%,$(filter-out single-plain,$(VARIANTS))) $(BUILD)/reposed
 all: packages ## install what is missing and build both programs
 	@$(MAKE) --no-print-directory programs
 .DEFAULT_GOAL := all
 
-$(BUILD)/core/%.o: core/%.c Makefile
-	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(CORE_FLAGS) -c $< -o $@
+# $(call core,VARIANT): its objects, its library and its program.
+define core
+$(BUILD)/core/$(1)/%.o: core/%.c Makefile
+	@mkdir -p $$(@D)
+	$(CC) $(CFLAGS) $(CORE_FLAGS) $(call variant_flags,$(1)) -c $$< -o $$@
+$(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_SOURCES))
+	@rm -f $$@ && ar rcs $$@ $$^
+$(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a
+	$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $(HDF5_LIBS) -ljansson -lm
+endef
+HDF5_LIBS := $(shell pkg-config --libs hdf5-serial)
+$(foreach v,$(VARIANTS),$(eval $(call core,$(v))))
 $(BUILD)/api/%.o: api/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(API_FLAGS) -c $< -o $@
@@ -53,27 +76,36 @@ $(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 	@mkdir -p $(@D)
 	$(CC) $(CFLAGS) $(DAEMON_FLAGS) -c $< -o $@
 
-$(BUILD)/libdem.a: $(CORE)
-	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
-$(BUILD)/repose: $(WORKER) $(BUILD)/libapi.a $(BUILD)/libdem.a
-	$(CC) $(LDFLAGS) -fopenmp $^ -o $@ $(shell pkg-config --libs hdf5-serial) -ljansson -lm
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
 	$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lm
-$(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(BUILD)/libdem.a
+# Changes when ISA or DOUBLE does, so that what is built for one is not taken for the other.
+$(BUILD)/variant: FORCE
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude -Iapi $< $(BUILD)/libapi.a $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -ljansson -lm -o $@
+	@echo $(VARIANT) | cmp -s - $@ || echo $(VARIANT) >$@
+FORCE:
+$(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(DEM) $(BUILD)/variant
+	@mkdir -p $(@D)
+	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude -Iapi $< $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -ljansson -lm -o $@
 # Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
-$(BUILD)/tests/unit/%: tests/unit/%.c $(BUILD)/libdem.a $(BUILD)/libapi.a $(DAEMON_PARTS)
+$(BUILD)/tests/unit/%: tests/unit/%.c $(DEM) $(BUILD)/libapi.a $(DAEMON_PARTS) $(BUILD)/variant
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE $(if $(DOUBLE),-DDEM_DOUBLE) -march=$(MARCH) -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
-	  $(BUILD)/libapi.a $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
+	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
+	  $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
 # Programs that drive the core's own step for the physics tests, which compare what they print.
-$(BUILD)/tests/physics/%: tests/physics/%.c $(BUILD)/libdem.a
-	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE $(if $(DOUBLE),-DDEM_DOUBLE) -march=$(MARCH) -Iinclude -Icore $< \
-	  $(BUILD)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $@
+# $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
+define variant_tests
+$(BUILD)/tests/$(1)/%: tests/physics/%.c $(BUILD)/core/$(1)/libdem.a
+	@mkdir -p $$(@D)
+	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
+	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
+$(BUILD)/tests/unit/%-$(1): tests/unit/%.c $(BUILD)/core/$(1)/libdem.a
+	@mkdir -p $$(@D)
+	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
+	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
+endef
+$(foreach v,$(VARIANTS),$(eval $(call variant_tests,$(v))))
 
 demo: all ## the paper's drum from curl to an angle of repose, with nothing prepared
 	@sh tests/demo.sh $(BUILD)
@@ -89,10 +121,11 @@ physics: test-packages ## verification, a quarter of an hour: tests/physics/RESU
 	@$(MAKE) --no-print-directory physics-programs
 	@$(if $(LONG),rm -f tests/physics/RESULTS.md)
 	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider $(if $(LONG),,-m "not long") tests/physics --results tests/physics/RESULTS.md
-# In both precisions: single, as users run it, and double, in build/double.
-physics-programs: programs $(PHYSICS)
-	@$(MAKE) --no-print-directory BUILD=$(BUILD)/double DOUBLE=1 physics-programs-double
-physics-programs-double: programs $(PHYSICS)
+# In both precisions by the best instructions of this machine; the hash of states by all of them.
+physics-programs: programs $(foreach v,single-$(ISA) double-$(ISA),$(patsubst %,$(BUILD)/tests/$(v)/%,$(PHYSICS))) \
+  $(patsubst %,$(BUILD)/tests/%/state_hash,$(RUNNABLE))
+	@rm -rf $(BUILD)/tests/single $(BUILD)/tests/double
+	@ln -s single-$(ISA) $(BUILD)/tests/single && ln -s double-$(ISA) $(BUILD)/tests/double
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs
@@ -101,15 +134,15 @@ reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md;
 check: programs ## the layers: the core needs nothing but libc, libm and OpenMP
 	@sh tests/check_layers.sh $(BUILD)
 
-bench: all ## how fast we are, on all kinds of beds, beside the last record: tests/bench/results/
+bench: all ## how fast we are, on all kinds of beds, beside the last record: tests/bench/results/; ISA=avx2: by those instructions
 	@$(MAKE) --no-print-directory $(BUILD)/tests/bench/bench_table
-	@CC=$(CC) PYTHON=$(PYTHON) sh tests/bench/bench.sh $(BUILD) "$(OPT) $(CORE_FLAGS)"
+	@CC=$(CC) PYTHON=$(PYTHON) sh tests/bench/bench.sh $(BUILD) "$(CORE_FLAGS) $(call variant_flags,$(VARIANT))"
 
 bench-peers: all ## the same drum by LAMMPS and LIGGGHTS beside ours, taking turns
 	$(call install,$(PEER_PACKAGES))
 	@$(MAKE) --no-print-directory $(BUILD)/tests/bench/bench_peers
 	@$(PYTHON) tests/bench/bench_peers.py $(BUILD) >$(BUILD)/peers.ndjson
-	@$(PYTHON) tests/bench/report.py tests/bench/results --compiler "$(shell $(CC) --version | head -n 1)" --flags "$(OPT) $(CORE_FLAGS)" \
+	@$(PYTHON) tests/bench/report.py tests/bench/results --compiler "$(shell $(CC) --version | head -n 1)" --flags "$(CORE_FLAGS) $(call variant_flags,$(VARIANT))" \
 	  --peers $(BUILD)/peers.ndjson
 
 asan: test-packages ## unit and worker tests under the address and undefined-behavior sanitizers, in build/asan
@@ -154,6 +187,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES))
 
-.PHONY: all programs demo serve test physics physics-programs physics-programs-double reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve test physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

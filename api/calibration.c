@@ -12,6 +12,9 @@
 #define FACTOR_OF_ROLLING_FRICTION 1.3
 #define REFERENCE_FRICTION 0.1
 
+/* Contacts in double precision, of which a vector holds half as many. */
+#define COST_OF_DOUBLE 1.5
+
 #define FORMAT 1
 
 static const char *const law_names[CALIBRATION_LAWS] = { "walton-braun", "spring-dashpot", "hertz-mindlin" };
@@ -56,10 +59,10 @@ double calibration_seconds_a_step(const calibration *machine, const calibration_
     const calibration built_in = calibration_built_in();
     if (!machine) machine = &built_in;
     const double one = load->clusters ? machine->cluster[load->law] : machine->sphere[load->law];
+    const double law = (load->in_double ? COST_OF_DOUBLE : 1.0) * (load->rolling_friction ? FACTOR_OF_ROLLING_FRICTION : 1.0);
     const int threads = load->threads < machine->cores ? load->threads : machine->cores;
-    return 1e-9 * one * load->spheres * factor_of_size(machine, load->spheres) * factor_of_friction(load->friction)
-           * (load->rolling_friction ? FACTOR_OF_ROLLING_FRICTION : 1.0) * machine->correction
-           / (1.0 + THREAD_GAIN * (threads - 1));
+    return 1e-9 * one * load->spheres * factor_of_size(machine, load->spheres) * factor_of_friction(load->friction) * law
+           * machine->correction / (1.0 + THREAD_GAIN * (threads - 1));
 }
 
 /* --- the file --- */

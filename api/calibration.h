@@ -35,6 +35,7 @@ typedef struct calibration_load {
     dem_contact_law law;
     double friction;
     bool rolling_friction;
+    bool in_double; /* precision */
     int threads; /* asked for; no more count than there are cores */
 } calibration_load;
 

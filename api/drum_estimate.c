@@ -52,6 +52,7 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
                                     .law = drum->contact.law,
                                     .friction = drum->contact.friction,
                                     .rolling_friction = dem_has_rolling_friction(drum),
+                                    .in_double = spec->inputs.precision > 0,
                                     .threads = drum->threads };
     estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &load);
     estimate.memory_bytes =

@@ -101,6 +101,9 @@ static const result_field fields[] = {
     { "run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", "frames of measurement" },
     { "run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", "snapshot files" },
     { "run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", "threads" },
+    { "run", NULL, "isa", RESULT_TEXT, RUN(isa), "",
+      "instruction set of the core: avx512, avx2, plain; results do not depend on it" },
+    { "run", NULL, "precision", RESULT_TEXT, RUN(precision), "", "of contacts: single or double" },
     { "run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", "of the initial positions" },
     { "run", NULL, "ended_by", RESULT_TEXT, RUN(ended_by), "",
       "duration; standard-error: the angle was steady and known as "

@@ -75,6 +75,7 @@ typedef struct drum_inputs {
     double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
     double seed, threads, gravity, corrector_passes;
+    double precision; /* 0: single, 1: double */
     start_inputs start;
     fill_inputs fill;
     heap_inputs heap;

@@ -12,6 +12,7 @@ static const char *const shape_choices[] = { "sphere", "dumbbell", "tetrahedron"
 static const char *const law_choices[] = { "walton-braun", "spring-dashpot", "hertz-mindlin", NULL };
 
 static const char *const unloading_choices[] = { "constant", "variable", NULL };
+static const char *const precision_choices[] = { "single", "double", NULL };
 static const char *const share_choices[] = { "number", "volume", "mass", NULL }; /* in the order of share_basis */
 
 #define AT(member) .offset = offsetof(drum_inputs, member)
@@ -94,7 +95,10 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
       .meaning = "threads of the worker; results do not depend on it" }, \
     { SPEC_INPUTS, "integration", FIELD_OBJECT, SPEC_INTEGRATION, .meaning = "how motion is stepped through time" }, \
     { SPEC_INTEGRATION, "corrector_passes", FIELD_INTEGER, .unit = "", RANGE(1, 10), .fallback = 1, AT(corrector_passes), \
-      .meaning = "corrector passes of Euler's equations for the spin of clusters (Eqns 9-10); more do not raise the order" }
+      .meaning = "corrector passes of Euler's equations for the spin of clusters (Eqns 9-10); more do not raise the order" }, \
+    { SPEC_INPUTS, "precision", FIELD_CHOICE, .unit = "", .choices = precision_choices, AT(precision), \
+      .meaning = "of contacts; positions, velocities and their integration are double always. single is as good for every " \
+                 "angle, and faster" }
 /* clang-format on */
 
 #endif

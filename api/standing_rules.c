@@ -80,6 +80,7 @@ job_estimate standing_estimate(const job_spec *spec, const calibration *machine,
                                     .law = scene->contact.law,
                                     .friction = scene->contact.friction,
                                     .rolling_friction = dem_has_rolling_friction(scene),
+                                    .in_double = spec->inputs.precision > 0,
                                     .threads = scene->threads };
     estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &load);
     estimate.memory_bytes = dem_memory_estimate(spheres) + FRAME_BYTES * spec->duration / spec->sample_interval;

@@ -79,6 +79,11 @@ dem_status dem_fields_add(const dem_scene *scene, double *sums);
 /* Fill the arrays that are not NULL. */
 void dem_fields_measure(const dem_scene *scene, const double *sums, const dem_field_arrays *arrays);
 
+/* How this library was built: the instruction set it needs ("avx512", "avx2", "plain": any x86-64), and what contacts are
+ * computed in ("single", "double"). In one precision, results have the same bits by any instruction set. */
+const char *dem_build_isa(void);
+const char *dem_build_precision(void);
+
 const char *dem_status_text(dem_status status);
 const char *dem_phase_name(dem_phase phase);                /* "growing", "settling", "rotating" */
 const char *dem_scene_phase_name(const dem_scene *scene);   /* the same, but for "filling" and "lifting" where that is it */

@@ -19,6 +19,7 @@
 #include "spec_file.h"
 #include "start_file.h"
 #include "study_report.h"
+#include "variant.h"
 #include "version.h"
 #include "worker_log.h"
 
@@ -31,6 +32,8 @@ static const char help[] =
     "    --checkpoint-seconds S    between checkpoints (default 30)\n"
     "    --json                    print the results as JSON\n"
     "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"
+    "    --isa avx512|avx2|plain   the instruction set to use (default: the best that the processor has); results do not\n"
+    "                              depend on it. Also of check and calibrate\n"
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"
     "                              memory; or every problem it has. Of a study: its cases and what it costs\n"
     "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"
@@ -46,7 +49,8 @@ static const char no_spec[] = "give one SPEC file";
 
 typedef struct command_line {
     const char *spec, *out, *data;
-    int threads; /* 0: those of the spec */
+    const char *isa; /* NULL: the best there is */
+    int threads;     /* 0: those of the spec */
     bool json;
     run_options run;
 } command_line;
@@ -82,10 +86,15 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
-        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
-        { "json", no_argument, NULL, 'j' },          { "profile", no_argument, NULL, 'p' },
-        { "data", required_argument, NULL, 'd' },    { NULL, 0, NULL, 0 },
+        { "out", required_argument, NULL, 'o' },
+        { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' },
+        { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },
+        { "profile", no_argument, NULL, 'p' },
+        { "data", required_argument, NULL, 'd' },
+        { "isa", required_argument, NULL, 'i' },
+        { NULL, 0, NULL, 0 },
     };
     *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
     bool good = true;
@@ -98,6 +107,10 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         case 'j': line->json = true; break;
         case 'p': line->run.profile = true; break;
         case 'd': line->data = optarg; break;
+        case 'i':
+            line->isa = optarg;
+            good = variant_isa_is_usable(optarg);
+            break;
         default: return WORKER_BAD_SPEC; /* getopt has said why */
         }
         if (!good) return WORKER_BAD_SPEC;
@@ -165,12 +178,20 @@ static json_t *check_document(const json_t *document, const calibration *machine
     return report;
 }
 
-static enum worker_exit check(int argc, char **argv)
+/* argv as read_command_line had it, where the word has made room for the program's name. */
+static bool take_over(const command_line *line, const char *precision, char *word, char **argv)
+{
+    argv[0] = word;
+    return variant_take_over(line->isa, precision, argv - 1);
+}
+
+static enum worker_exit check(int argc, char **argv, char *word)
 {
     command_line line;
     enum worker_exit exit = read_command_line(argc, argv, &line);
     if (exit != WORKER_DONE) return exit;
     if (!line.spec) return refuse_usage(no_spec, NULL);
+    if (!take_over(&line, "single", word, argv)) return WORKER_FAULT; /* whose speed is told */
     calibration machine;
     bool is_new;
     calibrate(line.data, &machine, &is_new);
@@ -186,7 +207,7 @@ static enum worker_exit check(int argc, char **argv)
 }
 
 /* What a calibration was, for whoever watches; --json: the whole of it. */
-static enum worker_exit calibrate_here(int argc, char **argv)
+static enum worker_exit calibrate_here(int argc, char **argv, char *word)
 {
     command_line line;
     calibration machine;
@@ -194,6 +215,7 @@ static enum worker_exit calibrate_here(int argc, char **argv)
     const enum worker_exit exit = read_command_line(argc, argv, &line);
     if (exit != WORKER_DONE) return exit;
     if (line.spec) return refuse_usage("not understood", line.spec);
+    if (!take_over(&line, "single", word, argv)) return WORKER_FAULT;
     if (!calibrate(line.data, &machine, &is_new)) return WORKER_FAULT;
     if (line.json) print_json(calibration_to_json(&machine));
     else
@@ -225,15 +247,20 @@ static void print_profile(void)
     json_decref(report);
 }
 
-static enum worker_exit run(int argc, char **argv)
+static enum worker_exit run(int argc, char **argv, char *word)
 {
     command_line line;
     job_spec spec;
     enum worker_exit exit = read_command_line(argc, argv, &line);
     if (exit == WORKER_DONE && !line.spec) exit = refuse_usage(no_spec, NULL);
     if (exit == WORKER_DONE && !line.out) exit = refuse_usage("say where to write: --out DIR", NULL);
+    if (exit == WORKER_DONE && strcmp(line.spec, "-") == 0 && !variant_keep_stdin()) exit = WORKER_FAULT;
     if (exit == WORKER_DONE) exit = load_spec(line.spec, line.out, &spec);
     if (exit != WORKER_DONE) return exit;
+    if (!take_over(&line, spec.inputs.precision > 0 ? "double" : "single", word, argv)) {
+        job_spec_clear(&spec);
+        return WORKER_FAULT;
+    }
     if (line.threads) spec.threads = spec.drum.threads = line.threads;
     line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;
     worker_log_only_warnings(line.run.on_terminal && isatty(STDERR_FILENO));
@@ -251,12 +278,12 @@ static enum worker_exit run(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
-    const char *word = argc > 1 ? argv[1] : "--help";
+    char *word = argc > 1 ? argv[1] : (char[]){ "--help" };
     if (argc > 1) argv[1] = argv[0];
     int exit = WORKER_DONE;
-    if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1);
-    else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1);
-    else if (strcmp(word, "calibrate") == 0) exit = calibrate_here(argc - 1, argv + 1);
+    if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1, word);
+    else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1, word);
+    else if (strcmp(word, "calibrate") == 0) exit = calibrate_here(argc - 1, argv + 1, word);
     else if (strcmp(word, "--help") == 0) fputs(help, stdout);
     else if (strcmp(word, "--version") == 0) puts("repose " REPOSED_VERSION);
     else exit = refuse_usage("not a command", word);

@@ -252,6 +252,8 @@ run_facts scene_run_facts(const scene_run *r)
         .samples = (double)r->next_sample,
         .snapshots = (double)r->next_snapshot,
         .threads = drum->threads,
+        .isa = dem_build_isa(),
+        .precision = dem_build_precision(),
         .seed = (double)drum->seed,
         .attempt = r->options->attempt,
         .ended_by = r->ended_by ? r->ended_by : r->test->ended_by_time(r->spec),
@@ -352,9 +354,10 @@ static enum worker_exit begin(scene_run *r)
     r->phase = dem_scene_phase(r->scene);
     run_profile_begin(&r->profile, r->scene);
     const job_estimate estimate = job_spec_estimate(r->spec, NULL);
-    worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d", r->options->attempt,
-               resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene), dem_scene_phase_name(r->scene),
-               dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps, r->spec->drum.threads);
+    worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d, %s, %s precision",
+               r->options->attempt, resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene),
+               dem_scene_phase_name(r->scene), dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps,
+               r->spec->drum.threads, dem_build_isa(), dem_build_precision());
     json_t *event = json_pack("{s:i, s:b, s:I, s:f, s:I}", "attempt", r->options->attempt, "resumed", resumed, "particles",
                               (json_int_t)dem_scene_particle_count(r->scene), "time_step", r->spec->drum.time_step, "total_steps",
                               (json_int_t)estimate.steps);

@@ -15,7 +15,7 @@ import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("REPOSED_BUILD", ROOT / "build")).resolve()
-BUILDS = {"single": BUILD, "double": BUILD / "double"}
+BUILDS = {"single": BUILD / "tests/single", "double": BUILD / "tests/double"}  # of this folder's own programs
 HEAD = """# Verification: what the code gives beside what it must give
 
 Written by `make physics LONG=1`; `make physics` renews all but the rows marked *long*. Each number comes from a run of
@@ -129,14 +129,14 @@ def pytest_terminal_summary(terminalreporter, config):
 
 @pytest.fixture(params=BUILDS)
 def build(request):
-    """The folder of the programs, in single precision and in double."""
+    """The folder of this folder's own programs, in single precision and in double."""
     assert BUILDS[request.param].is_dir(), f"{BUILDS[request.param]} is not built: make physics-programs"
     return BUILDS[request.param]
 
 
-def program(name, build=BUILD, **numbers):
+def program(name, build=BUILDS["single"], **numbers):
     """What a program of this folder, given numbers by name, printed: a JSON object."""
-    command = [build / "tests/physics" / name, *(f"{k}={v!r}" if isinstance(v, float) else f"{k}={v}" for k, v in numbers.items())]
+    command = [build / name, *(f"{k}={v!r}" if isinstance(v, float) else f"{k}={v}" for k, v in numbers.items())]
     done = subprocess.run(command, capture_output=True, text=True, timeout=900)
     assert done.returncode == 0, f"{command}: {done.stdout}{done.stderr}"
     return json.loads(done.stdout)
@@ -164,23 +164,23 @@ class Drums:
     def __init__(self, folder):
         self.folder, self.known = folder, {}
 
-    def _run(self, spec, build):
+    def _run(self, spec):
         folder = self.folder / f"{len(self.known)}-{os.urandom(4).hex()}"
         folder.mkdir()
         (folder / "spec.json").write_text(json.dumps(spec))
-        done = subprocess.run([build / "repose", "run", folder / "spec.json", "--out", folder / "job"], capture_output=True, text=True)
+        done = subprocess.run([BUILD / "repose", "run", folder / "spec.json", "--out", folder / "job"], capture_output=True, text=True)
         assert done.returncode == 0, f"{json.dumps(spec)}: {done.stdout}{done.stderr}"
         result = json.loads((folder / "job/result.json").read_text())
         events = [json.loads(line) for line in (folder / "job/events.ndjson").read_text().splitlines()]
         result["samples"] = [e["values"] for e in events if e["event"] == "sample"]
         return result
 
-    def __call__(self, specs, build=BUILD):
+    def __call__(self, specs):
         """specs: by name. Returns results by the same names."""
-        key = {name: (str(build), json.dumps(spec, sort_keys=True)) for name, spec in specs.items()}
+        key = {name: json.dumps(spec, sort_keys=True) for name, spec in specs.items()}
         todo = {key[name]: spec for name, spec in specs.items() if key[name] not in self.known}
         with ThreadPoolExecutor(os.cpu_count()) as pool:
-            running = {k: pool.submit(self._run, spec, build) for k, spec in todo.items()}
+            running = {k: pool.submit(self._run, spec) for k, spec in todo.items()}
             self.known.update({k: future.result() for k, future in running.items()})
         return {name: self.known[k] for name, k in key.items()}
 

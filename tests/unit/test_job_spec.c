@@ -130,6 +130,7 @@ static void a_canonical_spec_is_read_and_written_with_the_same_bytes(void **stat
         { "share_by", "\"mass\"" },
         { "contact", "{\"unloading\": \"variable\", \"unloading_slope\": 1e4}" },
         { "integration/corrector_passes", "2" },
+        { "precision", "\"double\"" },
         { "wall/lining", "{\"diameter\": 0.002}" },
         { "contact/friction", "-0.0" },
         { "particles", "[{\"diameter\":0.003,\"share\":0.1},{\"diameter\":0.004,\"share\":0.2},{\"diameter\":0.005,"
