@@ -89,9 +89,12 @@ WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_
 {
     enum { SPIN = 12, ROW = 16 };
     const real *all = rows;
+    real spin[3][LANES] __attribute__((aligned(WIDE_BYTES)));
+#pragma GCC unroll 8
     for (int k = 0; k < LANES; k++)
         for (int c = 0; c < 3; c++)
-            out[c][k] = all[ROW * (size_t)a[k] + SPIN + (size_t)c] - all[ROW * (size_t)b[k] + SPIN + (size_t)c];
+            spin[c][k] = all[ROW * (size_t)a[k] + SPIN + (size_t)c] - all[ROW * (size_t)b[k] + SPIN + (size_t)c];
+    for (int c = 0; c < 3; c++) out[c] = wide_load(spin[c]);
 }
 
 /* LANES rows of 8: f, 0, q, 0. */

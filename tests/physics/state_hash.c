@@ -11,7 +11,8 @@
 enum { CASE, STEPS, THREADS, SETTLING };
 
 static named_number asked[] = {
-    { "case", 0 }, /* 0: spheres, 1: two sizes, 2: tetrahedra, 3: spring-dashpot with lifters, 4: Hertz-Mindlin, end walls */
+    { "case", 0 }, /* 0: spheres, 1: two sizes, 2: tetrahedra, 3: spring-dashpot with lifters, 4: Hertz-Mindlin, end walls,
+                      5: rolling friction, two sizes */
     { "steps", 2000 }, { "threads", 1 }, { "settling", 1 }, /* 0: the steps begin with the growing, 1: with the rotation */
     { NULL, 0 },
 };
@@ -22,7 +23,7 @@ static dem_drum_definition drum_asked(void)
 {
     const int number = (int)of(CASE);
     dem_drum_definition d = small_drum();
-    if (number == 1) {
+    if (number == 1 || number == 5) {
         d.species_count = 2;
         d.species[0].share = 0.7;
         d.species[1] = (dem_species){ .diameter = 0.0045, .density = 2500, .share = 0.3 };
@@ -45,6 +46,7 @@ static dem_drum_definition drum_asked(void)
         d.contact.particle = d.contact.wall = (dem_elasticity){ 1e6, 0.3 };
         d.ends = (dem_drum_ends){ .are_walls = true, .friction = 0.3 };
     }
+    if (number == 5) d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.05;
     d.threads = (int)of(THREADS);
     follow_rules(&d, 0.03);
     return d;

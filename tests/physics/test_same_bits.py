@@ -6,7 +6,8 @@ from conftest import BUILD, program
 
 SECTION = "The same bits"
 WHY = "every operation rounds alike: fused products are written out, and sums have one order"
-CASES = ["spheres", "two sizes", "tetrahedra", "spring-dashpot, lifters", "hertz-mindlin, end walls"]
+CASES = ["spheres", "two sizes", "tetrahedra", "spring-dashpot, lifters", "hertz-mindlin, end walls",
+         "rolling friction, two sizes"]
 
 
 def builds(precision):
