@@ -41,20 +41,18 @@ static double scalar_product(vector4 a, vector4 b)
 }
 
 /* Force, and torque about the centre, from the loads of a cluster's spheres, in order. */
-static void collect(const leap_frog *leap, const spheres *s, const cluster_body *body, motion *m)
+static void collect(const leap_frog *leap, spheres *s, const cluster_body *body, motion *m)
 {
     const cluster_shape *shape = &s->clusters.shape[body->species];
-    const row8 *load = &s->load[body->first_sphere];
     axes_of(body->orientation, m->before);
-    m->force = vector4_low(&load[0]);
-    m->torque = vector4_high(&load[0]);
+    m->force = m->torque = (vector4){ 0 };
     for (size_t k = 0; k < shape->sphere_count; k++) {
-        const vector4 f = vector4_low(&load[k]), r = leap->scale_now * along_space(m->before, shape->place[k]);
-        if (k > 0) {
-            m->force += f;
-            m->torque += vector4_high(&load[k]);
-        }
+        row8 *load = &s->load[(size_t)body->first_sphere + k];
+        const vector4 f = vector4_low(load), r = leap->scale_now * along_space(m->before, shape->place[k]);
+        m->force += f;
+        m->torque += vector4_high(load);
         m->torque += cross_product(r, f);
+        *load = (row8){ 0 };
     }
 }
 

@@ -9,25 +9,27 @@
  * block's values stay in the first-level cache between passes. The passes are short so that the processor works on
  * several batches at a time: in one long pass, each batch waits for the chain of its own roots and quotients. */
 typedef struct contact_block {
-    real n[3][BLOCK];       /* displacement between centres, m; then unit normal, first to second */
-    real distance2[BLOCK];  /* m2; to the wall: from the axis */
-    real gap2[BLOCK];       /* m2: square of the distance at first touch less distance2 (wall: the reverse) */
-    real reach[BLOCK];      /* m: distance at first touch */
-    real radii[BLOCK];      /* m, of both together; a wall has none */
-    real v[3][BLOCK];       /* m/s: second less first */
-    real r_omega[3][BLOCK]; /* m/s: sum of radius times spin */
-    real omega[3][BLOCK];   /* rad/s: sum of spins */
-    real overlap[BLOCK];    /* m, negative: apart */
-    real closing[BLOCK];    /* m/s, rate of the overlap */
-    real ds[3][BLOCK];      /* m, tangential displacement of this step */
-    real f_n[BLOCK];        /* N, normal force */
-    real force[3][BLOCK];   /* N, friction force on the first */
-    real h[3][BLOCK];       /* direction of the stored friction force, turned into the tangent plane */
-    real mu_n[BLOCK];       /* N, limit of friction */
-    real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
-    real s_p[BLOCK];        /* m, displacement along h */
-    real spin[3][BLOCK];    /* rad/s, first less second; this and the next where contacts resist rolling */
-    real moment[3][BLOCK];  /* N m, of rolling friction on the first */
+    real n[3][BLOCK];              /* displacement between centres, m; then unit normal, first to second */
+    real distance2[BLOCK];         /* m2; to the wall: from the axis */
+    real gap2[BLOCK];              /* m2: square of the distance at first touch less distance2 (wall: the reverse) */
+    real reach[BLOCK];             /* m: distance at first touch */
+    real radii[BLOCK];             /* m, of both together; a wall has none */
+    real v[3][BLOCK];              /* m/s: second less first */
+    real r_omega[3][BLOCK];        /* m/s: sum of radius times spin */
+    real omega[3][BLOCK];          /* rad/s: sum of spins */
+    real overlap[BLOCK];           /* m, negative: apart */
+    real closing[BLOCK];           /* m/s, rate of the overlap */
+    real ds[3][BLOCK];             /* m, tangential displacement of this step */
+    real f_n[BLOCK];               /* N, normal force */
+    real force[3][BLOCK];          /* N, friction force on the first */
+    real h[3][BLOCK];              /* direction of the stored friction force, turned into the tangent plane */
+    real mu_n[BLOCK];              /* N, limit of friction */
+    real stored[BLOCK];            /* N, magnitude of the stored friction force; then what it becomes along h */
+    real s_p[BLOCK];               /* m, displacement along h */
+    real spin[3][BLOCK];           /* rad/s, first less second; this and the next where contacts resist rolling */
+    real moment[3][BLOCK];         /* N m, of rolling friction on the first */
+    contact_row row[BLOCK];        /* what the contacts give their first ends, and their second ones but for the force's sign */
+    contact_row second_row[BLOCK]; /* the latter where ends differ */
 } __attribute__((aligned(ALIGNMENT))) contact_block;
 
 WIDE_INLINE void store_vector(real to[3][BLOCK], int k, const wide x[3])
@@ -35,8 +37,8 @@ WIDE_INLINE void store_vector(real to[3][BLOCK], int k, const wide x[3])
     for (int c = 0; c < 3; c++) wide_store(to[c] + k, x[c]);
 }
 
-/* Everything behind the gathering, the same for spheres and walls (contact_forces.c): from the block's geometry to the
- * list's rows, overlaps and histories from `start` on. largest: m, the largest overlaps so far. */
+/* Everything behind the gathering, the same for spheres and walls (contact_forces.c): from the block's geometry to its
+ * rows, and the list's overlaps and histories from `start` on. largest: m, the largest overlaps so far. */
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
                           bool is_wall, double dt, wide *largest);
 /* The law of a block's contacts, whose geometry is in the block: sets f_n and force, updates the list's histories

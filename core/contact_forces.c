@@ -1,6 +1,7 @@
 #include "contact_forces.h"
 
 #include "contact_block.h"
+#include "leap_frog.h"
 
 static void gather_spheres(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
                            const int32_t *restrict second)
@@ -76,9 +77,8 @@ static void displacements(contact_block *restrict block, real time_step)
 
 /* f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
  * spheres grow, radii are below full size, but then there is no friction, hence no moment.) rolls: with the
- * moments of rolling friction, opposite for the two ends. second: may be NULL. */
-WIDE_INLINE void write_rows(const contact_block *restrict block, const real *restrict first_radius, bool rolls,
-                            contact_row *restrict row, contact_row *restrict second)
+ * moments of rolling friction, opposite for the two ends. */
+WIDE_INLINE void make_rows(contact_block *restrict block, const real *restrict first_radius, bool rolls, bool ends_differ)
 {
     const wide half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -92,11 +92,11 @@ WIDE_INLINE void write_rows(const contact_block *restrict block, const real *res
             q[c] = cross(n, t, c);
             moment[c] = rolls ? wide_fused(r_a, q[c], wide_load(block->moment[c] + k)) : r_a * q[c];
         }
-        wide_store_rows(row + k, f, moment);
-        if (!second) continue;
+        wide_store_rows(block->row + k, f, moment);
+        if (!ends_differ) continue;
         const wide r_b = wide_load(block->radii + k) - r_first - less;
         for (int c = 0; c < 3; c++) moment[c] = rolls ? wide_fused(r_b, q[c], -wide_load(block->moment[c] + k)) : r_b * q[c];
-        wide_store_rows(second + k, f, moment);
+        wide_store_rows(block->second_row + k, f, moment);
     }
 }
 
@@ -117,33 +117,112 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
-    contact_row *const row = list->row + start, *const second = list->second_row ? list->second_row + start : NULL;
-    if (list->has_rolling) write_rows(block, list->first_radius + start, true, row, second);
-    else write_rows(block, list->first_radius + start, false, row, second);
+    if (list->has_rolling) make_rows(block, list->first_radius + start, true, list->ends_differ);
+    else make_rows(block, list->first_radius + start, false, list->ends_differ);
     keep_overlaps(block, list->overlap + start, largest);
 }
 
-double contact_forces_between_spheres(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact, double dt,
-                                      int threads)
+/* Adds a block's rows to their spheres' loads, while they are in the first-level cache. */
+static void add_to_loads(const contact_block *restrict block, const contact_list *pairs, size_t start, row8 *loads)
 {
-    double largest = 0.0;
-    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
-#pragma omp parallel for schedule(static) reduction(max : largest) num_threads(threads) if (threads > 1)
-    for (int part = 0; part < threads; part++) {
-        wide largest_here = wide_all(0);
-        for (size_t b = part_start(blocks, part, threads); b < part_start(blocks, part + 1, threads); b++) {
-            contact_block block;
-            gather_spheres(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
-            if (pairs->has_rolling) gather_spins(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
-            contact_block_forces(pairs, b * BLOCK, &block, contact, false, dt, &largest_here);
-        }
-        largest = fmax(largest, wide_largest_lane(largest_here));
+    static const row8 on_second = { -1, -1, -1, 0, 1, 1, 1, 0 };
+    const uint32_t *restrict to_first = pairs->to_first + start, *restrict to_second = pairs->to_second + start;
+    const contact_row *restrict row = block->row, *restrict second_row = pairs->ends_differ ? block->second_row : block->row;
+    char *restrict load = (char *)loads;
+    for (int k = 0; k < BLOCK; k++) {
+        row8 *const first = (row8 *)(load + to_first[k]), *const second = (row8 *)(load + to_second[k]);
+        *first += row[k];
+        *second = row8_fused(on_second, second_row[k], *second);
     }
-    return largest;
 }
 
-void contact_forces_sum(const neighbor_list *list, spheres *s, size_t from, int threads)
+/* Single spheres that have all their forces, from..to-1, but those that wait for other parts. */
+static vector4 own_spheres_advance(const neighbor_list *list, spheres *s, const leap_frog *leap, size_t from, size_t to,
+                                   size_t *shared)
 {
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = from; i < s->mobile_count; i++) s->load[i] = contact_forces_of(list, i);
+    vector4 strayed = { 0 };
+    for (; *shared < list->shared_count && (size_t)list->shared[*shared] < to; (*shared)++) {
+        const size_t waiting = (size_t)list->shared[*shared];
+        if (waiting > from) strayed = vector4_greater(strayed, spheres_advance(leap, s, list->picked_velocity, from, waiting));
+        from = waiting + 1;
+    }
+    return to > from ? vector4_greater(strayed, spheres_advance(leap, s, list->picked_velocity, from, to)) : strayed;
+}
+
+/* One part's blocks. A sphere is first in contacts with those behind it in memory alone: behind its last one as first, it
+ * has all its forces, and no other contact reads its row in this step. */
+static double part_forces(neighbor_list *list, spheres *s, const dem_contact_parameters *contact, double dt, int part,
+                          const leap_frog *leap, vector4 *strayed)
+{
+    contact_list *const pairs = &list->pairs;
+    const size_t blocks = round_up_to_block(pairs->count) / BLOCK, end = part_start(blocks, part + 1, list->parts);
+    const size_t last = list->part_begins[part + 1] < s->single_count ? list->part_begins[part + 1] : s->single_count;
+    size_t moved = list->part_begins[part], shared = list->part_shared[part];
+    wide largest = wide_all(0);
+    for (size_t k = list->walls.start[moved]; k < list->walls.start[list->part_begins[part + 1]]; k++)
+        s->load[list->walls.first[k]] += list->walls.row[k];
+    for (size_t b = part_start(blocks, part, list->parts); b < end; b++) {
+        contact_block block;
+        gather_spheres(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
+        if (pairs->has_rolling) gather_spins(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
+        contact_block_forces(pairs, b * BLOCK, &block, contact, false, dt, &largest);
+        add_to_loads(&block, pairs, b * BLOCK, s->load);
+        const size_t complete = b + 1 < end ? (size_t)pairs->first[(b + 1) * BLOCK] : last;
+        if (!leap || complete <= moved || complete > last) continue;
+        *strayed = vector4_greater(*strayed, own_spheres_advance(list, s, leap, moved, complete, &shared));
+        moved = complete;
+    }
+    if (leap && moved < last) *strayed = vector4_greater(*strayed, own_spheres_advance(list, s, leap, moved, last, &shared));
+    return wide_largest_lane(largest);
+}
+
+/* What several parts gave to one sphere, in the order of the list as if there were but one part; then its step. */
+static vector4 part_finish(const neighbor_list *list, spheres *s, int part, const leap_frog *leap)
+{
+    const size_t from = list->part_begins[part], to = list->part_begins[part + 1], end = list->part_shared[part + 1];
+    row8 *const later = s->load + s->mobile_count + MOST_PARTS;
+    for (size_t k = 0; k < list->later_count; k++) {
+        const size_t i = (size_t)list->later[k];
+        if (i < from || i >= to) continue;
+        s->load[i] += later[k];
+        later[k] = (row8){ 0 };
+    }
+    vector4 strayed = { 0 };
+    for (size_t k = list->part_shared[part], next; leap && k < end && (size_t)list->shared[k] < s->single_count; k = next) {
+        next = k + 1;
+        while (next < end && list->shared[next] == list->shared[next - 1] + 1 && (size_t)list->shared[next] < s->single_count)
+            next++;
+        const size_t i = (size_t)list->shared[k];
+        strayed = vector4_greater(strayed, spheres_advance(leap, s, list->picked_velocity, i, i + (next - k)));
+    }
+    return strayed;
+}
+
+double contact_forces_between_spheres(neighbor_list *list, spheres *s, const dem_contact_parameters *contact, double dt,
+                                      const leap_frog *leap, vector4 *strayed)
+{
+    const int parts = list->parts;
+    double largest = 0.0, x = 0.0, y = 0.0, z = 0.0;
+#pragma omp parallel num_threads(parts) if (parts > 1)
+    {
+#pragma omp for schedule(static) reduction(max : largest, x, y, z)
+        for (int part = 0; part < parts; part++) {
+            vector4 here = { 0 };
+            largest = fmax(largest, part_forces(list, s, contact, dt, part, leap, &here));
+            x = fmax(x, here[0]);
+            y = fmax(y, here[1]);
+            z = fmax(z, here[2]);
+        }
+        if (list->shared_count) {
+#pragma omp for schedule(static) reduction(max : x, y, z)
+            for (int part = 0; part < parts; part++) {
+                const vector4 here = part_finish(list, s, part, leap);
+                x = fmax(x, here[0]);
+                y = fmax(y, here[1]);
+                z = fmax(z, here[2]);
+            }
+        }
+    }
+    *strayed = (vector4){ x, y, z };
+    return largest;
 }

@@ -22,6 +22,8 @@ static void slots_free(contact_list *list)
     free(list->rolling_friction);
     for (int c = 0; c < 3; c++) free(list->roll[c]);
     free(list->overlap);
+    free(list->to_first);
+    free(list->to_second);
 }
 
 void contact_list_clear(contact_list *list)
@@ -44,7 +46,8 @@ dem_status contact_list_reserve(contact_list *list, size_t count)
     contact_list grown = { .start = list->start,
                            .count = list->count,
                            .capacity = round_up_to_block(count + count / 4),
-                           .has_rolling = list->has_rolling };
+                           .has_rolling = list->has_rolling,
+                           .ends_differ = list->ends_differ };
     const size_t n = grown.capacity;
     grown.first = array_create(n, sizeof *grown.first);
     grown.second = array_create(n, sizeof *grown.second);
@@ -55,8 +58,11 @@ dem_status contact_list_reserve(contact_list *list, size_t count)
     grown.t_star = array_create(n, sizeof *grown.t_star);
     grown.alpha_0 = array_create(n, sizeof *grown.alpha_0);
     grown.overlap = array_create(n, sizeof *grown.overlap);
+    grown.to_first = array_create(n, sizeof *grown.to_first);
+    grown.to_second = array_create(n, sizeof *grown.to_second);
     if (!grown.first || !grown.second || !grown.friction || !grown.first_radius || !grown.mass || !grown.t[0] || !grown.t[1]
-        || !grown.t[2] || !grown.t_star || !grown.alpha_0 || !grown.overlap || (grown.has_rolling && !rolling_create(&grown))) {
+        || !grown.t[2] || !grown.t_star || !grown.alpha_0 || !grown.overlap || !grown.to_first || !grown.to_second
+        || (grown.has_rolling && !rolling_create(&grown))) {
         slots_free(&grown);
         return DEM_NO_MEMORY;
     }
@@ -71,12 +77,13 @@ void contact_list_forget(contact_list *list, size_t slot)
     contact_list_set_history(list, slot, &nothing);
 }
 
-void contact_list_pad(contact_list *list, int32_t first, int32_t second)
+void contact_list_pad(contact_list *list, int32_t first, int32_t second, size_t nobody)
 {
     for (size_t k = list->count; k < round_up_to_block(list->count); k++) {
         list->first[k] = first;
         list->second[k] = second;
         list->friction[k] = list->first_radius[k] = list->mass[k] = 0;
+        list->to_first[k] = list->to_second[k] = load_offset(nobody);
         if (list->has_rolling) list->rolling_friction[k] = 0;
         contact_list_forget(list, k);
     }
@@ -97,6 +104,14 @@ void contact_list_set_history(contact_list *list, size_t k, const contact_histor
     list->t_star[k] = history->t_star;
     list->alpha_0[k] = history->alpha_0;
     for (int c = 0; list->has_rolling && c < 3; c++) list->roll[c][k] = history->roll[c];
+}
+
+int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS])
+{
+    real *const all[CONTACT_NUMBERS] = { list->t[0],    list->t[1],    list->t[2],    list->t_star,
+                                         list->alpha_0, list->roll[0], list->roll[1], list->roll[2] };
+    memcpy(memory, all, sizeof all);
+    return list->has_rolling ? CONTACT_NUMBERS : CONTACT_NUMBERS - 3;
 }
 
 void contact_list_swap(contact_list *a, contact_list *b)

@@ -1,5 +1,5 @@
 /* Contacts in reach: pairs (or sphere and wall) that touch or can touch before the list is made again, with
- * what each remembers, and the rows of force that each writes.
+ * what each remembers.
  *
  * Order: by first sphere, then by second, first < second, as they lie in memory (sorting.h). Each sphere's sum over
  * its contacts therefore runs in an order that does not depend on when a list was made or on how many threads made
@@ -12,37 +12,44 @@
 #include "wide.h"
 
 /* What a contact gives: f on the first (N), 0, moment about a centre (N m), 0. The second has -f, and the same moment
- * where radii are all the same and nothing resists rolling: then one row serves both ends, else each has a row of its own. */
+ * where radii are all the same and nothing resists rolling: then one row serves both ends, else each has one of its own. */
 typedef row8 contact_row;
 
 typedef struct contact_list {
-    size_t count, capacity;  /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
-    int32_t *first;          /* (capacity) sphere index */
-    int32_t *second;         /* (capacity) sphere index, or that of the wall */
-    real *friction;          /* (capacity) mu */
-    real *first_radius;      /* (capacity) m, at full size */
-    real *mass;              /* (capacity) kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
-    real *t[3];              /* (capacity) N   contact_history, by component */
-    real *t_star;            /* (capacity) */
-    real *alpha_0;           /* (capacity) m */
-    bool has_rolling;        /* else there are none of the next two */
-    real *rolling_friction;  /* (capacity) mu_r */
-    real *roll[3];           /* (capacity) N   contact_history, by component */
-    contact_row *row;        /* (capacity) part of the neighbor list's rows */
-    contact_row *second_row; /* (capacity) likewise, for second ends; NULL: the same as for the first */
-    real *overlap;           /* (capacity) m at the last step; negative: apart */
-    size_t *start;           /* (spheres + 1) where each first sphere's contacts begin */
+    size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
+    int32_t *first;         /* (capacity) sphere index */
+    int32_t *second;        /* (capacity) sphere index, or that of the wall */
+    real *friction;         /* (capacity) mu */
+    real *first_radius;     /* (capacity) m, at full size */
+    real *mass;             /* (capacity) kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
+    real *t[3];             /* (capacity) N   contact_history, by component */
+    real *t_star;           /* (capacity) */
+    real *alpha_0;          /* (capacity) m */
+    bool has_rolling;       /* else there are none of the next two */
+    real *rolling_friction; /* (capacity) mu_r */
+    real *roll[3];          /* (capacity) N   contact_history, by component */
+    bool ends_differ;       /* in their moments */
+    uint32_t *to_first;     /* (capacity) bytes from the first of spheres.load: which of them gets what the first gets */
+    uint32_t *to_second;    /* (capacity) likewise */
+    contact_row *row;       /* (capacity) of walls alone: what each contact gave at the last step */
+    real *overlap;          /* (capacity) m at the last step; negative: apart */
+    size_t *start;          /* (spheres + 1) where each first sphere's contacts begin */
 } contact_list;
+
+static inline uint32_t load_offset(size_t load) { return (uint32_t)(load * sizeof(row8)); }
 
 dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling);
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);
-/* Fill the slots from count up to the next whole block with a pair whose result nobody reads. */
-void contact_list_pad(contact_list *list, int32_t first, int32_t second);
+/* Fill the slots from count up to the next whole block with a pair whose result goes to `nobody`, a load. */
+void contact_list_pad(contact_list *list, int32_t first, int32_t second, size_t nobody);
 void contact_list_forget(contact_list *list, size_t slot);
 contact_history contact_list_history(const contact_list *list, size_t slot);
 void contact_list_set_history(contact_list *list, size_t slot, const contact_history *history);
+/* The arrays of what slots remember; returns how many they are. */
+enum { CONTACT_NUMBERS = 8 };
+int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS]);
 void contact_list_swap(contact_list *a, contact_list *b);
 /* Copy the histories of sphere i's contacts from the list before (same first, same second). */
 void contact_list_carry(contact_list *list, const contact_list *before, size_t i);

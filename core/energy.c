@@ -11,11 +11,11 @@ double energy_wall_torque(const spheres *s)
     return torque;
 }
 
-double energy_contact_power(const spheres *s)
+double energy_contact_power(const spheres *s, const row8 *load)
 {
     double power = 0.0;
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const vector4 force = vector4_low(&s->load[i]), moment = vector4_high(&s->load[i]);
+        const vector4 force = vector4_low(&load[i]), moment = vector4_high(&load[i]);
         const vector4 part = force * s->velocity[i] + moment * s->angular_velocity[i];
         power += part[0] + part[1] + part[2];
     }

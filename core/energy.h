@@ -25,8 +25,8 @@ typedef struct energy_audit {
 
 /* N m about the axis, of the drum on the bed; positive turns counter-clockwise. The loads are those of the last forces. */
 double energy_wall_torque(const spheres *spheres);
-/* W, of the contacts' forces on the particles, with the velocities of now. */
-double energy_contact_power(const spheres *spheres);
+/* W, of the contacts' forces `load` on the particles, with the velocities of now. */
+double energy_contact_power(const spheres *spheres, const row8 *load);
 /* J: kinetic energy and that of height above the axis, half a step ago, where velocities are known. What changes it is the
  * contacts' work: with forces at a step and the mean of the velocities half a step before and after, leap-frog keeps
  * that balance to the last digit. */

@@ -3,7 +3,7 @@
 #ifndef INTEGRATOR_H
 #define INTEGRATOR_H
 
-#include "neighbor_list.h"
+#include "leap_frog.h"
 
 typedef struct body_forces {
     double gravity; /* m/s2, against the container's `up` */
@@ -11,9 +11,11 @@ typedef struct body_forces {
     double scale;   /* share of full size that clusters have after the step */
 } body_forces;
 
-/* One step for all particles, under the rows of forces that the list's contacts have written. Returns a bound on |v - v at
- * the pick| of every sphere, m/s: from the largest of each component. */
-double integrator_advance(spheres *spheres, const neighbor_list *list, const container *drum, const body_forces *body, double dt,
+leap_frog integrator_leap(const spheres *spheres, const container *container, const body_forces *body, double dt);
+/* One step for all particles, under their spheres' loads, but for the first `moved` single spheres, which have taken theirs;
+ * so_far: what spheres_advance returned of those. Returns a bound on |v - picked_velocity| of every sphere, m/s: from the
+ * largest of each component. */
+double integrator_advance(spheres *spheres, const vector4 *picked_velocity, const leap_frog *leap, size_t moved, vector4 so_far,
                           int threads);
 
 #endif

@@ -5,25 +5,28 @@
 #include "wall_reach.h"
 
 /* Shares of the smallest diameter, chosen by measurement: core/NUMERICS.md, "Neighbor lists". */
-static const double SKIN = 0.4, MARGIN = 0.006;
+static const double SKIN = 0.4, LEAST_MARGIN = 0.001, FIRST_MARGIN = 0.006, MOST_MARGIN = 0.02;
 
 dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_rolling)
 {
     memset(list, 0, sizeof *list);
     list->skin = SKIN * s->smallest_diameter;
-    list->margin = MARGIN * s->smallest_diameter;
-    list->rows_differ = has_rolling;
-    for (size_t i = 1; i < spheres_count(s); i++) list->rows_differ = list->rows_differ || s->full_radius[i] != s->full_radius[0];
+    list->margin = FIRST_MARGIN * s->smallest_diameter;
+    list->least_margin = LEAST_MARGIN * s->smallest_diameter;
+    list->most_margin = MOST_MARGIN * s->smallest_diameter;
+    bool ends_differ = has_rolling;
+    for (size_t i = 1; i < spheres_count(s); i++) ends_differ = ends_differ || s->full_radius[i] != s->full_radius[0];
     cell_grid_init(&list->grid);
     const size_t n = s->mobile_count;
     list->start = array_create(n + 1, sizeof *list->start);
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
-    list->ends_start = array_create(n + 1, sizeof *list->ends_start);
-    list->ends_second = array_create(n, sizeof *list->ends_second);
-    bool enough = list->start && list->built_at && list->picked_velocity && list->ends_start && list->ends_second;
+    list->shared = array_create(n, sizeof *list->shared);
+    list->is_shared = array_create(n, sizeof *list->is_shared);
+    bool enough = list->start && list->built_at && list->picked_velocity && list->shared && list->is_shared;
     contact_list *const all[] = { &list->pairs, &list->pairs_before, &list->walls, &list->walls_before };
     for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n, has_rolling) == DEM_OK && enough;
+    list->pairs.ends_differ = list->pairs_before.ends_differ = ends_differ;
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
     return DEM_NO_MEMORY;
@@ -36,12 +39,13 @@ void neighbor_list_clear(neighbor_list *list)
     free(list->second);
     for (int p = 0; p < MOST_PARTS; p++) free(list->part[p].second);
     free(list->in_reach);
+    free(list->was_in_reach);
     free(list->built_at);
     free(list->picked_velocity);
-    free(list->rows);
-    free(list->ends_start);
-    free(list->ends_second);
-    free(list->ends);
+    free(list->wall_rows);
+    free(list->shared);
+    free(list->is_shared);
+    free(list->later);
     cell_grid_clear(&list->grid);
     contact_list_clear(&list->pairs);
     contact_list_clear(&list->pairs_before);
@@ -141,19 +145,22 @@ static dem_status outer_reserve(neighbor_list *list, size_t count)
     if (count <= list->pair_capacity) return DEM_OK;
     const size_t capacity = round_up_to_block(count + count / 4);
     int32_t *first = array_create(capacity, sizeof *first), *second = array_create(capacity, sizeof *second);
-    uint16_t *in_reach = array_create(capacity / LANES, sizeof *in_reach);
-    if (!first || !second || !in_reach) {
+    uint16_t *in_reach = array_create(capacity / LANES, sizeof *in_reach), *was_in_reach = array_create(capacity / LANES, 2);
+    if (!first || !second || !in_reach || !was_in_reach) {
         free(first);
         free(second);
         free(in_reach);
+        free(was_in_reach);
         return DEM_NO_MEMORY;
     }
     free(list->first);
     free(list->second);
     free(list->in_reach);
+    free(list->was_in_reach);
     list->first = first;
     list->second = second;
     list->in_reach = in_reach;
+    list->was_in_reach = was_in_reach;
     list->pair_capacity = capacity;
     return DEM_OK;
 }
@@ -253,9 +260,10 @@ static void mark_in_reach(neighbor_list *list, const spheres *s, const container
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t g = 0; g < groups; g++) list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, (real)duration);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        list->walls.start[i + 1] = wall_reach_count(s, drum, ahead, i);
-        list->picked_velocity[i] = s->velocity[i];
+    for (int part = 0; part < threads; part++) {
+        const size_t from = part_start(s->mobile_count, part, threads), to = part_start(s->mobile_count, part + 1, threads);
+        wall_reach_count(s, drum, ahead, from, to, list->walls.start + 1);
+        memcpy(list->picked_velocity + from, s->velocity + from, (to - from) * sizeof *s->velocity);
     }
 }
 
@@ -266,85 +274,40 @@ static void starts_from_counts(contact_list *list, size_t n)
     list->count = list->start[n];
 }
 
-/* One run of rows for pairs and walls, so that one index names any of them. */
-static dem_status rows_reserve(neighbor_list *list)
+static dem_status wall_rows_reserve(neighbor_list *list)
 {
-    const size_t pairs = round_up_to_block(list->pairs.count), walls = round_up_to_block(list->walls.count);
-    const size_t seconds = list->rows_differ ? pairs : 0, needed = pairs + walls + seconds + 1;
-    if (needed > list->row_capacity) {
+    const size_t needed = round_up_to_block(list->walls.count);
+    if (needed > list->wall_row_capacity) {
         contact_row *rows = array_create(needed + needed / 4, sizeof *rows);
         if (!rows) return DEM_NO_MEMORY;
-        free(list->rows);
-        list->rows = rows;
-        list->row_capacity = needed + needed / 4;
+        free(list->wall_rows);
+        list->wall_rows = rows;
+        list->wall_row_capacity = needed + needed / 4;
     }
-    list->pairs.row = list->rows;
-    list->walls.row = list->rows + pairs;
-    list->pairs.second_row = list->rows_differ ? list->walls.row + walls : NULL;
-    list->rows[needed - 1] = (contact_row){ 0 };
+    list->walls.row = list->wall_rows;
     return DEM_OK;
 }
 
-static dem_status ends_reserve(neighbor_list *list, size_t count)
-{
-    if (count <= list->ends_capacity) return DEM_OK;
-    uint32_t *ends = array_create(count + count / 4, sizeof *ends);
-    if (!ends) return DEM_NO_MEMORY;
-    free(list->ends);
-    list->ends = ends;
-    list->ends_capacity = count + count / 4;
-    return DEM_OK;
-}
-
-static inline uint32_t row_offset(size_t k) { return (uint32_t)(k * sizeof(contact_row)); }
-
-/* Ends in a fixed order: contacts with spheres before it in memory, then behind it, then walls. */
-static dem_status ends_build(neighbor_list *list, const spheres *s)
-{
-    const contact_list *pairs = &list->pairs, *walls = &list->walls;
-    const size_t n = s->mobile_count, wall_rows = round_up_to_block(pairs->count),
-                 all = wall_rows + round_up_to_block(walls->count), second_rows = list->rows_differ ? all : 0,
-                 zeros = second_rows ? second_rows + wall_rows : all;
-    size_t *start = list->ends_start;
-    int32_t *second = list->ends_second;
-    memset(second, 0, n * sizeof *second);
-    for (size_t k = 0; k < pairs->count; k++)
-        if ((size_t)pairs->second[k] < n) second[pairs->second[k]]++;
-    start[0] = 0;
-    for (size_t i = 0; i < n; i++) {
-        const size_t ends = (size_t)second[i] + pairs->start[i + 1] - pairs->start[i] + walls->start[i + 1] - walls->start[i];
-        const size_t groups = ends ? (ends + ENDS_A_GROUP - 1) / ENDS_A_GROUP : 1;
-        start[i + 1] = start[i] + groups * ENDS_A_GROUP;
-    }
-    if (ends_reserve(list, start[n]) != DEM_OK) return DEM_NO_MEMORY;
-    uint32_t *ends = list->ends;
-    memset(second, 0, n * sizeof *second);
-    for (size_t k = 0; k < pairs->count; k++) {
-        const size_t j = (size_t)pairs->second[k];
-        if (j < n) ends[start[j] + (size_t)second[j]++] = row_offset(second_rows + k);
-    }
-    for (size_t i = 0; i < n; i++) {
-        size_t at = start[i] + (size_t)second[i];
-        for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) ends[at++] = row_offset(k);
-        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) ends[at++] = row_offset(wall_rows + k);
-        while (at < start[i + 1]) ends[at++] = row_offset(zeros);
-    }
-    return DEM_OK;
-}
-
-/* The pairs in reach, in the outer list's order. */
-static dem_status pairs_pick(neighbor_list *list, size_t n)
+/* The pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells what
+ * its pairs remember. */
+static dem_status pairs_pick(neighbor_list *list, size_t n, bool carry)
 {
     const size_t groups = (list->pair_count + LANES - 1) / LANES;
-    contact_list *pairs = &list->pairs;
-    size_t count = 0;
+    contact_list *pairs = &list->pairs, *before = &list->pairs_before;
+    size_t count = 0, old = 0;
     for (size_t g = 0; g < groups; g++) count += (size_t)__builtin_popcount(list->in_reach[g]);
-    /* whole vectors are written, also at the end */
+    /* whole vectors are read and written, also at the end */
     if (contact_list_reserve(pairs, count + LANES) != DEM_OK) return DEM_NO_MEMORY;
+    real *to[CONTACT_NUMBERS], *from[CONTACT_NUMBERS];
+    const int numbers = contact_list_memory(pairs, to);
+    contact_list_memory(before, from);
     pairs->count = 0;
     for (size_t g = 0; g < groups; g++) {
-        wide_compress(pairs->second + pairs->count, list->in_reach[g], list->second + g * LANES);
-        pairs->count += wide_compress(pairs->first + pairs->count, list->in_reach[g], list->first + g * LANES);
+        const uint32_t now = list->in_reach[g], was = list->was_in_reach[g];
+        for (int m = 0; carry && m < numbers; m++) wide_carry(to[m] + pairs->count, now, from[m] + old, was);
+        old += (size_t)__builtin_popcount(was);
+        wide_compress(pairs->second + pairs->count, now, list->second + g * LANES);
+        pairs->count += wide_compress(pairs->first + pairs->count, now, list->first + g * LANES);
     }
     memset(pairs->start, 0, (n + 1) * sizeof *pairs->start);
     for (size_t k = 0; k < pairs->count; k++) pairs->start[pairs->first[k] + 1]++;
@@ -352,55 +315,166 @@ static dem_status pairs_pick(neighbor_list *list, size_t n)
     return DEM_OK;
 }
 
-static void fill_slots_of(neighbor_list *list, const spheres *s, const container *drum, const dem_contact_parameters *contact,
-                          double duration, size_t i)
+/* What a step reads of each pair from..to-1 and what does not change in it. */
+static void describe_pairs(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact, size_t from, size_t to)
 {
-    contact_list *pairs = &list->pairs, *walls = &list->walls;
-    const wall_outlook ahead = { duration, list->margin };
-    const double own = s->inverse_mass[i];
-    for (size_t k = pairs->start[i]; k < pairs->start[i + 1]; k++) {
-        const bool between_mobile = (size_t)pairs->second[k] < s->mobile_count;
-        pairs->friction[k] = (real)(between_mobile ? contact->friction : contact->wall_friction);
-        if (pairs->has_rolling)
-            pairs->rolling_friction[k] = (real)(between_mobile ? contact->rolling_friction : contact->wall_rolling_friction);
-        pairs->mass[k] = (real)(1 / (between_mobile ? own + s->inverse_mass[pairs->second[k]] : own));
-        pairs->first_radius[k] = (real)s->full_radius[i];
+    const int32_t mobile = (int32_t)s->mobile_count;
+    const real mu = (real)contact->friction, mu_wall = (real)contact->wall_friction;
+    const real mu_r = (real)contact->rolling_friction, mu_r_wall = (real)contact->wall_rolling_friction;
+    const int32_t *restrict first = pairs->first, *restrict second = pairs->second;
+    for (size_t k = from; k < to; k++) {
+        const bool between_mobile = second[k] < mobile;
+        pairs->friction[k] = between_mobile ? mu : mu_wall;
+        pairs->to_first[k] = load_offset((size_t)first[k]);
+        pairs->to_second[k] = load_offset((size_t)(between_mobile ? second[k] : mobile));
     }
-    contact_list_carry(pairs, &list->pairs_before, i);
-    wall_reach_fill(walls, s, drum, ahead, i);
-    contact_list_carry(walls, &list->walls_before, i);
+    for (size_t k = from; k < to; k++) pairs->first_radius[k] = (real)s->full_radius[first[k]];
+    if (pairs->has_rolling)
+        for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
+    if (contact->law == DEM_WALTON_BRAUN) return; /* which has no masses */
+    for (size_t k = from; k < to; k++) {
+        const double own = s->inverse_mass[first[k]];
+        pairs->mass[k] = (real)(1 / (second[k] < mobile ? own + s->inverse_mass[second[k]] : own));
+    }
 }
 
-static dem_status inner_pick(neighbor_list *list, const spheres *s, const container *drum, const dem_contact_parameters *contact,
+/* A part's contacts come block by block; a sphere is its own where its contacts as first begin in it. */
+static void parts_begin(neighbor_list *list, size_t n, int parts)
+{
+    const contact_list *pairs = &list->pairs;
+    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
+    list->parts = parts;
+    list->part_begins[0] = 0;
+    for (int p = 1; p < parts; p++) {
+        const size_t k = part_start(blocks, p, parts) * BLOCK;
+        const bool goes_on = k > 0 && k < pairs->count && pairs->first[k - 1] == pairs->first[k];
+        list->part_begins[p] = k < pairs->count ? (size_t)pairs->first[k] + goes_on : n;
+    }
+    list->part_begins[parts] = n;
+}
+
+static dem_status later_reserve(neighbor_list *list, size_t count)
+{
+    if (count <= list->later_capacity) return DEM_OK;
+    int32_t *later = array_create(count + count / 4, sizeof *later);
+    if (!later) return DEM_NO_MEMORY;
+    free(list->later);
+    list->later = later;
+    list->later_capacity = count + count / 4;
+    return DEM_OK;
+}
+
+/* Who has contacts in several parts, and how many they are: contacts' second spheres lie behind the first. */
+static size_t shared_find(neighbor_list *list, size_t n)
+{
+    const contact_list *pairs = &list->pairs;
+    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
+    memset(list->is_shared, 0, n);
+    for (int p = 0; p < list->parts; p++) {
+        size_t end = part_start(blocks, p + 1, list->parts) * BLOCK;
+        if (end > pairs->count) end = pairs->count;
+        for (size_t k = part_start(blocks, p, list->parts) * BLOCK; k < end; k++) {
+            const size_t i = (size_t)pairs->first[k], j = (size_t)pairs->second[k];
+            if (i < list->part_begins[p]) list->is_shared[i] = 1;
+            if (j < n && j >= list->part_begins[p + 1]) list->is_shared[j] = 1;
+        }
+    }
+    list->shared_count = 0;
+    for (int p = 0; p < list->parts; p++) {
+        list->part_shared[p] = list->shared_count;
+        for (size_t i = list->part_begins[p]; i < list->part_begins[p + 1]; i++)
+            if (list->is_shared[i]) list->shared[list->shared_count++] = (int32_t)i;
+    }
+    list->part_shared[list->parts] = list->shared_count;
+    size_t ends = 0;
+    for (size_t k = 0; k < pairs->count; k++)
+        ends += list->is_shared[pairs->first[k]] + ((size_t)pairs->second[k] < n ? list->is_shared[pairs->second[k]] : 0u);
+    return ends;
+}
+
+static dem_status parts_share(neighbor_list *list, spheres *s, int threads)
+{
+    const size_t n = s->mobile_count, behind = n + MOST_PARTS;
+    contact_list *pairs = &list->pairs;
+    parts_begin(list, n, threads < MOST_PARTS ? threads : MOST_PARTS);
+    list->shared_count = list->later_count = list->part_shared[0] = list->part_shared[1] = 0;
+    const size_t ends = list->parts > 1 ? shared_find(list, n) : 0;
+    if (later_reserve(list, ends) != DEM_OK || spheres_reserve_loads(s, behind + ends) != DEM_OK) return DEM_NO_MEMORY;
+    if (list->parts == 1) return DEM_OK;
+    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
+    int part = 0;
+    for (size_t k = 0; k < pairs->count; k++) {
+        while (k >= part_start(blocks, part + 1, list->parts) * BLOCK) part++;
+        const size_t i = (size_t)pairs->first[k], j = (size_t)pairs->second[k];
+        if (list->is_shared[i]) {
+            pairs->to_first[k] = load_offset(behind + list->later_count);
+            list->later[list->later_count++] = (int32_t)i;
+        }
+        if (j >= n) {
+            pairs->to_second[k] = load_offset(n + (size_t)part);
+        } else if (list->is_shared[j]) {
+            pairs->to_second[k] = load_offset(behind + list->later_count);
+            list->later[list->later_count++] = (int32_t)j;
+        }
+    }
+    return DEM_OK;
+}
+
+static dem_status inner_pick(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
                              double duration, int threads)
 {
     const size_t n = s->mobile_count;
+    const bool same_outer = list->picked_of == list->outer_builds;
+    const wall_outlook ahead = { duration, list->margin };
     contact_list_swap(&list->pairs, &list->pairs_before);
     contact_list_swap(&list->walls, &list->walls_before);
+    uint16_t *const was = list->in_reach;
+    list->in_reach = list->was_in_reach;
+    list->was_in_reach = was;
     mark_in_reach(list, s, drum, duration, threads);
-    dem_status status = pairs_pick(list, n);
+    dem_status status = pairs_pick(list, n, same_outer);
     starts_from_counts(&list->walls, n);
     if (status != DEM_OK || contact_list_reserve(&list->walls, list->walls.count) != DEM_OK) return DEM_NO_MEMORY;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t i = 0; i < n; i++) fill_slots_of(list, s, drum, contact, duration, i);
-    contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s));
-    contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
+    for (int part = 0; part < threads; part++) {
+        const size_t from = part_start(n, part, threads), to = part_start(n, part + 1, threads);
+        describe_pairs(&list->pairs, s, contact, list->pairs.start[from], list->pairs.start[to]);
+        for (size_t i = from; !same_outer && i < to; i++) contact_list_carry(&list->pairs, &list->pairs_before, i);
+        for (size_t i = from; i < to; i++) {
+            if (list->walls.start[i] == list->walls.start[i + 1]) continue;
+            wall_reach_fill(&list->walls, s, drum, ahead, i);
+            contact_list_carry(&list->walls, &list->walls_before, i);
+        }
+    }
+    list->picked_of = list->outer_builds;
+    contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s), n);
+    contact_list_pad(&list->walls, sphere_of_zeros(s), 0, n);
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
     list->strayed = s->lining_count ? 0.5 * drum->rotation_rate * drum->rotation_rate * drum->radius * duration * duration : 0.0;
     list->steps_since_pick = 0;
     list->inner_valid = true;
     list->inner_picks++;
-    status = rows_reserve(list);
-    return status == DEM_OK ? ends_build(list, s) : status;
+    status = wall_rows_reserve(list);
+    return status == DEM_OK ? parts_share(list, s, threads) : status;
 }
 
-dem_status neighbor_list_update(neighbor_list *list, const spheres *s, const container *drum, const dem_contact_parameters *contact,
+/* What spheres would stray in a whole horizon if they go on as since the last pick, and a fifth more: a wider margin lists
+ * pairs in vain, a narrower one makes the list anew too often. */
+static void choose_margin(neighbor_list *list)
+{
+    if (!list->inner_valid || list->steps_since_pick == 0) return;
+    const double ahead = 1.2 * list->strayed / list->steps_since_pick * HORIZON;
+    list->margin = fmax(list->least_margin, fmin(ahead, list->most_margin));
+}
+
+dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
                                 double time_step, int threads, bool *made_new)
 {
     const bool safe = list->inner_valid && list->steps_since_pick < list->safe_steps && list->strayed <= list->margin;
     if (made_new) *made_new = !safe;
     if (safe) return DEM_OK;
 
+    choose_margin(list);
     outlook now = outlook_measure(list, s, drum);
     int steps = list->outer_valid ? safe_steps(list, &now, time_step) : 0;
     if (steps < HORIZON) {

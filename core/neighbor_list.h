@@ -11,7 +11,6 @@
 #include "contact_list.h"
 #include "container.h"
 
-enum { ENDS_A_GROUP = 8 };
 enum { HORIZON = 24 }; /* steps between two picks of the inner list, at most */
 
 enum { MOST_PARTS = 64 };
@@ -27,12 +26,14 @@ typedef struct neighbor_list {
     size_t *start;           /* (mobile + 1) */
     int32_t *first, *second; /* (pair_capacity) by first, then by second; padded with a pair far apart */
     uint16_t *in_reach;      /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
+    uint16_t *was_in_reach;  /* likewise, at the pick before */
     pair_part part[MOST_PARTS];
     vector4 *built_at; /* (mobile) m: places when the outer list was made */
     cell_grid grid;
     bool outer_valid;
     /* inner */
-    double margin;  /* m: how far a sphere may stray from its straight path before the next pick */
+    double margin; /* m: how far a sphere may stray from its straight path before the next pick */
+    double least_margin, most_margin;
     double strayed; /* m: bound on how far any sphere has, since the pick */
     int steps_since_pick, safe_steps;
     double turned_at_build; /* rad: the drum's angle when the outer list was made */
@@ -40,16 +41,21 @@ typedef struct neighbor_list {
     vector4 *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
-    contact_row *rows;                /* of pairs, of walls, of second ends where rows differ, then one of zeros */
-    bool rows_differ;                 /* a contact's two ends have different moments */
-    size_t row_capacity;
-    /* the rows of each sphere's contacts, for its sum: those where it is second, by the first, then those where it
-     * is first, by the second, then walls; filled up to whole groups with the row of zeros */
-    size_t *ends_start;   /* (mobile + 1) */
-    int32_t *ends_second; /* (mobile) contacts in which it is second */
-    uint32_t *ends;       /* bytes from the first row */
-    size_t ends_capacity;
+    contact_row *wall_rows;           /* of the walls' contacts */
+    size_t wall_row_capacity;
+    /* Blocks of pairs are dealt out to as many parts as there are threads, and each part sums the forces on its own spheres.
+     * Of a sphere that has contacts in several, each force has a load of its own; these are summed afterwards. Loads: of
+     * the mobile spheres, then one for each part's forces on others (which nobody reads), then `later`. */
+    int parts;
+    size_t part_begins[MOST_PARTS + 1]; /* the first sphere of each part's own */
+    size_t part_shared[MOST_PARTS + 1]; /* the first of them in `shared` */
+    int32_t *shared;                    /* (mobile) spheres with contacts in several parts, ascending */
+    uint8_t *is_shared;                 /* (mobile) */
+    size_t shared_count;
+    int32_t *later; /* (later_count) whose the loads behind the others are, in the order of the list */
+    size_t later_count, later_capacity;
     int64_t outer_builds, inner_picks;
+    int64_t picked_of; /* outer_builds at the last pick */
 } neighbor_list;
 
 /* has_rolling: contacts resist rolling. */
@@ -60,8 +66,8 @@ void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved 
 void neighbor_list_extend(neighbor_list *list, size_t before, size_t now);
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
  * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. made_new (may be NULL): whether anything was done. */
-dem_status neighbor_list_update(neighbor_list *list, const spheres *spheres, const container *drum,
-                                const dem_contact_parameters *contact, double time_step, int threads, bool *made_new);
+dem_status neighbor_list_update(neighbor_list *list, spheres *spheres, const container *drum, const dem_contact_parameters *contact,
+                                double time_step, int threads, bool *made_new);
 /* Tell the list of a finished step: the largest |v - v at the pick| of all spheres, m/s. */
 static inline void neighbor_list_step_done(neighbor_list *list, double largest_deviation, double time_step)
 {

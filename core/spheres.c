@@ -38,13 +38,13 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->full_radius = array_create(all, sizeof *s->full_radius);
     s->velocity = array_create(n, sizeof *s->velocity);
     s->angular_velocity = array_create(n, sizeof *s->angular_velocity);
-    s->load = array_create(n, sizeof *s->load);
     s->inverse_mass = array_create(n, sizeof *s->inverse_mass);
     s->inverse_inertia = array_create(singles, sizeof *s->inverse_inertia);
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
     if (status != DEM_OK || !s->row || !s->place || !s->id || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity
-        || !s->load || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->lining_place) {
+        || spheres_reserve_loads(s, n) != DEM_OK || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time
+        || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }
@@ -98,6 +98,19 @@ void spheres_pad(spheres *s)
     const vector4 nothing = { 0 }, half_way_round = { 0.49 * RING_UNITS };
     sphere_row_store(&s->row[sphere_of_zeros(s)], nothing, nothing, nothing);
     sphere_row_store(&s->row[sphere_far_away(s)], half_way_round, nothing, nothing);
+}
+
+dem_status spheres_reserve_loads(spheres *s, size_t count)
+{
+    if (count > s->load_count) {
+        row8 *load = array_create(count + count / 8, sizeof *load);
+        if (!load) return DEM_NO_MEMORY;
+        free(s->load);
+        s->load = load;
+        s->load_count = count + count / 8;
+    }
+    memset(s->load, 0, s->load_count * sizeof *s->load);
+    return DEM_OK;
 }
 
 void spheres_set_scale(spheres *s, double scale)

@@ -32,17 +32,20 @@ static inline void sphere_row_store(sphere_row *row, vector4 place, vector4 v, v
 
 typedef struct spheres {
     size_t mobile_count, lining_count;
-    size_t single_count;                        /* of the mobile: particles by themselves */
-    clusters clusters;                          /* the bodies that the other mobile spheres make up */
-    sphere_row *row;                            /* (mobile + lining + 2) */
-    vector4 *place;                             /* (mobile + lining + 2) m, z within one period */
-    vector4 ring_units;                         /* 1/m: of a row's place */
-    int32_t *id;                                /* (mobile) which sphere of the definition's it is, wherever it is in memory */
-    int32_t *species;                           /* (mobile) */
-    double *full_radius;                        /* (mobile + lining) m, rounded to real */
-    vector4 *velocity;                          /* (mobile) m/s at the half step */
-    vector4 *angular_velocity;                  /* (mobile) rad/s at the half step */
-    row8 *load;                                 /* (mobile) force N, 0, torque N m about the centre, 0: contacts only */
+    size_t single_count;       /* of the mobile: particles by themselves */
+    clusters clusters;         /* the bodies that the other mobile spheres make up */
+    sphere_row *row;           /* (mobile + lining + 2) */
+    vector4 *place;            /* (mobile + lining + 2) m, z within one period */
+    vector4 ring_units;        /* 1/m: of a row's place */
+    int32_t *id;               /* (mobile) which sphere of the definition's it is, wherever it is in memory */
+    int32_t *species;          /* (mobile) */
+    double *full_radius;       /* (mobile + lining) m, rounded to real */
+    vector4 *velocity;         /* (mobile) m/s at the half step */
+    vector4 *angular_velocity; /* (mobile) rad/s at the half step */
+    row8 *load;                /* (load_count) force N, 0, torque N m about the centre, 0: contacts only.
+                                                 * Zeros but between the forces and the motion. Behind those of the
+                                                 * mobile ones are more, which serve the sums (neighbor_list.h) */
+    size_t load_count;
     double *inverse_mass;                       /* (mobile) 1/kg, of the particle that the sphere is or is a part of */
     double *inverse_inertia;                    /* (single) 1/(kg m2) */
     double *fallen_time;                        /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
@@ -108,6 +111,8 @@ size_t species_particles(const dem_drum_definition *definition, size_t species);
 /* Before any place is set: rows tell places apart modulo the period along z (m; 0: none) and lengths that no listed pair
  * comes near. */
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
+/* Room for as many loads, all zeros. */
+dem_status spheres_reserve_loads(spheres *spheres, size_t count);
 void spheres_pad(spheres *spheres);                                    /* the last two rows, also after a change of the counts */
 static inline void spheres_ring_unit(const spheres *s, double unit[3]) /* m */
 {

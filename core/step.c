@@ -1,9 +1,8 @@
 /* The step:
  *     neighbor lists, made again when a displacement asks for it; contact history carried over
- *     forces of contacts between spheres, and with the container
+ *     forces of contacts between spheres, and with the container, summed for each sphere
  *     a look at the drum's torque now and then
- *     each sphere's sum over its contacts, and each cluster's over its spheres; velocities and positions (Eqns 3, 4),
- *     spins and orientations (Eqns 5-23)
+ *     each cluster's sum over its spheres; velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
  *     what fell off a plate is laid aside; what is due of a stream enters
  *     the container moves; the phase may change
  */
@@ -12,8 +11,8 @@
 #include "contact_forces.h"
 #include "failure.h"
 #include "filling.h"
-#include "sorting.h"
 #include "lost.h"
+#include "sorting.h"
 #include "step_profile.h"
 #include "stream.h"
 #include "wall_forces.h"
@@ -35,27 +34,31 @@ static dem_status step_neighbors(dem_scene *scene)
     return status;
 }
 
-static dem_status step_contacts(dem_scene *scene)
+/* leap: those spheres that have all their forces move at once, while the processor has them at hand; NULL: none. */
+static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4 *strayed)
 {
     const double dt = scene->definition.time_step;
     const int threads = scene->definition.threads;
     neighbor_list *list = &scene->neighbors;
     spheres *s = &scene->spheres;
-    const double between = contact_forces_between_spheres(&list->pairs, s, &scene->contact, dt, threads);
-    step_profile_lap(scene->profile, DEM_PART_PAIRS);
     const double wall = contact_forces_with_walls(&list->walls, s, &scene->drum, &scene->contact, dt, threads);
     step_profile_lap(scene->profile, DEM_PART_WALLS);
+    const double between = contact_forces_between_spheres(list, s, &scene->contact, dt, leap, strayed);
+    step_profile_lap(scene->profile, DEM_PART_PAIRS);
     const double largest = fmax(between, wall);
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
     return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene) : DEM_OK;
 }
 
+static bool torque_is_due(const dem_scene *scene)
+{
+    return scene->phase == DEM_PHASE_ROTATING && (scene->step_count - scene->rotation_start) % STEPS_BETWEEN_TORQUES == 0;
+}
+
 static void look_at_torque(dem_scene *scene)
 {
-    if (scene->phase != DEM_PHASE_ROTATING) return;
-    const bool is_due = (scene->step_count - scene->rotation_start) % STEPS_BETWEEN_TORQUES == 0;
-    if (!is_due && !scene->audit.is_on) return;
-    contact_forces_sum(&scene->neighbors, &scene->spheres, 0, scene->definition.threads);
+    const bool is_due = torque_is_due(scene);
+    if (!is_due && !(scene->audit.is_on && scene->phase == DEM_PHASE_ROTATING)) return;
     const double torque = energy_wall_torque(&scene->spheres);
     if (scene->audit.is_on) scene->audit.wall_work += scene->definition.time_step * scene->drum.rotation_rate * torque;
     if (!is_due) return;
@@ -64,9 +67,9 @@ static void look_at_torque(dem_scene *scene)
 }
 
 /* Half a step's work: once with the velocities before the forces act, once with those after. */
-static void audit_half_step(dem_scene *scene)
+static void audit_half_step(dem_scene *scene, const row8 *load)
 {
-    if (scene->audit.is_on) scene->audit.contact_work += 0.5 * scene->definition.time_step * energy_contact_power(&scene->spheres);
+    scene->audit.contact_work += 0.5 * scene->definition.time_step * energy_contact_power(&scene->spheres, load);
 }
 
 static body_forces forces_of_phase(const dem_scene *scene)
@@ -127,22 +130,38 @@ static dem_status continue_phase(dem_scene *scene)
     return DEM_OK;
 }
 
+/* The motion, and what is looked at between it and the forces. Returns integrator_advance's bound. */
+static double step_motion(dem_scene *scene, const leap_frog *leap, size_t moved, vector4 so_far)
+{
+    spheres *s = &scene->spheres;
+    row8 *load = NULL;
+    look_at_torque(scene);
+    if (scene->audit.is_on && (load = array_create(s->mobile_count, sizeof *load))) {
+        memcpy(load, s->load, s->mobile_count * sizeof *load);
+        audit_half_step(scene, load);
+    }
+    step_profile_lap(scene->profile, DEM_PART_CONTAINER);
+    const double deviation =
+        integrator_advance(s, scene->neighbors.picked_velocity, leap, moved, so_far, scene->definition.threads);
+    step_profile_lap(scene->profile, DEM_PART_MOTION);
+    if (load) audit_half_step(scene, load);
+    free(load);
+    return deviation;
+}
+
 dem_status scene_step(dem_scene *scene)
 {
     const double dt = scene->definition.time_step;
     step_profile_begin(scene->profile);
     dem_status status = sorting_look(scene) == DEM_OK ? step_neighbors(scene) : failure_of_memory(scene);
     if (status != DEM_OK) return status;
-    status = step_contacts(scene);
-    if (status != DEM_OK) return status;
-    look_at_torque(scene);
-    audit_half_step(scene);
-    step_profile_lap(scene->profile, DEM_PART_CONTAINER);
     const body_forces body = forces_of_phase(scene);
-    const double deviation =
-        integrator_advance(&scene->spheres, &scene->neighbors, &scene->drum, &body, dt, scene->definition.threads);
-    step_profile_lap(scene->profile, DEM_PART_MOTION);
-    audit_half_step(scene);
+    const leap_frog leap = integrator_leap(&scene->spheres, &scene->drum, &body, dt);
+    const bool looks = scene->profile || scene->audit.is_on || torque_is_due(scene);
+    vector4 so_far = { 0 };
+    status = step_contacts(scene, looks ? NULL : &leap, &so_far);
+    if (status != DEM_OK) return status;
+    const double deviation = step_motion(scene, &leap, looks ? 0 : scene->spheres.single_count, so_far);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);
     lost_hold(scene);
     scene->step_count++;

@@ -88,6 +88,7 @@ double contact_forces_with_walls(contact_list *walls, const spheres *s, const co
             gather(&block, walls, b * BLOCK, s, c);
             if (walls->has_rolling) gather_spins(&block, walls, b * BLOCK, s, c);
             contact_block_forces(walls, b * BLOCK, &block, contact, true, dt, &largest_here);
+            memcpy(walls->row + b * BLOCK, block.row, sizeof block.row);
         }
         largest = fmax(largest, wide_largest_lane(largest_here));
     }

@@ -1,12 +1,12 @@
 #include "wall_reach.h"
 
 /* A straight path's distance from the axis is largest at one of its ends. */
-static bool cylinder_in_reach(const spheres *s, size_t i, double wall, wall_outlook outlook)
+static inline bool cylinder_in_reach(const spheres *s, size_t i, double wall, wall_outlook outlook)
 {
     const double *a = sphere_place(s, i), t = outlook.duration;
     /* as contact arithmetic has the velocity */
     const double x = a[0] + t * (double)(real)s->velocity[i][0], y = a[1] + t * (double)(real)s->velocity[i][1];
-    const double rho2 = fmax(x * x + y * y, a[0] * a[0] + a[1] * a[1]);
+    const double then2 = x * x + y * y, now2 = a[0] * a[0] + a[1] * a[1], rho2 = then2 > now2 ? then2 : now2;
     const double limit = wall - s->full_radius[i] - outlook.margin;
     return limit < 0 || rho2 > limit * limit;
 }
@@ -42,12 +42,22 @@ static bool bars_are_far(const spheres *s, const container *c, wall_outlook outl
     return outermost + (1 + 1e-6) * s->full_radius[i] + outlook.margin < c->bars_from;
 }
 
-size_t wall_reach_count(const spheres *s, const container *c, wall_outlook outlook, size_t i)
+static size_t walls_in_reach(const spheres *s, const container *c, wall_outlook outlook, size_t i)
 {
     const int end = c->bar_count && bars_are_far(s, c, outlook, i) ? c->first_bar : c->wall_count;
     size_t count = 0;
     for (int k = 0; k < end; k++) count += in_reach(s, c, outlook, i, k);
     return count;
+}
+
+void wall_reach_count(const spheres *s, const container *c, wall_outlook outlook, size_t from, size_t to, size_t *count)
+{
+    if (c->wall_count == 1 && c->wall[0].kind == WALL_CYLINDER) {
+        const double wall = c->wall[0].radius;
+        for (size_t i = from; i < to; i++) count[i] = cylinder_in_reach(s, i, wall, outlook);
+        return;
+    }
+    for (size_t i = from; i < to; i++) count[i] = walls_in_reach(s, c, outlook, i);
 }
 
 void wall_reach_fill(contact_list *walls, const spheres *s, const container *c, wall_outlook outlook, size_t i)

@@ -84,6 +84,22 @@ WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from
 #endif
 }
 
+/* Those of LANES numbers whose bit is set in `bits`; of which only those exist whose bit is set in `before`, one after the
+ * other from `from` on, and the others are 0. Room for LANES must be behind `to` and `from`. */
+WIDE_INLINE void wide_carry(real *to, uint32_t bits, const real *from, uint32_t before)
+{
+#if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
+    const __m512 all = _mm512_maskz_expand_ps((__mmask16)before, _mm512_loadu_ps(from));
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)bits, all));
+#else
+    for (int k = 0; k < LANES; k++) {
+        *to = before >> k & 1 ? *from : 0;
+        from += before >> k & 1;
+        to += bits >> k & 1;
+    }
+#endif
+}
+
 /* a b + c, rounded once */
 WIDE_INLINE wide_double wide_double_fused(wide_double a, wide_double b, wide_double c)
 {
@@ -165,20 +181,13 @@ WIDE_INLINE half_row half_row_place(vector4 place, real radius)
 }
 #endif
 
-/* a b + c, rounded once */
+/* a b + c, where a has zeros and ones: products are exact, so fused or not is the same. */
 WIDE_INLINE row8 row8_fused(row8 a, row8 b, row8 c)
 {
 #if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
     return (row8)_mm256_fmadd_ps((__m256)a, (__m256)b, (__m256)c);
 #else
-    typedef union parts {
-        row8 all;
-        wide part[8 / LANES];
-    } parts;
-    const parts x = { a }, y = { b };
-    parts z = { c };
-    for (int k = 0; k < 8 / LANES; k++) z.part[k] = wide_fused(x.part[k], y.part[k], z.part[k]);
-    return z.all;
+    return a * b + c;
 #endif
 }
 WIDE_INLINE vector4 vector4_fused(vector4 a, vector4 b, vector4 c)
