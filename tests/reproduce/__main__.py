@@ -84,7 +84,7 @@ def run_all(service, files, collection, rows_of):
         collected = collecting.collect(service, name, study)
         collection.keep(collected)
         for case in investigating.disagreeing(collected, rows_of(name)):
-            further.append((name, case, posting.post(service, investigating.document_for(collected, case), say)))
+            further.append((name, case, posting.post(service, investigating.document_for(collected, case, rows_of(name)), say)))
     for name, case, study in further:
         posting.wait(service, study, [entry[2] for entry in further], say)
         collection.keep(collecting.collect(service, name, study), case)

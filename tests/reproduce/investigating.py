@@ -41,18 +41,21 @@ def fill_variants(inputs):
     ]
 
 
-def variants(inputs):
-    """What is unsaid: how rough the wall is, how full the drum, how stiff and how elastic the particles."""
+def variants(inputs, is_regime=False):
+    """What is unsaid: how rough the wall is, how full the drum, how stiff and how elastic the particles. A regime alone is tried
+    with what may hold or loosen the bed."""
     if "stream" in inputs:
         return fill_variants(inputs)
     diameter = max(kind["diameter"] for kind in inputs["particles"])
     friction, fill = inputs["wall"]["friction"], inputs["fill_fraction"]
     overlap = inputs["contact"].get("maximum_overlap", 0.01)
     lining = {"diameter": diameter, "pitch": diameter}
-    return [
+    hold = [
         {"name": "wall lined with glued spheres", "inputs": {"wall": {"lining": lining}}},
         {"name": f"wall friction {friction / 2:g}", "inputs": {"wall": {"friction": friction / 2}}},
         {"name": f"wall friction {friction * 2:g}", "inputs": {"wall": {"friction": friction * 2}}},
+    ]
+    return hold if is_regime else hold + [
         {"name": f"fill {fill - 0.1:g}", "inputs": {"fill_fraction": round(fill - 0.1, 4)}},
         {"name": f"fill {fill + 0.1:g}", "inputs": {"fill_fraction": round(fill + 0.1, 4)}},
         {"name": f"four times as stiff, overlap {overlap / 2:g}", "inputs": {"contact": {"maximum_overlap": overlap / 2}}},
@@ -61,21 +64,22 @@ def variants(inputs):
 
 
 def can_vary(collected, row):
-    """Drums and fills alone have all that is varied; a row without a number can't be nearer or further. "vary": false says
-    that a row is an input, or would take too long."""
+    """Drums and fills alone have all that is varied; "more than nothing" can't be nearer or further. "vary": false says that a
+    row is an input, or would take too long."""
     process = collected["document"]["base"].get("process", "drum")
     inputs = request_of(collected["document"], row["case"])
-    if not row.get("vary", True) or "value" not in row or inputs is None or any("diameter" not in kind for kind in inputs["particles"]):
+    if not row.get("vary", True) or not {"value", "words"} & set(row) or inputs is None or any("diameter" not in kind for kind in inputs["particles"]):
         return False
     if process == "fill":
         return "impact_speed" in inputs.get("stream", {}) and "diameter" in inputs["stream"]
     return process == "drum" and "fill_fraction" in inputs and "friction" in inputs.get("wall", {})
 
 
-def document_for(collected, case):
+def document_for(collected, case, rows):
     """The study that varies the unsaid about one case."""
     inputs = request_of(collected["document"], case)
-    cases = [entry | {"label": {"paper": "unsaid"}} for entry in variants(inputs)]
+    is_regime = all("words" in row for row in wrong_rows(collected, rows) if row["case"] == case)
+    cases = [entry | {"label": {"paper": "unsaid"}} for entry in variants(inputs, is_regime)]
     name = f"investigate {collected['document']['name']}: {case}"
     base = {"inputs": inputs}
     if "process" in collected["document"]["base"]:
@@ -84,7 +88,11 @@ def document_for(collected, case):
             "cases": cases, "repeats": 1}
 
 
+def wrong_rows(collected, rows):
+    return [row for row in rows if can_vary(collected, row) and judge(row, runs_of(collected, row["case"])).agrees is False]
+
+
 def disagreeing(collected, rows):
     """Cases with a row that disagrees and can be varied, in order, each once."""
-    wrong = [row["case"] for row in rows if can_vary(collected, row) and judge(row, runs_of(collected, row["case"])).agrees is False]
+    wrong = [row["case"] for row in wrong_rows(collected, rows)]
     return [case for case in cases_of(collected) if case in wrong]

@@ -92,7 +92,7 @@ def investigations(book, file, collected):
     for case in cases_of(collected):
         tried = book.investigations.get((file, case))
         for row in book.rows(file) if tried else []:
-            if row["case"] == case and "value" in row and judge(row, runs_of(collected, case)).agrees is False:
+            if row["case"] == case and {"value", "words"} & set(row) and judge(row, runs_of(collected, case)).agrees is False:
                 parts += investigation(row, tried, runs_of(collected, case))
     return parts
 
@@ -105,7 +105,7 @@ def investigation(row, tried, as_studied):
     rows += [[case, with_error(verdict.here), z_text(verdict.z), regime_of(runs)] for case, verdict, runs in judged]
     agrees = [case for case, verdict, _ in judged if verdict.agrees]
     said = (f"It agrees with {listed(agrees)}: what the paper leaves unsaid is enough to explain the difference." if agrees else
-            "None of these brings it within three spreads.")
+            "None of these changes that." if "words" in row else "None of these brings it within three spreads.")
     beyond = [case for case, verdict, _ in judged if not agrees and verdict.z is not None and verdict.z * before.z < 0]
     if beyond:
         said += f" The paper's value lies between the study's and that of {listed(beyond)}."

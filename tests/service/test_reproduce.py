@@ -169,10 +169,18 @@ def test_what_is_unsaid_is_varied_about_a_row_that_disagrees(tmp_path):
     runs = [a_run("mu 0.02, pi/2 rad/s", angle) for angle in (6, 6.1)] + [a_run("mu 0.1, pi/2 rad/s", 23)]
     collected = {"file": "table1", "document": STUDIES["table1"], "runs": runs}
     assert investigating.disagreeing(collected, PAPER["table1"]) == ["mu 0.02, pi/2 rad/s"]
-    document = investigating.document_for(collected, "mu 0.02, pi/2 rad/s")
+    document = investigating.document_for(collected, "mu 0.02, pi/2 rad/s", PAPER["table1"])
     assert document["base"]["inputs"]["contact"]["friction"] == 0.02
     names = [case["case"] for case in check(tmp_path, document)["cases"]]
     assert "wall lined with glued spheres" in names and len(names) == len(set(names)) >= 6
+
+
+def test_a_regime_that_disagrees_is_tried_with_other_walls(tmp_path):
+    case = "pi/8 rad/s"
+    collected = {"file": "rotation-rate", "document": STUDIES["rotation-rate"], "runs": [a_run(case, 23)]}
+    assert investigating.disagreeing(collected, PAPER["rotation-rate"]) == [case]
+    document = investigating.document_for(collected, case, PAPER["rotation-rate"])
+    assert [entry["case"] for entry in check(tmp_path, document)["cases"]] == ["wall lined with glued spheres", "wall friction 0.25", "wall friction 1"]
 
 
 # --- the report on canned results ---
