@@ -54,7 +54,7 @@ static dem_status reserve_spheres(cell_grid *grid, size_t count)
 static int cell_along(const cell_grid *grid, double x, int axis)
 {
     const double place = (x - grid->origin[axis]) * grid->inverse_size[axis];
-    const int cell = place > 0 ? (int)fmin(place, 1e6) : 0;
+    const int cell = place > 0 ? (int)(place < 1e6 ? place : 1e6) : 0;
     return cell < grid->cells[axis] ? cell : grid->cells[axis] - 1;
 }
 

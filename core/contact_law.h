@@ -141,13 +141,14 @@ static inline void damped_friction_increment(const real n[3], const real ds[3], 
 {
     const real sn = dot(stretch, n);
     const real u[3] = { fused(-sn, n[0], stretch[0]), fused(-sn, n[1], stretch[1]), fused(-sn, n[2], stretch[2]) };
-    const real ss = dot(stretch, stretch), uu = dot(u, u);
-    const real keep = uu > TINY_SQUARE ? ss * inverse_root(ss) * inverse_root(uu) : 0;
+    /* |stretch|/|u|, as above by two terms of the root */
+    const real uu = dot(u, u), off2 = uu > TINY_SQUARE ? sn * sn * inverse(uu) : 0;
+    const real keep = fused((real)0.5, lesser(off2, 1), 1);
     const real limit = greater(mu_n, -mu_n);
     const bool pressed = limit > TINY_FORCE;
     real dashpot[3];
     for (int c = 0; c < 3; c++) {
-        dashpot[c] = springs.c_t * (ds[c] * inverse_dt);
+        dashpot[c] = springs.c_t * inverse_dt * ds[c];
         stretch[c] = fused(u[c], keep, ds[c]);
         force[c] = fused(springs.k_t, stretch[c], dashpot[c]);
     }

@@ -62,25 +62,36 @@ static void normal_forces(contact_block *restrict block)
     }
 }
 
+/* damped_friction_increment of contact_law.h, LANES at a time, in two passes: the stretch turned into the tangent plane and
+ * grown by this step's displacement; the force, and what it leaves of the stretch. */
+static void turn_stretch(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y, const real *restrict t_z)
+{
+    const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
+        const wide stretch[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
+        const wide sn = -wide_dot(stretch, n);
+        const wide u[3] = { wide_fused(sn, n[0], stretch[0]), wide_fused(sn, n[1], stretch[1]), wide_fused(sn, n[2], stretch[2]) };
+        const wide uu = wide_dot(u, u);
+        const wide off2 = wide_select(wide_exceeds(uu, tiny), sn * sn * wide_inverse(uu), zero);
+        const wide keep = wide_fused(half, wide_lesser(off2, one), one);
+        for (int c = 0; c < 3; c++) wide_store(block->h[c] + k, wide_fused(u[c], keep, wide_load(block->ds[c] + k)));
+    }
+}
+
 static void friction_forces(contact_block *restrict block, real *restrict t_x, real *restrict t_y, real *restrict t_z,
                             const real *restrict friction, real inverse_time_step)
 {
     real *const spring[3] = { t_x, t_y, t_z };
-    const wide zero = wide_all(0), one = wide_all(1), tiny = wide_all(TINY_SQUARE), inverse_dt = wide_all(inverse_time_step);
+    const wide zero = wide_all(0), one = wide_all(1), inverse_dt = wide_all(inverse_time_step);
     for (int k = 0; k < BLOCK; k += LANES) {
-        const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
-        const wide stretch[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
-        const wide sn = -wide_dot(stretch, n), k_t = wide_load(block->stored + k);
-        const wide u[3] = { wide_fused(sn, n[0], stretch[0]), wide_fused(sn, n[1], stretch[1]), wide_fused(sn, n[2], stretch[2]) };
-        const wide ss = wide_dot(stretch, stretch), uu = wide_dot(u, u);
-        const wide keep = wide_select(wide_exceeds(uu, tiny), wide_square_root(ss) * wide_inverse_root(uu), zero);
+        const wide k_t = wide_load(block->stored + k), per_dt = wide_load(block->s_p + k) * inverse_dt;
         const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k), limit = wide_greater(mu_n, -mu_n);
         const wide_mask pressed = wide_exceeds(limit, wide_all(TINY_FORCE));
         wide dashpot[3], stretched[3], f[3];
         for (int c = 0; c < 3; c++) {
-            const wide ds = wide_load(block->ds[c] + k);
-            dashpot[c] = wide_load(block->s_p + k) * (ds * inverse_dt);
-            stretched[c] = wide_fused(u[c], keep, ds);
+            dashpot[c] = per_dt * wide_load(block->ds[c] + k);
+            stretched[c] = wide_load(block->h[c] + k);
             f[c] = wide_fused(k_t, stretched[c], dashpot[c]);
         }
         const wide size2 = wide_dot(f, f);
@@ -109,6 +120,7 @@ void contact_block_damped_springs(contact_block *block, contact_list *list, size
         hertz_mindlin_block(block, list->mass + start, list->first_radius + start, law, is_wall);
     }
     normal_forces(block);
+    turn_stretch(block, list->t[0] + start, list->t[1] + start, list->t[2] + start);
     friction_forces(block, list->t[0] + start, list->t[1] + start, list->t[2] + start, list->friction + start,
                     dt > 0 ? (real)(1 / dt) : 0);
 }
