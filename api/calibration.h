@@ -20,23 +20,23 @@ typedef struct calibration {
     char made[32];                    /* when, in UTC, as the jobs' times */
     int cores;                        /* of the machine that asks; not in the file */
     /* ns a sphere-step of one thread, in the paper's drum at friction 0.1: */
-    double sphere[CALIBRATION_LAWS], cluster[CALIBRATION_LAWS];
+    double sphere[CALIBRATION_LAWS], cluster[CALIBRATION_LAWS];     /* clusters: tetrahedra */
     double size[CALIBRATION_SIZES], size_factor[CALIBRATION_SIZES]; /* spheres; cost relative to the paper's drum */
     double correction; /* what finished runs took over what was said of them; 1: nothing known */
 } calibration;
 
-/* Cautious, for a machine on which nothing has been measured yet. */
+/* Of a processor with AVX-512 near 4 GHz: for a machine on which nothing has been measured yet. */
 calibration calibration_built_in(void);
 
 /* What a step has to do. */
 typedef struct calibration_load {
-    double spheres; /* all of them, those of clusters too */
-    bool clusters;
+    double spheres;     /* all of them, those of clusters too */
+    double of_particle; /* spheres that a particle has, in the mean; 1: there are no clusters */
     dem_contact_law law;
     double friction;
     bool rolling_friction;
     bool in_double; /* precision */
-    int threads; /* asked for; no more count than there are cores */
+    int threads;    /* asked for; no more count than there are cores */
 } calibration_load;
 
 /* s of wall time for one step. machine NULL: built-in figures. */

@@ -48,7 +48,7 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
     const calibration_load load = { .spheres = spheres + lining_spheres(drum),
-                                    .clusters = spheres > particles,
+                                    .of_particle = spheres / particles,
                                     .law = drum->contact.law,
                                     .friction = drum->contact.friction,
                                     .rolling_friction = dem_has_rolling_friction(drum),

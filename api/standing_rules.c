@@ -76,7 +76,7 @@ job_estimate standing_estimate(const job_spec *spec, const calibration *machine,
     };
     estimate.steps = ceil(estimate.simulated_seconds / scene->time_step);
     const calibration_load load = { .spheres = share_inside * spheres,
-                                    .clusters = spheres > particles,
+                                    .of_particle = spheres / particles,
                                     .law = scene->contact.law,
                                     .friction = scene->contact.friction,
                                     .rolling_friction = dem_has_rolling_friction(scene),

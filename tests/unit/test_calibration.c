@@ -39,8 +39,11 @@ static void a_step_costs_its_spheres_by_law_and_kind(void **state)
     assert_true(is_near(calibration_seconds_a_step(&machine, &load), 2000 * 10e-9));
     load.law = DEM_HERTZ_MINDLIN;
     assert_true(is_near(calibration_seconds_a_step(&machine, &load), 2000 * 30e-9));
-    load.clusters = true;
+    load.of_particle = 4; /* what is measured: tetrahedra */
     assert_true(is_near(calibration_seconds_a_step(&machine, &load), 2000 * 60e-9));
+    load.of_particle = 8; /* half as many bodies: between half of it and all of it */
+    const double cubes = calibration_seconds_a_step(&machine, &load);
+    assert_true(cubes > 2000 * 30e-9 && cubes < 2000 * 60e-9);
 }
 
 static void between_measured_sizes_cost_follows_the_logarithm(void **state)
