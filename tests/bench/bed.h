@@ -69,22 +69,6 @@ static inline int by_spheres(const void *a, const void *b)
     return (x->second > y->second) - (x->second < y->second);
 }
 
-/* Ids at random, as those of a bed that was filled at random are: neighbors in space are none in memory. */
-static inline int32_t *bed_new_ids(size_t count)
-{
-    int32_t *id = malloc(count * sizeof *id);
-    uint64_t state = 88172645463325252u;
-    for (size_t i = 0; i < count; i++) id[i] = (int32_t)i;
-    for (size_t i = count - 1; i > 0; i--) {
-        state ^= state << 13, state ^= state >> 7, state ^= state << 17; /* xorshift (Marsaglia 2003) */
-        const size_t k = (size_t)(state % (i + 1));
-        const int32_t kept = id[i];
-        id[i] = id[k];
-        id[k] = kept;
-    }
-    return id;
-}
-
 static inline dem_state_array *bed_array(dem_state *state, const char *name)
 {
     for (size_t k = 0; k < state->array_count; k++)
@@ -93,14 +77,14 @@ static inline dem_state_array *bed_array(dem_state *state, const char *name)
     return NULL;
 }
 
-static inline void bed_repeat_rows(dem_state_array *array, size_t copies, const int32_t *id, double length, bool is_position)
+static inline void bed_repeat_rows(dem_state_array *array, size_t copies, double length, bool is_position)
 {
     const size_t n = array->rows, columns = array->columns;
     const double *from = array->data;
     double *to = malloc(n * copies * columns * sizeof *to);
     for (size_t c = 0; c < copies; c++)
         for (size_t i = 0; i < n; i++) {
-            double *row = to + (size_t)id[c * n + i] * columns;
+            double *row = to + (c * n + i) * columns;
             memcpy(row, from + i * columns, columns * sizeof *row);
             if (is_position) row[2] += length * ((double)c - 0.5 * (double)(copies - 1));
         }
@@ -111,7 +95,7 @@ static inline void bed_repeat_rows(dem_state_array *array, size_t copies, const 
 
 /* Contacts of spheres i and j of the original, which may touch through the periodic end: then j is in the next copy. */
 static inline void bed_repeat_contacts(dem_state *state, const char *ids, const char *histories, size_t n, size_t copies,
-                                       const int32_t *id, const double *position, double length, bool with_wall)
+                                       const double *position, double length, bool with_wall)
 {
     dem_state_array *pair = bed_array(state, ids), *history = bed_array(state, histories);
     const size_t rows = pair->rows, columns = history->columns;
@@ -121,14 +105,14 @@ static inline void bed_repeat_contacts(dem_state *state, const char *ids, const 
     for (size_t c = 0; c < copies; c++)
         for (size_t k = 0; k < rows; k++) {
             const size_t i = (size_t)from[2 * k], j = (size_t)from[2 * k + 1];
-            const int32_t first = id[c * n + i];
+            const int32_t first = (int32_t)(c * n + i);
             if (with_wall) {
                 all[count++] = (bed_contact){ first, from[2 * k + 1], k, false };
                 continue;
             }
             const double dz = position[3 * j + 2] - position[3 * i + 2];
             const size_t other = dz > 0.5 * length ? (c + copies - 1) % copies : dz < -0.5 * length ? (c + 1) % copies : c;
-            const int32_t second = id[other * n + j];
+            const int32_t second = (int32_t)(other * n + j);
             all[count++] = first < second ? (bed_contact){ first, second, k, false } : (bed_contact){ second, first, k, true };
         }
     qsort(all, count, sizeof *all, by_spheres);
@@ -147,7 +131,18 @@ static inline void bed_repeat_contacts(dem_state *state, const char *ids, const 
     *history = (dem_state_array){ history->name, DEM_FLOAT64, count, columns, numbers };
 }
 
-/* A scene of `copies` times this bed of spheres, one behind the other, with so many threads. */
+/* Ids in the order in memory. */
+static inline void bed_number(dem_state_array *array, size_t count)
+{
+    int32_t *id = malloc(count * sizeof *id);
+    for (size_t i = 0; i < count; i++) id[i] = (int32_t)i;
+    free(array->data);
+    array->data = id;
+    array->rows = count;
+}
+
+/* A scene of `copies` times this bed of spheres, one behind the other, with so many threads. They lie in memory copy after
+ * copy, each in the order that the core had sorted it into. */
 static inline dem_scene *bed_repeat(const dem_scene *scene, const dem_drum_definition *drum, size_t copies, int threads)
 {
     dem_state state;
@@ -158,18 +153,17 @@ static inline dem_scene *bed_repeat(const dem_scene *scene, const dem_drum_defin
     large.threads = threads;
     if (copies > 1) {
         const size_t n = drum->particle_count;
-        int32_t *id = bed_new_ids(n * copies);
         const dem_state_array *places = bed_array(&state, "position");
         double *position = malloc(3 * n * sizeof *position);
         memcpy(position, places->data, 3 * n * sizeof *position);
-        bed_repeat_rows(bed_array(&state, "position"), copies, id, drum->length, true);
-        bed_repeat_rows(bed_array(&state, "velocity"), copies, id, 0, false);
-        bed_repeat_rows(bed_array(&state, "angular_velocity"), copies, id, 0, false);
-        bed_repeat_rows(bed_array(&state, "fallen_time"), copies, id, 0, false);
-        bed_repeat_contacts(&state, "pair", "pair_history", n, copies, id, position, drum->length, false);
-        bed_repeat_contacts(&state, "wall_contact", "wall_history", n, copies, id, position, drum->length, true);
+        bed_repeat_rows(bed_array(&state, "position"), copies, drum->length, true);
+        bed_repeat_rows(bed_array(&state, "velocity"), copies, 0, false);
+        bed_repeat_rows(bed_array(&state, "angular_velocity"), copies, 0, false);
+        bed_repeat_rows(bed_array(&state, "fallen_time"), copies, 0, false);
+        bed_repeat_contacts(&state, "pair", "pair_history", n, copies, position, drum->length, false);
+        bed_repeat_contacts(&state, "wall_contact", "wall_history", n, copies, position, drum->length, true);
+        bed_number(bed_array(&state, "particle"), n * copies);
         free(position);
-        free(id);
     }
     dem_scene *repeated = bed_create(&large);
     const dem_status status = dem_scene_restore(repeated, &state);
