@@ -21,7 +21,8 @@ void dem_scene_free(dem_scene *scene);
 dem_status dem_scene_advance(dem_scene *scene, int64_t steps);
 const dem_failure *dem_scene_failure(const dem_scene *scene);
 
-/* From now on `profile` is filled, until it is set to NULL; it must live as long. Nothing computed depends on it. */
+/* From now on `profile` is filled, until it is set to NULL; it must live as long. Nothing computed depends on it,
+ * but a step then takes its parts one after the other, which is a tenth slower. */
 void dem_scene_set_profile(dem_scene *scene, dem_step_profile *profile);
 
 dem_phase dem_scene_phase(const dem_scene *scene);
