@@ -203,6 +203,32 @@ static void fast_beds_rain_slide_or_turn_with_the_drum(void **unused)
     dem_scene_free(scene);
 }
 
+/* A bed that slid for most of the window and has turned with the drum for its last four revolutions, which are 0.84 s, or
+ * the last 17 frames. */
+static void a_fast_bed_is_judged_by_its_last_four_revolutions(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(30);
+    const size_t width = dem_frame_width(scene);
+    double *table = steady_table(scene);
+    scene->rotation_start = 0;
+    scene->step_count = llround((FRAMES - 1) * INTERVAL / scene->definition.time_step);
+    set_column(table, width, FRAME_WALL_COVERAGE, 0.5, 0);
+    set_column(table, width, FRAME_SURFACE_LAG, 2, 0);
+    for (int turned = 16; turned <= 17; turned++) { /* with one frame too few, what it did before still counts */
+        for (int k = FRAMES - turned; k < FRAMES; k++) {
+            table[(size_t)k * width + FRAME_WALL_COVERAGE] = 1;
+            table[(size_t)k * width + FRAME_SURFACE_LAG] = 0.01;
+        }
+        const dem_drum_results r = results_of(scene, table, FRAMES);
+        CHECK_NEAR(r.regime.surface_lag, turned == 17 ? 0.01 : (2 + 16 * 0.01) / 17, 1e-12);
+        CHECK_NEAR(r.regime.wall_coverage, turned == 17 ? 1 : 16.5 / 17, 1e-12);
+        assert_int_equal(r.regime.regime, turned == 17 ? DEM_CENTRIFUGING : DEM_SLIDING);
+    }
+    free(table);
+    dem_scene_free(scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -212,6 +238,7 @@ int main(void)
         cmocka_unit_test(the_chord_and_the_fluctuation_are_those_of_the_mean_interface),
         cmocka_unit_test(regimes_are_told_from_how_the_bed_moves),
         cmocka_unit_test(fast_beds_rain_slide_or_turn_with_the_drum),
+        cmocka_unit_test(a_fast_bed_is_judged_by_its_last_four_revolutions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
