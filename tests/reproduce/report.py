@@ -48,10 +48,12 @@ def summary(book):
     rows = [[file, verdict.row["case"], verdict.row["what"], verdict.row["paper"], here_text(verdict), z_text(verdict.z),
              agreement(verdict)] for file, verdict in judged]
     cost = [[file, *cost_row(book.study(file))] for file in book.wanted]
-    everything = sum(work(one) for one in book.studies.values())
+    everything = [*book.studies.values(), *book.investigations.values()]
+    cost += [[f"what is unsaid of {file}: {case}", *cost_row(tried)] for (file, case), tried in book.investigations.items()]
     return [said, table(["study", "case", "what", "paper", "here", "z", "agrees"], rows),
-            f"What it took: {number(everything)} particle-steps.",
-            table(["study", "runs", "particle-steps", "processor time", "from first start to last end", "program"], cost)]
+            f"What it took: {number(sum(map(work, everything)))} sphere-steps, "
+            f"{duration(sum(total(one['runs'], 'results.run.wall_seconds') for one in everything))} of one processor.",
+            table(["study", "runs", "sphere-steps", "processor time", "from first start to last end", "program"], cost)]
 
 
 def work(collected):
