@@ -155,13 +155,13 @@ static double part_forces(neighbor_list *list, spheres *s, const dem_contact_par
                           const leap_frog *leap, vector4 *strayed)
 {
     contact_list *const pairs = &list->pairs;
-    const size_t blocks = round_up_to_block(pairs->count) / BLOCK, end = part_start(blocks, part + 1, list->parts);
+    const size_t end = list->part_blocks[part + 1];
     const size_t last = list->part_begins[part + 1] < s->single_count ? list->part_begins[part + 1] : s->single_count;
     size_t moved = list->part_begins[part], shared = list->part_shared[part];
     wide largest = wide_all(0);
     for (size_t k = list->walls.start[moved]; k < list->walls.start[list->part_begins[part + 1]]; k++)
         s->load[list->walls.first[k]] += list->walls.row[k];
-    for (size_t b = part_start(blocks, part, list->parts); b < end; b++) {
+    for (size_t b = list->part_blocks[part]; b < end; b++) {
         contact_block block;
         gather_spheres(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
         if (pairs->has_rolling) gather_spins(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);

@@ -338,18 +338,24 @@ static void describe_pairs(contact_list *pairs, const spheres *s, const dem_cont
     }
 }
 
-/* A part's contacts come block by block; a sphere is its own where its contacts as first begin in it. */
+/* Parts that take equally long: a contact costs some 5.5 ns, a sphere's step 3.5 (core/NUMERICS.md, "Speed"). A sphere is a
+ * part's own where its contacts as first begin in it. */
 static void parts_begin(neighbor_list *list, size_t n, int parts)
 {
+    static const double OF_BLOCK = 5.5 * BLOCK, OF_SPHERE = 3.5;
     const contact_list *pairs = &list->pairs;
     const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
+    const double all = OF_BLOCK * (double)blocks + OF_SPHERE * (double)n;
     list->parts = parts;
-    list->part_begins[0] = 0;
-    for (int p = 1; p < parts; p++) {
-        const size_t k = part_start(blocks, p, parts) * BLOCK;
-        const bool goes_on = k > 0 && k < pairs->count && pairs->first[k - 1] == pairs->first[k];
-        list->part_begins[p] = k < pairs->count ? (size_t)pairs->first[k] + goes_on : n;
+    size_t b = 0;
+    for (int p = 0; p < parts; p++) {
+        while (b < blocks && OF_BLOCK * (double)b + OF_SPHERE * pairs->first[b * BLOCK] < all * p / parts) b++;
+        const size_t k = b * BLOCK;
+        const bool goes_on = k > 0 && b < blocks && pairs->first[k - 1] == pairs->first[k];
+        list->part_blocks[p] = b;
+        list->part_begins[p] = p == 0 ? 0 : b < blocks ? (size_t)pairs->first[k] + goes_on : n;
     }
+    list->part_blocks[parts] = blocks;
     list->part_begins[parts] = n;
 }
 
@@ -368,12 +374,11 @@ static dem_status later_reserve(neighbor_list *list, size_t count)
 static size_t shared_find(neighbor_list *list, size_t n)
 {
     const contact_list *pairs = &list->pairs;
-    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
     memset(list->is_shared, 0, n);
     for (int p = 0; p < list->parts; p++) {
-        size_t end = part_start(blocks, p + 1, list->parts) * BLOCK;
+        size_t end = list->part_blocks[p + 1] * BLOCK;
         if (end > pairs->count) end = pairs->count;
-        for (size_t k = part_start(blocks, p, list->parts) * BLOCK; k < end; k++) {
+        for (size_t k = list->part_blocks[p] * BLOCK; k < end; k++) {
             const size_t i = (size_t)pairs->first[k], j = (size_t)pairs->second[k];
             if (i < list->part_begins[p]) list->is_shared[i] = 1;
             if (j < n && j >= list->part_begins[p + 1]) list->is_shared[j] = 1;
@@ -401,10 +406,9 @@ static dem_status parts_share(neighbor_list *list, spheres *s, int threads)
     const size_t ends = list->parts > 1 ? shared_find(list, n) : 0;
     if (later_reserve(list, ends) != DEM_OK || spheres_reserve_loads(s, behind + ends) != DEM_OK) return DEM_NO_MEMORY;
     if (list->parts == 1) return DEM_OK;
-    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
     int part = 0;
     for (size_t k = 0; k < pairs->count; k++) {
-        while (k >= part_start(blocks, part + 1, list->parts) * BLOCK) part++;
+        while (k >= list->part_blocks[part + 1] * BLOCK) part++;
         const size_t i = (size_t)pairs->first[k], j = (size_t)pairs->second[k];
         if (list->is_shared[i]) {
             pairs->to_first[k] = load_offset(behind + list->later_count);

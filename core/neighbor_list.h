@@ -47,6 +47,7 @@ typedef struct neighbor_list {
      * Of a sphere that has contacts in several, each force has a load of its own; these are summed afterwards. Loads: of
      * the mobile spheres, then one for each part's forces on others (which nobody reads), then `later`. */
     int parts;
+    size_t part_blocks[MOST_PARTS + 1]; /* the first block of each part */
     size_t part_begins[MOST_PARTS + 1]; /* the first sphere of each part's own */
     size_t part_shared[MOST_PARTS + 1]; /* the first of them in `shared` */
     int32_t *shared;                    /* (mobile) spheres with contacts in several parts, ascending */
