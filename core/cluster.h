@@ -47,16 +47,6 @@ static inline vector4 cluster_offset(const cluster_shape *shape, size_t sphere, 
     return (vector4){ scale * r[0], scale * r[1], scale * r[2] };
 }
 
-/* Along the axes of space. */
-static inline void cluster_spin(const cluster_shape *shape, const cluster_body *body, double omega[3])
-{
-    double a[3][3];
-    quaternion_matrix(body->orientation, a);
-    if (shape->is_isotropic)
-        for (int c = 0; c < 3; c++) omega[c] = body->spin[c];
-    else to_space(a, body->spin, omega);
-}
-
 /* Angular velocity by Euler's equations in principal axes, from half step to half step, Eqns 5-10: predicted with the
  * last step's change, then corrected so many times (at least once; the order is two however often).
  * torque: N m, on the step. change: rad/s, of the last step; of this one afterwards. */
