@@ -10,7 +10,8 @@ import requests
 
 from conftest import BUILD, SPEC
 
-LONG = SPEC | {"duration": {"seconds": 12.0}, "fill_fraction": 0.5, "snapshots": {"interval": 0.5}}
+# Long enough that a worker can be seen at work and killed: the first report of progress comes after a second.
+LONG = SPEC | {"duration": {"seconds": 40.0}, "fill_fraction": 0.5, "snapshots": {"interval": 0.5}}
 
 
 def gone(process, seconds=5):
