@@ -74,6 +74,9 @@ static void check_lining(const drum_inputs *inputs, problem_list *problems)
                          "is %g m; must be at most %g m, 1/%g of the drum's "
                          "diameter",
                          inputs->lining_diameter, most, LEAST_DRUM_DIAMETERS);
+    if (!has_end_walls(inputs) && inputs->lining_diameter * LEAST_LENGTH_DIAMETERS > inputs->drum_length * (1.0 + 1e-9))
+        problem_list_add(problems, "/inputs/wall/lining/diameter", "is %g m; must be at most %g m, 1/%g of the periodic axis",
+                         inputs->lining_diameter, inputs->drum_length / LEAST_LENGTH_DIAMETERS, LEAST_LENGTH_DIAMETERS);
     if (inputs->lining_pitch < 0.5 * inputs->lining_diameter)
         problem_list_add(problems, "/inputs/wall/lining/pitch",
                          "is %g m; must be at least %g m, half the diameter of "

@@ -9,10 +9,10 @@
  * block's values stay in the first-level cache between passes. The passes are short so that the processor works on
  * several batches at a time: in one long pass, each batch waits for the chain of its own roots and quotients. */
 typedef struct contact_block {
-    real n[3][BLOCK];              /* displacement between centres, m; then unit normal, first to second */
-    real distance2[BLOCK];         /* m2; to the wall: from the axis */
-    real gap2[BLOCK];              /* m2: square of the distance at first touch less distance2 (wall: the reverse) */
-    real reach[BLOCK];             /* m: distance at first touch */
+    real n[3][BLOCK];              /* displacement between centres, in a unit u; then unit normal, first to second */
+    real distance2[BLOCK];         /* u2; to the wall: from the axis */
+    real gap2[BLOCK];              /* m u: square of the distance at first touch less distance2 (wall: the reverse) */
+    real reach[BLOCK];             /* u: distance at first touch */
     real radii[BLOCK];             /* m, of both together; a wall has none */
     real v[3][BLOCK];              /* m/s: second less first */
     real r_omega[3][BLOCK];        /* m/s: sum of radius times spin */

@@ -6,22 +6,17 @@
 static void gather_spheres(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
                            const int32_t *restrict second)
 {
-    double unit[3];
-    spheres_ring_unit(s, unit);
+    const double step = spheres_ring_step(s);
+    const wide to_steps = wide_all((real)(1 / step)), to_metres = wide_all((real)step);
     for (int k = 0; k < BLOCK; k += LANES) {
         wide_pairs pairs;
-        wide_double radii[HALVES], d2[HALVES], gap2[HALVES];
-        wide_row_pairs(s->row, first + k, second + k, unit, &pairs);
-        wide_to_doubles(pairs.radii, radii);
-        for (int h = 0; h < HALVES; h++) {
-            const wide_double x = pairs.x[0][h], y = pairs.x[1][h], z = pairs.x[2][h];
-            d2[h] = wide_double_fused(z, z, wide_double_fused(y, y, x * x));
-            gap2[h] = wide_double_fused(radii[h], radii[h], -d2[h]);
-        }
-        store_vector(block->n, k, pairs.n);
-        wide_store(block->distance2 + k, wide_from_doubles(d2));
-        wide_store(block->gap2 + k, wide_from_doubles(gap2));
-        wide_store(block->reach + k, pairs.radii);
+        wide_row_pairs(s->row, first + k, second + k, &pairs);
+        wide x[3];
+        const wide reach = pairs.radii * to_steps, gap2 = wide_ring_gap2(pairs.turned, reach, x);
+        store_vector(block->n, k, x);
+        wide_store(block->distance2 + k, wide_dot(x, x));
+        wide_store(block->gap2 + k, gap2 * to_metres);
+        wide_store(block->reach + k, reach);
         wide_store(block->radii + k, pairs.radii);
         store_vector(block->v, k, pairs.v);
         store_vector(block->r_omega, k, pairs.r_omega);
@@ -40,15 +35,15 @@ static void gather_spins(contact_block *restrict block, const spheres *s, const 
     }
 }
 
-/* Unit normal and overlap. The overlap is the difference of squares, which was taken in double, over the sum: a
- * small overlap keeps its digits. */
+/* Unit normal and overlap. The overlap is the difference of squares, which was taken exactly, over the sum: a small
+ * overlap keeps its digits. */
 static void normals(contact_block *restrict block)
 {
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide distance2 = wide_load(block->distance2 + k), to_unit = wide_inverse_root(distance2);
         for (int c = 0; c < 3; c++) wide_store(block->n[c] + k, wide_load(block->n[c] + k) * to_unit);
         const wide sum = wide_fused(distance2, to_unit, wide_load(block->reach + k));
-        wide_store(block->overlap + k, wide_load(block->gap2 + k) * wide_inverse(sum));
+        wide_store(block->overlap + k, wide_load(block->gap2 + k) / sum);
     }
 }
 

@@ -46,7 +46,7 @@ static inline real normal_force(real alpha, real k_1, real k_2, real *alpha_0)
 static inline real normal_force_of_slope(real alpha, real k_1, real slope, real *alpha_0)
 {
     const real pressed = greater(alpha, 0), s = slope * pressed;
-    const real latched = greater(*alpha_0, s * pressed * inverse(1 + s));
+    const real latched = greater(*alpha_0, s * pressed / (1 + s));
     *alpha_0 = alpha > 0 ? latched : 0;
     const real q = slope * latched, root2 = greater(q * (q + 4), TINY_SQUARE), steepness = q + root2 * inverse_root(root2);
     const real loading = k_1 * alpha, unloading = fused(k_1 / 2, steepness, k_1) * (alpha - latched);
@@ -74,7 +74,7 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
     const real h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
 
     const real stored = lesser(magnitude, mu_n);
-    const real tau = mu_n > TINY_FORCE ? stored * inverse(mu_n) : 0; /* t of the formulas: |T| as a share of its limit */
+    const real tau = mu_n > TINY_FORCE ? stored / mu_n : 0; /* t of the formulas: |T| as a share of its limit */
     const real s_p = dot(ds, h);
 
     /* Loading softens towards slip; after a turning point at t* the spring starts stiff again. */
@@ -142,7 +142,7 @@ static inline void damped_friction_increment(const real n[3], const real ds[3], 
     const real sn = dot(stretch, n);
     const real u[3] = { fused(-sn, n[0], stretch[0]), fused(-sn, n[1], stretch[1]), fused(-sn, n[2], stretch[2]) };
     /* |stretch|/|u|, as above by two terms of the root */
-    const real uu = dot(u, u), off2 = uu > TINY_SQUARE ? sn * sn * inverse(uu) : 0;
+    const real uu = dot(u, u), off2 = uu > TINY_SQUARE ? sn * sn / uu : 0;
     const real keep = fused((real)0.5, lesser(off2, 1), 1);
     const real limit = greater(mu_n, -mu_n);
     const bool pressed = limit > TINY_FORCE;
@@ -155,7 +155,7 @@ static inline void damped_friction_increment(const real n[3], const real ds[3], 
     const real size2 = dot(force, force);
     const bool cut = size2 > limit * limit;
     const real scale = cut ? limit * inverse_root(size2) : 1;
-    const real compliance = pressed ? inverse(springs.k_t) : 0;
+    const real compliance = pressed ? 1 / springs.k_t : 0;
     for (int c = 0; c < 3; c++) {
         force[c] *= scale;
         stretch[c] = pressed ? (cut ? (force[c] - dashpot[c]) * compliance : stretch[c]) : 0;
@@ -171,7 +171,7 @@ static inline void rolling_increment(const real n[3], const real ds[3], real lim
     const real rn = dot(roll, n);
     const real u[3] = { fused(-rn, n[0], roll[0]), fused(-rn, n[1], roll[1]), fused(-rn, n[2], roll[2]) };
     /* |roll|/|u|, as above by two terms of the root; 1 exactly where nothing turns, so that nothing leaks away */
-    const real uu = dot(u, u), off2 = uu > TINY_SQUARE ? rn * rn * inverse(uu) : 0;
+    const real uu = dot(u, u), off2 = uu > TINY_SQUARE ? rn * rn / uu : 0;
     const real keep = fused((real)0.5, lesser(off2, 1), 1);
     for (int c = 0; c < 3; c++) roll[c] = fused(-k_t, ds[c], keep * u[c]);
     const real size2 = dot(roll, roll);

@@ -14,10 +14,10 @@ static void rolling_moments(contact_block *restrict block, real *restrict roll_x
         const wide spin[3] = { wide_load(block->spin[0] + k), wide_load(block->spin[1] + k), wide_load(block->spin[2] + k) };
         const wide before[3] = { wide_load(roll_x + k), wide_load(roll_y + k), wide_load(roll_z + k) };
         const wide r_i = wide_load(first_radius + k), radii = wide_load(block->radii + k);
-        const wide radius = is_wall ? r_i : r_i * (radii - r_i) * wide_inverse(radii); /* R* */
+        const wide radius = is_wall ? r_i : r_i * (radii - r_i) / radii; /* R* */
         const wide rn = -wide_dot(before, n), twist = -wide_dot(spin, n), stiffness = -wide_load(k_t + k), arm_dt = radius * dt;
         const wide u[3] = { wide_fused(rn, n[0], before[0]), wide_fused(rn, n[1], before[1]), wide_fused(rn, n[2], before[2]) };
-        const wide uu = wide_dot(u, u), off2 = wide_select(wide_exceeds(uu, tiny), rn * rn * wide_inverse(uu), zero);
+        const wide uu = wide_dot(u, u), off2 = wide_select(wide_exceeds(uu, tiny), rn * rn / uu, zero);
         const wide keep = wide_fused(half, wide_lesser(off2, one), one);
         const wide f_n = wide_load(block->f_n + k), limit = wide_load(rolling_friction + k) * wide_greater(f_n, -f_n);
         wide f[3];

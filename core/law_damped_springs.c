@@ -42,7 +42,7 @@ static void hertz_mindlin_block(contact_block *restrict block, const real *restr
     const wide two_thirds = wide_all((real)(2.0 / 3.0)), half = wide_all((real)0.5), tiny = wide_all((real)1e-30);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide r_i = wide_load(first_radius + k), radii = wide_load(block->radii + k), m = wide_load(mass + k);
-        const wide radius = is_wall ? r_i : r_i * (radii - r_i) * wide_inverse(radii);
+        const wide radius = is_wall ? r_i : r_i * (radii - r_i) / radii;
         const wide alpha = wide_load(block->overlap + k);
         const wide a = wide_square_root(wide_greater(radius * alpha, tiny)); /* apart: what follows is not used */
         const wide s_n = twice_e * a, c_n = twice_zeta * wide_square_root(wide_greater(m * s_n, tiny));
@@ -64,7 +64,8 @@ static void normal_forces(contact_block *restrict block)
 
 /* damped_friction_increment of contact_law.h, LANES at a time, in two passes: the stretch turned into the tangent plane and
  * grown by this step's displacement; the force, and what it leaves of the stretch. */
-static void turn_stretch(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y, const real *restrict t_z)
+static void turn_stretch(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
+                         const real *restrict t_z)
 {
     const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -73,7 +74,7 @@ static void turn_stretch(contact_block *restrict block, const real *restrict t_x
         const wide sn = -wide_dot(stretch, n);
         const wide u[3] = { wide_fused(sn, n[0], stretch[0]), wide_fused(sn, n[1], stretch[1]), wide_fused(sn, n[2], stretch[2]) };
         const wide uu = wide_dot(u, u);
-        const wide off2 = wide_select(wide_exceeds(uu, tiny), sn * sn * wide_inverse(uu), zero);
+        const wide off2 = wide_select(wide_exceeds(uu, tiny), sn * sn / uu, zero);
         const wide keep = wide_fused(half, wide_lesser(off2, one), one);
         for (int c = 0; c < 3; c++) wide_store(block->h[c] + k, wide_fused(u[c], keep, wide_load(block->ds[c] + k)));
     }
@@ -97,7 +98,7 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
         const wide size2 = wide_dot(f, f);
         const wide_mask cut = wide_exceeds(size2, limit * limit);
         const wide scale = wide_select(cut, limit * wide_inverse_root(size2), one);
-        const wide compliance = wide_select(pressed, wide_inverse(k_t), zero);
+        const wide compliance = wide_select(pressed, one / k_t, zero);
         for (int c = 0; c < 3; c++) {
             f[c] = f[c] * scale;
             const wide left = wide_select(cut, (f[c] - dashpot[c]) * compliance, stretched[c]);

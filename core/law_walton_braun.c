@@ -21,7 +21,7 @@ static void normal_forces_of_slope(contact_block *restrict block, real *restrict
     const wide zero = wide_all(0), one = wide_all(1), four = wide_all(4), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide alpha = wide_load(block->overlap + k), pressed = wide_greater(alpha, zero), s = slope * pressed;
-        const wide latched = wide_greater(wide_load(alpha_0 + k), s * pressed * wide_inverse(one + s));
+        const wide latched = wide_greater(wide_load(alpha_0 + k), s * pressed / (one + s));
         wide_store(alpha_0 + k, wide_select(wide_exceeds(alpha, zero), latched, zero));
         const wide q = slope * latched, root2 = wide_greater(q * (q + four), tiny);
         const wide steepness = q + root2 * wide_inverse_root(root2), k_2 = wide_fused(half_k_1, steepness, k_1);
@@ -59,7 +59,7 @@ static void friction_stiffness(contact_block *restrict block, real *restrict t_s
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide mu_n = wide_load(block->mu_n + k), stored = wide_load(block->stored + k), s_p = wide_load(block->s_p + k);
         const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE));
-        const wide tau = wide_select(pressed, stored * wide_inverse(mu_n), zero);
+        const wide tau = wide_select(pressed, stored / mu_n, zero);
         const wide sign = wide_select(wide_exceeds(zero, s_p), -one, one);
         const wide turning = wide_lesser(sign * wide_load(t_star + k), sign * tau);
         const wide left = wide_greater(one - sign * tau, floor), left_at_turn = wide_greater(one - turning, floor);

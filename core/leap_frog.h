@@ -6,7 +6,7 @@
 
 typedef struct leap_frog {
     vector4 gravity_dt, period, inverse_period; /* the last two along z alone */
-    vector4 ring_units;
+    double ring_units;                          /* 1/m */
     double dt, keep;
     double scale_now, scale_next; /* share of full size that clusters have */
     int corrector_passes;
@@ -18,7 +18,7 @@ WIDE_INLINE vector4 vector4_all(double x) { return x - (vector4){ 0 }; }
 WIDE_INLINE vector4 sphere_move(const leap_frog *leap, sphere_row *row, vector4 x, vector4 v, vector4 omega)
 {
     x -= leap->period * vector4_rint(x * leap->inverse_period);
-    sphere_row_store(row, x * leap->ring_units, v, omega);
+    sphere_row_store(row, x * vector4_all(leap->ring_units), v, omega);
     return x;
 }
 

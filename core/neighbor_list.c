@@ -240,12 +240,14 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
 /* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths? Along the line
  * of centres now, the distance is never less than gap + duration * (parting speed): a bound from below. In contact
  * arithmetic, whose rounding `margin` is widened for. */
-static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, const double unit[3], real duration)
+static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, real unit, real duration)
 {
     wide_pairs p;
-    wide_row_pairs(s->row, list->first + pair, list->second + pair, unit, &p);
-    const wide distance2 = wide_dot(p.n, p.n), to_unit = wide_inverse_root(distance2), parting = wide_dot(p.v, p.n) * to_unit;
-    const wide nearest = distance2 * to_unit + wide_all(duration) * wide_lesser(parting, wide_all(0));
+    wide_row_pairs(s->row, list->first + pair, list->second + pair, &p);
+    wide x[3];
+    for (int c = 0; c < 3; c++) x[c] = __builtin_convertvector(p.turned[c], wide);
+    const wide distance2 = wide_dot(x, x), to_unit = wide_inverse_root(distance2), parting = wide_dot(p.v, x) * to_unit;
+    const wide nearest = distance2 * to_unit * wide_all(unit) + wide_all(duration) * wide_lesser(parting, wide_all(0));
     /* at full size, also while they grow */
     const wide radii = p.radii * wide_all((real)((1 + 4e-6) / s->scale));
     return wide_mask_bits(wide_exceeds(radii + wide_all((real)(2 * list->margin)), nearest));
@@ -255,8 +257,7 @@ static void mark_in_reach(neighbor_list *list, const spheres *s, const container
 {
     const size_t groups = (list->pair_count + LANES - 1) / LANES;
     const wall_outlook ahead = { duration, list->margin };
-    double unit[3];
-    spheres_ring_unit(s, unit);
+    const real unit = (real)(1 / s->ring_units);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (size_t g = 0; g < groups; g++) list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, (real)duration);
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)

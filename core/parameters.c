@@ -88,7 +88,10 @@ static dem_status parameters_check(const dem_drum_definition *d)
         shares += s->share;
         largest = fmax(largest, 2 * dem_species_reach(s));
     }
-    good = good && fabs(shares - 1) < 1e-6 && largest < 0.5 * d->diameter && d->length > 2 * largest;
+    /* As much of an axis as its own image along it needs not to be felt: rows tell places apart modulo the period (spheres.h). */
+    const bool is_periodic = d->container == DEM_DRUM && !d->ends.are_walls;
+    good = good && fabs(shares - 1) < 1e-6 && largest < 0.5 * d->diameter && d->length > 2 * largest
+           && (!is_periodic || d->length > 3 * dem_largest_sphere(d) * (1 - 1e-6));
     if (good && d->lining.diameter != 0)
         good = is_positive(d->lining.diameter) && is_positive(d->lining.pitch) && d->lining.diameter < 0.25 * d->diameter
                && d->lining.pitch <= d->length;

@@ -21,6 +21,9 @@ typedef int32_t on_ring;
 /* on_ring: a coordinate modulo a length, in fixed point of 2^32 parts of it (DEM_DOUBLE: in shares of it). Differences are
  * exact, and come out as the way round that is shorter: a periodic axis needs nothing more. */
 #define RING_UNITS (sizeof(real) == sizeof(float) ? 4294967296.0 : 1.0)
+/* Displacements are squared in steps of as many units. The ring is 3 to 8 of the largest diameters, so that these are 1024
+ * to 2731 steps: whole steps' squares and their sum fit into a float, with bits to spare for half ones. */
+enum { RING_STEP_BITS = sizeof(real) == sizeof(float) ? 19 : 0 };
 /* Adding this to a double leaves its nearest whole number in the lowest bits. */
 #define RING_SHIFT 6755399441055744.0
 
@@ -46,17 +49,15 @@ static inline real fused(real a, real b, real c)
 }
 static inline real dot(const real a[3], const real b[3]) { return fused(a[2], b[2], fused(a[1], b[1], a[0] * b[0])); }
 
-/* Powers without division or root, which are slow where there are many: a guess from the bits of a float, then steps
+/* Roots without the processor's own, which are slow where there are many: a guess from the bits of a float, then steps
  * that square its error (Newton) or cube it. 1/sqrt ends within a rounding or two and errs to both sides: an error that
  * is always low makes friction at rest leak away. x^(-1/3), of which only a stiffness is made, ends within 1e-5 in
  * single. wide.h does the same for many at once. x: 1e-37 to 1e37. */
 enum {
     INVERSE_ROOT_MAGIC = 0x5f1ffff9,
-    INVERSE_MAGIC = 0x7ef311c3,
     INVERSE_CUBE_ROOT_MAGIC = 0x54a21d2a,
     IN_DOUBLE = sizeof(real) == sizeof(double),
     INVERSE_ROOT_STEPS = IN_DOUBLE ? 2 : 1,
-    INVERSE_STEPS = IN_DOUBLE ? 5 : 3,
     INVERSE_CUBE_ROOT_STEPS = IN_DOUBLE ? 5 : 2,
 };
 /* A Newton step bent so that its error is even about zero, 0.07 % (J. Kadlec): y *= factor (offset - x y^2). */
@@ -72,13 +73,6 @@ static inline real inverse_root_guess(real x)
 {
     float_bits bits = { .f = (float)x };
     bits.i = INVERSE_ROOT_MAGIC - (int32_t)((uint32_t)bits.i >> 1);
-    return bits.f;
-}
-
-static inline real inverse_guess(real x)
-{
-    float_bits bits = { .f = (float)x };
-    bits.i = (int32_t)((uint32_t)INVERSE_MAGIC - (uint32_t)bits.i);
     return bits.f;
 }
 
@@ -98,13 +92,6 @@ static inline real inverse_root(real x)
         const real e = fused(-(x * y), y, 1); /* y (1 - e)^(-1/2) = y (1 + e/2 + 3/8 e^2 + ...) */
         y = fused(y * e, fused((real)0.375, e, (real)0.5), y);
     }
-    return y;
-}
-
-static inline real inverse(real x)
-{
-    real y = inverse_guess(x);
-    for (int k = 0; k < INVERSE_STEPS; k++) y *= fused(-x, y, 2);
     return y;
 }
 

@@ -74,22 +74,12 @@ void spheres_clear(spheres *s)
     memset(s, 0, sizeof *s);
 }
 
-static double largest_sphere(const dem_drum_definition *definition)
-{
-    double largest = definition->lining.diameter;
-    for (size_t k = 0; k < definition->species_count; k++) {
-        const dem_species *species = &definition->species[k];
-        if (species->cluster.sphere_count == 0) largest = fmax(largest, species->diameter);
-        for (size_t m = 0; m < species->cluster.sphere_count; m++) largest = fmax(largest, species->cluster.sphere[m].diameter);
-    }
-    return largest;
-}
-
 void spheres_set_period(spheres *s, const dem_drum_definition *definition, double period)
 {
-    /* Listed pairs stay within two diameters: half a ring is twice that. */
-    const double least = 8 * largest_sphere(definition), along = period > 0 ? period / fmax(1, floor(period / least)) : least;
-    s->ring_units = (vector4){ RING_UNITS / least, RING_UNITS / least, RING_UNITS / along };
+    /* Half a ring is at least one and a half of the largest diameters: a period has three. Listed pairs are within 1.8, and
+     * those that can touch before the next pick within 1.4, by the skin of 0.4: the others may be seen on the wrong side. */
+    const double least = 4 * dem_largest_sphere(definition), along = period > 0 ? period / fmax(1, floor(period / least)) : least;
+    s->ring_units = RING_UNITS / along;
     spheres_pad(s);
 }
 

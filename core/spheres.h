@@ -36,7 +36,7 @@ typedef struct spheres {
     clusters clusters;         /* the bodies that the other mobile spheres make up */
     sphere_row *row;           /* (mobile + lining + 2) */
     vector4 *place;            /* (mobile + lining + 2) m, z within one period */
-    vector4 ring_units;        /* 1/m: of a row's place */
+    double ring_units;         /* 1/m: of a row's place */
     int32_t *id;               /* (mobile) which sphere of the definition's it is, wherever it is in memory */
     int32_t *species;          /* (mobile) */
     double *full_radius;       /* (mobile + lining) m, rounded to real */
@@ -113,11 +113,8 @@ size_t species_particles(const dem_drum_definition *definition, size_t species);
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
 /* Room for as many loads, all zeros. */
 dem_status spheres_reserve_loads(spheres *spheres, size_t count);
-void spheres_pad(spheres *spheres);                                    /* the last two rows, also after a change of the counts */
-static inline void spheres_ring_unit(const spheres *s, double unit[3]) /* m */
-{
-    for (int c = 0; c < 3; c++) unit[c] = 1 / s->ring_units[c];
-}
+void spheres_pad(spheres *spheres); /* the last two rows, also after a change of the counts */
+static inline double spheres_ring_step(const spheres *s) /* m */ { return (1 << RING_STEP_BITS) / s->ring_units; }
 /* Radii of the mobile spheres at `scale` of their full size, in the rows. */
 void spheres_set_scale(spheres *spheres, double scale);
 double spheres_kinetic_energy(const spheres *spheres); /* J */

@@ -50,14 +50,19 @@ WIDE_INLINE wide wide_load_any(const real *p) /* not aligned */
     return x;
 }
 
+#ifdef DEM_DOUBLE
+typedef wide wide_ring; /* LANES times on_ring */
+#else
+typedef wide_ints wide_ring;
+#endif
+
 /* Of LANES pairs of spheres (spheres.h, sphere_row), second less first or the sum of both. */
 typedef struct wide_pairs {
-    wide_double x[3][HALVES]; /* m, between centres */
-    wide n[3];                /* the same in contact arithmetic */
-    wide radii;               /* m, sum */
-    wide v[3];                /* m/s, difference */
-    wide r_omega[3];          /* m/s, sum */
-    wide omega[3];            /* rad/s, sum */
+    wide_ring turned[3]; /* between centres, the way round that is shorter */
+    wide radii;          /* m, sum */
+    wide v[3];           /* m/s, difference */
+    wide r_omega[3];     /* m/s, sum */
+    wide omega[3];       /* rad/s, sum */
 } wide_pairs;
 
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
@@ -217,11 +222,6 @@ WIDE_INLINE wide wide_inverse_root_guess(wide x)
     const wide_counts half = (wide_counts) __builtin_convertvector(x, wide_floats) >> 1;
     return __builtin_convertvector((wide_floats)(INVERSE_ROOT_MAGIC - half), wide);
 }
-WIDE_INLINE wide wide_inverse_guess(wide x)
-{
-    const wide_counts bits = (wide_counts) __builtin_convertvector(x, wide_floats);
-    return __builtin_convertvector((wide_floats)(INVERSE_MAGIC - bits), wide);
-}
 WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
 {
     const wide_ints bits = (wide_ints) __builtin_convertvector(x, wide_floats);
@@ -241,19 +241,36 @@ WIDE_INLINE wide wide_inverse_root(wide x)
     return y;
 }
 
-WIDE_INLINE wide wide_inverse(wide x)
-{
-    wide y = wide_inverse_guess(x);
-    for (int k = 0; k < INVERSE_STEPS; k++) y *= wide_fused(-x, y, wide_all(2));
-    return y;
-}
-
 WIDE_INLINE wide wide_inverse_cube_root(wide x)
 {
     const wide third = wide_all((real)(-1.0 / 3.0)) * x;
     wide y = wide_inverse_cube_root_guess(x);
     for (int k = 0; k < INVERSE_CUBE_ROOT_STEPS; k++) y *= wide_fused(third * y, y * y, wide_all((real)(4.0 / 3.0)));
     return y;
+}
+
+/* By how much reach^2 exceeds the square of a displacement, which is x, all in steps of the ring. A displacement has up to
+ * 32 bits, a float 24: the whole steps' squares are exact, and so is what they leave of reach^2 where the two are near. */
+WIDE_INLINE wide wide_ring_gap2(const wide_ring turned[3], wide reach, wide x[3])
+{
+    wide gap2 = reach * reach;
+#ifdef DEM_DOUBLE
+    for (int c = 0; c < 3; c++) {
+        x[c] = turned[c];
+        gap2 = wide_fused(-x[c], x[c], gap2);
+    }
+#else
+    wide whole[3], rest[3];
+    for (int c = 0; c < 3; c++) {
+        whole[c] = __builtin_convertvector(turned[c] >> RING_STEP_BITS, wide);
+        rest[c] =
+            __builtin_convertvector(turned[c] & ((1 << RING_STEP_BITS) - 1), wide) * wide_all(1 / (real)(1 << RING_STEP_BITS));
+        x[c] = whole[c] + rest[c];
+        gap2 = wide_fused(-whole[c], whole[c], gap2);
+    }
+    for (int c = 0; c < 3; c++) gap2 = wide_fused(-(whole[c] + x[c]), rest[c], gap2);
+#endif
+    return gap2;
 }
 
 WIDE_INLINE wide wide_dot(const wide a[3], const wide b[3]) { return wide_fused(a[2], b[2], wide_fused(a[1], b[1], a[0] * b[0])); }

@@ -52,16 +52,16 @@ WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
 }
 
 /* The way round from a to b, in units. */
-WIDE_INLINE double ring_difference(on_ring a, on_ring b)
+WIDE_INLINE on_ring ring_difference(on_ring a, on_ring b)
 {
 #ifdef DEM_DOUBLE
     return b - a - rint(b - a);
 #else
-    return (double)(int32_t)((uint32_t)b - (uint32_t)a);
+    return (int32_t)((uint32_t)b - (uint32_t)a);
 #endif
 }
 
-WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
+WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, wide_pairs *out)
 {
     typedef struct row {
         on_ring place[3];
@@ -74,9 +74,7 @@ WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_
         const row *row_a = &all[a[k]], *row_b = &all[b[k]];
         out->radii[k] = row_b->radius + row_a->radius;
         for (int c = 0; c < 3; c++) {
-            const double turned = ring_difference(row_a->place[c], row_b->place[c]);
-            out->x[c][k / DOUBLES][k % DOUBLES] = turned * unit[c];
-            out->n[c][k] = (real)turned * (real)unit[c];
+            out->turned[c][k] = ring_difference(row_a->place[c], row_b->place[c]);
             out->v[c][k] = row_b->number[c] - row_a->number[c];
             out->r_omega[c][k] = row_b->number[4 + c] + row_a->number[4 + c];
             out->omega[c][k] = row_b->number[8 + c] + row_a->number[8 + c];

@@ -60,15 +60,7 @@ WIDE_INLINE __m256 place_pair(__m256 a, __m256 b)
     return _mm256_blend_ps(sum, _mm256_castsi256_ps(turned), PLACES);
 }
 
-WIDE_INLINE void ring_displacement(__m256i turned, double unit, wide_double x[2], wide *n)
-{
-    const __m256d m = _mm256_set1_pd(unit);
-    x[0] = (wide_double)_mm256_mul_pd(_mm256_cvtepi32_pd(_mm256_castsi256_si128(turned)), m);
-    x[1] = (wide_double)_mm256_mul_pd(_mm256_cvtepi32_pd(_mm256_extracti128_si256(turned, 1)), m);
-    *n = (wide)_mm256_mul_ps(_mm256_cvtepi32_ps(turned), _mm256_set1_ps((float)unit));
-}
-
-WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
+WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, wide_pairs *out)
 {
     __m256 difference[4][4], t[4][4]; /* [quarter of the row][pairs k and k + 4; then column] */
     for (int quarter = 0; quarter < 4; quarter++) {
@@ -81,7 +73,7 @@ WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_
         transpose_halves(difference[quarter], t[quarter]);
     }
     for (int c = 0; c < 3; c++) {
-        ring_displacement(_mm256_castps_si256(t[0][c]), unit[c], out->x[c], &out->n[c]);
+        out->turned[c] = (wide_ring)_mm256_castps_si256(t[0][c]);
         out->v[c] = (wide)t[1][c];
         out->r_omega[c] = (wide)t[2][c];
         out->omega[c] = (wide)t[3][c];

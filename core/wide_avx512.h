@@ -9,17 +9,6 @@ WIDE_INLINE wide wide_lesser(wide a, wide b) { return (wide)_mm512_min_ps((__m51
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GT_OQ); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a); }
 
-WIDE_INLINE wide wide_from_doubles(const wide_double x[HALVES])
-{
-    return (wide)_mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps((__m512d)x[0])), _mm512_cvtpd_ps((__m512d)x[1]), 1);
-}
-
-WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
-{
-    to[0] = (wide_double)_mm512_cvtps_pd(_mm512_castps512_ps256((__m512)x));
-    to[1] = (wide_double)_mm512_cvtps_pd(_mm512_extractf32x8_ps((__m512)x, 1));
-}
-
 /* 4 x 4 numbers within each quarter of a vector: to[c] has in quarter L what from[0..3] have at 4 L + c. */
 WIDE_INLINE void transpose_quarters(const __m512 from[4], __m512 to[4])
 {
@@ -43,15 +32,7 @@ WIDE_INLINE __m512 row_pair(const void *rows, int32_t a, int32_t b, __m512 sign)
         _mm512_mask_sub_epi32(_mm512_castps_si512(sum), PLACE, _mm512_castps_si512(row_b), _mm512_castps_si512(row_a)));
 }
 
-WIDE_INLINE void ring_displacement(__m512i turned, double unit, wide_double x[2], wide *n)
-{
-    const __m512d m = _mm512_set1_pd(unit);
-    x[0] = (wide_double)_mm512_mul_pd(_mm512_cvtepi32_pd(_mm512_castsi512_si256(turned)), m);
-    x[1] = (wide_double)_mm512_mul_pd(_mm512_cvtepi32_pd(_mm512_extracti64x4_epi64(turned, 1)), m);
-    *n = (wide)_mm512_mul_ps(_mm512_cvtepi32_ps(turned), _mm512_set1_ps((float)unit));
-}
-
-WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, const double unit[3], wide_pairs *out)
+WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, wide_pairs *out)
 {
     const __m512 sign = _mm512_setr_ps(1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1);
     __m512 t[4][4]; /* [rows 4g ... 4g+3][column 4L + c in quarter L] */
@@ -68,7 +49,7 @@ WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_
             break;
         }
         const __m512 odd_01 = _mm512_shuffle_f32x4(t[0][c], t[1][c], 0xdd), odd_23 = _mm512_shuffle_f32x4(t[2][c], t[3][c], 0xdd);
-        ring_displacement(_mm512_castps_si512(place), unit[c], out->x[c], &out->n[c]);
+        out->turned[c] = (wide_ring)_mm512_castps_si512(place);
         out->v[c] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0x88);
         out->r_omega[c] = (wide)_mm512_shuffle_f32x4(even_01, even_23, 0xdd);
         out->omega[c] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0xdd);

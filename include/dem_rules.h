@@ -58,6 +58,14 @@ static inline double dem_species_largest_sphere(const dem_species *s)
     return largest;
 }
 
+/* Diameter of the largest sphere of all, m: of particles or of the lining. */
+static inline double dem_largest_sphere(const dem_drum_definition *d)
+{
+    double largest = d->lining.diameter;
+    for (size_t k = 0; k < d->species_count; k++) largest = fmax(largest, dem_species_largest_sphere(&d->species[k]));
+    return largest;
+}
+
 /* The least mass, kg, that a contact can move: a cluster pushed beside its centre also turns,
  * 1/m + |r|^2/I with r from its centre to the sphere's, which is as long as the arm of the force can be. */
 static inline double dem_species_contact_mass(const dem_species *s)

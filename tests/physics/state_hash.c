@@ -26,7 +26,7 @@ static dem_drum_definition drum_asked(void)
     if (number == 1 || number == 5) {
         d.species_count = 2;
         d.species[0].share = 0.7;
-        d.species[1] = (dem_species){ .diameter = 0.0045, .density = 2500, .share = 0.3 };
+        d.species[1] = (dem_species){ .diameter = 0.004, .density = 2500, .share = 0.3 };
         d.particle_count = 160;
     }
     if (number == 2) {

@@ -51,7 +51,7 @@ static inline dem_scene *hand_scene(const dem_drum_definition *definition)
     double largest = 0;
     for (size_t k = 0; k < narrow.species_count; k++) largest = fmax(largest, narrow.species[k].diameter);
     narrow.diameter = 3.001 * largest;
-    narrow.length = fmax(2.01, (double)narrow.particle_count / 5) * largest;
+    narrow.length = fmax(3.01, (double)narrow.particle_count / 5) * largest;
     dem_scene *scene = NULL;
     const dem_status status = dem_scene_create(&narrow, &scene);
     if (status != DEM_OK) fail_msg("the test's own scene: %s", dem_status_text(status));

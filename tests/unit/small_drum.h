@@ -46,7 +46,7 @@ static inline dem_drum_definition two_sizes_drum(void)
 {
     dem_drum_definition d = small_drum();
     d.diameter = 0.05;
-    d.length = 0.015;
+    d.length = 0.018;
     d.species_count = 2;
     d.species[0] = (dem_species){ .diameter = 0.002, .density = 2500, .share = 0.93 };
     d.species[1] = (dem_species){ .diameter = 0.006, .density = 2500, .share = 0.07 };

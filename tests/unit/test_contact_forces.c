@@ -84,6 +84,16 @@ static void ask(questions *q, size_t p, dice *d, const dem_drum_definition *defi
     q->pair[2 * p + 1] = (int32_t)(2 * p + 1);
 }
 
+/* Where two spheres touch first: the square of that distance is a number of contact arithmetic, in steps of the ring. */
+static double touching_distance(const spheres *s, double radii)
+{
+    const double step = spheres_ring_step(s);
+    const real reach = (real)radii * (real)(1 / step), reach2 = reach * reach;
+    const double distance = sqrt((double)reach2) * step;
+    CHECK_NEAR(distance, radii, 2 * ROUNDING * radii);
+    return distance;
+}
+
 /* What the scalar law says of one pair, its geometry computed here in double precision. */
 typedef struct answer {
     double force[3];     /* N on the first */
@@ -96,14 +106,15 @@ typedef struct answer {
     bool is_turning;    /* nearly at right angles to T: whether it turns is rounding's to say */
 } answer;
 
-static answer scalar_answer(const questions *q, size_t p, const double radius[2], const dem_contact_parameters *law, double dt)
+static answer scalar_answer(const questions *q, size_t p, const double radius[2], double touching,
+                            const dem_contact_parameters *law, double dt)
 {
     const double *x = q->position + 6 * p, *v = q->velocity + 6 * p, *w = q->spin + 6 * p, *memory = q->history + HISTORY_WIDTH * p;
     const double k_1 = law->stiffness, k_2 = k_1 / (law->restitution * law->restitution),
                  k_t = k_1 * law->tangential_stiffness_ratio;
     double n[3], rolling[3], s[3], v_r[3], speed = 0;
     for (int c = 0; c < 3; c++) n[c] = x[3 + c] - x[c];
-    const double distance = sqrt(scalar_product(n, n)), overlap = radius[0] + radius[1] - distance;
+    const double distance = sqrt(scalar_product(n, n)), overlap = touching - distance;
     answer a = { .arm = { radius[0] - overlap / 2, radius[1] - overlap / 2 } };
     for (int c = 0; c < 3; c++) {
         n[c] /= distance;
@@ -167,9 +178,10 @@ static void compare_round(const questions *q, dem_scene *scene, difference seen[
     dem_state_clear(&state);
 
     for (size_t p = 0; p < PAIRS; p++) {
-        const answer a = scalar_answer(q, p, scene->spheres.full_radius + 2 * p, &d->contact, dt);
+        const double *radius = scene->spheres.full_radius + 2 * p;
+        const answer a = scalar_answer(q, p, radius, touching_distance(&scene->spheres, radius[0] + radius[1]), &d->contact, dt);
         difference *worst = &seen[a.is_slipping ? FULL_SLIP : q->kind[p]];
-        /* The overlap comes from places in units of 2^-32 of 8 diameters, the change of velocity is one of doubles. */
+        /* The overlap comes from places in units of 2^-32 of less than 8 diameters, the change of velocity is one of doubles. */
         const double place = sizeof(real) == sizeof(float) ? 8 * 0.004 / 4294967296.0 : 0.004 * DBL_EPSILON;
         const double f_unit = ROUNDING * a.force_scale + place * a.steepest + DBL_EPSILON * m / dt;
         const double length = 0.002, t_unit = f_unit * length + DBL_EPSILON * inertia / dt * 250;

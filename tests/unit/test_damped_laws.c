@@ -183,9 +183,9 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
         }
         real f_n[BLOCK], force[3][BLOCK], stretch[3][BLOCK];
         for (int k = 0; k < BLOCK; k++) {
-            const real alpha = b->overlap[k],
-                       r = is_wall ? list.first_radius[k]
-                                   : list.first_radius[k] * (b->radii[k] - list.first_radius[k]) * inverse(b->radii[k]);
+            const real alpha = b->overlap[k], r = is_wall
+                                                      ? list.first_radius[k]
+                                                      : list.first_radius[k] * (b->radii[k] - list.first_radius[k]) / b->radii[k];
             const real e_star = (real)(1 / ((1 - 0.09) / 1e8 + (is_wall ? (1 - 0.0625) / 2e9 : (1 - 0.09) / 1e8)));
             const real g_star = (real)(1 / (2 * 1.7 * 1.3 / 1e8 + (is_wall ? 2 * 1.75 * 1.25 / 2e9 : 2 * 1.7 * 1.3 / 1e8)));
             const damped_springs springs =

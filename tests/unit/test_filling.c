@@ -143,6 +143,7 @@ static void more_than_fits_is_refused(void **unused)
     d.particle_count = (size_t)(2 * whole);
     assert_int_equal(dem_scene_create(&d, &scene), DEM_DOES_NOT_FIT);
     d.particle_count = 100;
+    d.length = 0.03;
     d.lining = (dem_lining){ .diameter = 0.0099, .pitch = 0.0099 }; /* leaves a bore of 20 mm for spheres of 14 */
     d.species[0].diameter = 0.0059;
     d.particle_count = 200;

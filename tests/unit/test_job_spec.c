@@ -157,6 +157,9 @@ static void a_canonical_spec_is_read_and_written_with_the_same_bytes(void **stat
 static void a_number_out_of_range_is_named_with_value_unit_and_range(void **state)
 {
     (void)state;
+    expect_problem("wall/lining", "{\"diameter\": 0.0068}",
+                   "/inputs/wall/lining/diameter: is 0.0068 m; must be at most 0.00625 m, 1/8 of the drum's diameter\n"
+                   "/inputs/wall/lining/diameter: is 0.0068 m; must be at most 0.00666667 m, 1/3 of the periodic axis\n");
     expect_problem("fill_fraction", "1.4", "/inputs/fill_fraction: is 1.4; must be in (0, 0.95]\n");
     expect_problem("fill_fraction", "0", "/inputs/fill_fraction: is 0; must be in (0, 0.95]\n");
     expect_problem("drum/diameter", "30", "/inputs/drum/diameter: is 30 m; must be in [0.001, 20] m\n");
