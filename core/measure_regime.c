@@ -41,6 +41,30 @@ static double share_of_bins(const bool bins[WALL_BINS])
     return covered / (double)WALL_BINS;
 }
 
+/* Slip of the surface against the drum, rad a revolution: of the spheres that were within d of it when a revolution began,
+ * over that revolution. What falls from there goes on to count, and what comes there does not yet: of the spheres that are
+ * there at one moment more than their share are on their way down. Until a revolution is over, of what there was of it. */
+static double surface_lag(dem_scene *scene, double inner, double d)
+{
+    spheres *s = &scene->spheres;
+    surface_meter *meter = &scene->surface;
+    const double time = dem_scene_time(scene), turned = scene->definition.rotation_rate * (time - meter->since);
+    const bool begins = !(fabs(turned) < 2 * DEM_PI * (1 - 1e-9)); /* also where none has yet */
+    mean way = { 0 };
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        const double *x = sphere_place(s, i), angle = atan2(x[1], x[0]);
+        surface_track *track = &s->surface_track[i];
+        const double further = angle - (double)track->angle;
+        track->angle = (float)angle;
+        track->way += (float)(further - 2 * DEM_PI * rint(further / (2 * DEM_PI)));
+        if (!isnan(track->way)) mean_add(&way, (double)track->way);
+        if (begins) track->way = fabs(hypot(x[0], x[1]) - inner) < d ? 0 : NAN;
+    }
+    const double lag = 2 * DEM_PI * (1 - mean_of(&way) / turned);
+    if (begins) *meter = (surface_meter){ time, isnan(meter->since) ? NAN : lag };
+    return isnan(meter->lag) ? lag : meter->lag;
+}
+
 void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *frame)
 {
     spheres *s = &scene->spheres;
@@ -49,7 +73,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     const double angle = frame[FRAME_SURFACE_FIT] * (DEM_PI / 180), c = cos(angle), sine = sin(angle);
     /* The chord that the fill makes in the frame of the surface: in flight is what is well above it without contact. */
     const double chord = circle_level(fmin(bed_fill(scene, frame[FRAME_SOLID_FRACTION]), 1.0)) * scene->drum.radius;
-    mean wall_spin = { 0 }, surface_spin = { 0 }, flow = { 0 }, airborne = { 0 };
+    mean wall_spin = { 0 }, flow = { 0 }, airborne = { 0 };
     bool bins[WALL_BINS] = { false };
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = sphere_place(s, i);
@@ -62,7 +86,6 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
             if (!(above_chord > -3 * d)) mean_add(&wall_spin, spin); /* the bed's own, not what falls at its ends */
             bins[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (WALL_BINS - 1e-9))] = true;
         }
-        if (fabs(rho - inner) < d) mean_add(&surface_spin, spin);
         if (rho < inner - 2 * d) s->fallen_time[i] = time;
         /* Downslope speed of the flowing layer at the middle of the chord. */
         const double along = c * x[0] + sine * x[1], downslope = -(c * v[0] + sine * v[1]);
@@ -72,7 +95,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     frame[FRAME_WALL_SLIP] = rate != 0 ? 1 - mean_of(&wall_spin) / rate : NAN;
     frame[FRAME_WALL_COVERAGE] = share_of_bins(bins);
     frame[FRAME_FLOW_SPEED] = mean_of(&flow);
-    frame[FRAME_SURFACE_LAG] = rate != 0 ? 2 * DEM_PI * (1 - mean_of(&surface_spin) / rate) : NAN;
+    frame[FRAME_SURFACE_LAG] = rate != 0 ? surface_lag(scene, inner, d) : NAN;
 }
 
 /* Share of particles seen nearer the axis than R_i - 2d since then. */

@@ -19,6 +19,7 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     }
     definition = &scene->definition;
     scene->rotation_start = -1;
+    scene->surface = (surface_meter){ NAN, NAN };
     container_init(&scene->drum, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
     if (status == DEM_OK) spheres_set_period(&scene->spheres, definition, scene->drum.period);

@@ -16,6 +16,12 @@ typedef struct stream {
     bool has_clusters; /* then every particle is one, if of one sphere */
 } stream;
 
+/* How far the bed's inner surface falls behind the drum. */
+typedef struct surface_meter {
+    double since; /* s since rotation began, when the present revolution did; NaN: none has yet */
+    double lag;   /* rad a revolution, of the last whole one; NaN: none was */
+} surface_meter;
+
 struct dem_scene {
     dem_drum_definition definition;
     dem_contact_parameters contact; /* those of the present phase: friction waits until spheres have grown */
@@ -32,6 +38,7 @@ struct dem_scene {
     int32_t *lost;                                   /* (lost_count of particles) who; NULL where none can be lost */
     bool *is_lost;                                   /* (particles) */
     torque_meter torque;
+    surface_meter surface;
     energy_audit audit;
     dem_failure failure;
     dem_step_profile *profile; /* the caller's; NULL: none wanted */

@@ -80,6 +80,32 @@ static bool save_clusters(dem_state *state, const clusters *c)
     return c->count == 0 || numbers != NULL;
 }
 
+static bool save_surface(dem_state *state, const surface_meter *meter, const spheres *s)
+{
+    double *last = state_add(state, "surface", DEM_FLOAT64, 1, 2),
+           *track = state_add(state, "surface_track", DEM_FLOAT64, s->mobile_count, 2);
+    if (!last || !track) return false;
+    memcpy(last, (double[]){ meter->since, meter->lag }, 2 * sizeof *last);
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        track[2 * i] = (double)s->surface_track[i].angle;
+        track[2 * i + 1] = (double)s->surface_track[i].way;
+    }
+    return true;
+}
+
+/* A state without it has not looked at the surface yet. */
+static void restore_surface(dem_scene *scene, const dem_state *state)
+{
+    spheres *s = &scene->spheres;
+    const dem_state_array *last = state_find(state, "surface", DEM_FLOAT64, 2);
+    const dem_state_array *track = state_find(state, "surface_track", DEM_FLOAT64, 2);
+    const bool is_there = last && track && last->rows == 1 && track->rows == s->mobile_count;
+    const double *meter = is_there ? last->data : (double[]){ NAN, NAN }, *of = is_there ? track->data : NULL;
+    scene->surface = (surface_meter){ meter[0], meter[1] };
+    for (size_t i = 0; i < s->mobile_count; i++)
+        s->surface_track[i] = of ? (surface_track){ (float)of[2 * i], (float)of[2 * i + 1] } : (surface_track){ 0, NAN };
+}
+
 dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
 {
     const spheres *s = &scene->spheres;
@@ -92,7 +118,7 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
            *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
     if (!integers || !numbers || !id || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
         || !save_vectors(state, "angular_velocity", s->angular_velocity, n) || !save_clusters(state, &s->clusters)
-        || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
+        || !save_surface(state, &scene->surface, s) || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
         || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
         dem_state_clear(state);
         return DEM_NO_MEMORY;
@@ -257,6 +283,7 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     scene_enter_phase(scene, scene->phase);
     if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);
     restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);
+    restore_surface(scene, state);
     lost_recognize(scene);
     return scene_update_neighbors(scene);
 }

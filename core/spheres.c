@@ -41,15 +41,17 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->inverse_mass = array_create(n, sizeof *s->inverse_mass);
     s->inverse_inertia = array_create(singles, sizeof *s->inverse_inertia);
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
+    s->surface_track = array_create(n, sizeof *s->surface_track);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
     if (status != DEM_OK || !s->row || !s->place || !s->id || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity
-        || spheres_reserve_loads(s, n) != DEM_OK || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time
+        || spheres_reserve_loads(s, n) != DEM_OK || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->surface_track
         || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }
     for (size_t i = 0; i < n; i++) {
         s->fallen_time[i] = -1e300;
+        s->surface_track[i].way = NAN;
         s->id[i] = (int32_t)i;
     }
     for (size_t b = 0; b < bodies; b++) s->clusters.body[b].id = (int32_t)(singles + b);
@@ -70,6 +72,7 @@ void spheres_clear(spheres *s)
     free(s->inverse_mass);
     free(s->inverse_inertia);
     free(s->fallen_time);
+    free(s->surface_track);
     free(s->lining_place);
     memset(s, 0, sizeof *s);
 }

@@ -30,6 +30,12 @@ static inline void sphere_row_store(sphere_row *row, vector4 place, vector4 v, v
     memcpy(row->omega, &w, sizeof w);
 }
 
+/* Of a sphere that was at the bed's inner surface when the drum's present revolution began (measure_regime.c). */
+typedef struct surface_track {
+    float angle; /* rad: its azimuth when last looked at */
+    float way;   /* rad: by which that has grown since the revolution began; NaN of all other spheres */
+} surface_track;
+
 typedef struct spheres {
     size_t mobile_count, lining_count;
     size_t single_count;       /* of the mobile: particles by themselves */
@@ -49,6 +55,7 @@ typedef struct spheres {
     double *inverse_mass;                       /* (mobile) 1/kg, of the particle that the sphere is or is a part of */
     double *inverse_inertia;                    /* (single) 1/(kg m2) */
     double *fallen_time;                        /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
+    surface_track *surface_track;               /* (mobile) */
     vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */
     double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */

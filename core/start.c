@@ -10,6 +10,7 @@ static void begin_anew(dem_scene *scene, double elapsed)
     scene->step_count = scene->phase_start = scene->rotation_start = 0;
     scene->maximum_overlap = 0.0;
     scene->torque = (torque_meter){ .sum = 0 };
+    scene->surface = (surface_meter){ NAN, NAN };
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) scene->spheres.fallen_time[i] -= elapsed;
 }
 

@@ -178,6 +178,60 @@ static void a_ring_that_turns_with_the_drum_covers_the_wall_and_does_not_slip(vo
     dem_scene_free(scene);
 }
 
+enum { AT_SURFACE = 200, FRAMES_A_TURN = 40 };
+
+/* Sphere i of AT_SURFACE at the bed's inner surface (all others lie at the wall) after so many turns of the drum: every
+ * fourth falls behind by a quarter; every tenth sinks to the wall in the second revolution, and lags by half meanwhile. */
+static double lag_in_turns(size_t i, double turns)
+{
+    const double second = fmax(0, fmin(turns - 1, 1));
+    return i % 10 == 9 ? 0.5 * second : i % 4 == 0 ? 0.25 * turns : 0;
+}
+
+static void put_at_surface(dem_scene *scene, double inner, double turns)
+{
+    for (size_t i = 0; i < AT_SURFACE; i++) {
+        const double radius = i % 10 == 9 && turns > 1.5 ? RADIUS - D / 2 : inner;
+        const double angle = 2 * M_PI * ((double)i / AT_SURFACE + turns - lag_in_turns(i, turns));
+        sphere_set_place(&scene->spheres, i, (double[]){ radius * cos(angle), radius * sin(angle), 0 });
+    }
+}
+
+/* Forty frames a revolution: the lag of the last whole one, of those that were there when it began. */
+static void the_surface_lags_by_what_its_spheres_fall_behind_in_a_revolution(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = bed_definition(AT_SURFACE + 200, 0, 0);
+    d.rotation_rate = 20;
+    dem_scene *scene = hand_scene(&d);
+    scene->phase = DEM_PHASE_ROTATING;
+    scene->rotation_start = 0;
+    const double inner = scene->drum.radius * sqrt(1 - d.fill_fraction), turn = 2 * M_PI / d.rotation_rate;
+    for (size_t i = AT_SURFACE; i < scene->spheres.mobile_count; i++)
+        sphere_set_place(&scene->spheres, i, (double[]){ RADIUS - D / 2, 0, 0 });
+    int32_t *contacts = calloc(scene->spheres.mobile_count, sizeof *contacts);
+    double *frame = calloc(dem_frame_width(scene), sizeof *frame), seen[3 * FRAMES_A_TURN + 1];
+    for (int k = 0; k <= 3 * FRAMES_A_TURN; k++) {
+        scene->step_count = llround(k * turn / FRAMES_A_TURN / d.time_step);
+        put_at_surface(scene, inner, dem_scene_time(scene) / turn);
+        measure_regime_frame(scene, contacts, frame);
+        seen[k] = frame[FRAME_SURFACE_LAG];
+    }
+    /* 50 by a quarter; 20 by half, which are no longer there in the third */
+    const double first = 50 * 0.25 / 200 * 2 * M_PI, second = (50 * 0.25 + 20 * 0.5) / 200 * 2 * M_PI,
+                 third = 50 * 0.25 / 180 * 2 * M_PI;
+    const double step = 2 * M_PI * d.time_step / turn; /* a frame is at a whole step */
+    assert_true(isnan(seen[0]));
+    CHECK_NEAR(seen[FRAMES_A_TURN / 2], first, 1e-5 + step); /* so far */
+    CHECK_NEAR(seen[FRAMES_A_TURN + 1], first, 1e-5 + step);
+    CHECK_NEAR(seen[2 * FRAMES_A_TURN - 1], first, 1e-5 + step);
+    CHECK_NEAR(seen[2 * FRAMES_A_TURN + 1], second, 1e-5 + 3 * step * 40);
+    CHECK_NEAR(seen[3 * FRAMES_A_TURN], third, 1e-5 + 3 * step * 40);
+    free(contacts);
+    free(frame);
+    dem_scene_free(scene);
+}
+
 /* ---- segregation ---- */
 
 enum { MIXED = 2000 };
@@ -318,6 +372,7 @@ int main(void)
         cmocka_unit_test(every_angle_of_a_bed_cut_level_at_a_plane_is_that_of_the_plane),
         cmocka_unit_test(every_angle_of_a_rough_bed_is_that_of_the_plane_in_the_mean),
         cmocka_unit_test(a_ring_that_turns_with_the_drum_covers_the_wall_and_does_not_slip),
+        cmocka_unit_test(the_surface_lags_by_what_its_spheres_fall_behind_in_a_revolution),
         cmocka_unit_test(species_placed_at_random_are_mixed),
         cmocka_unit_test(species_side_by_side_are_segregated_across_and_not_along),
         cmocka_unit_test(species_in_bands_along_the_axis_have_an_axial_index_of_one),
