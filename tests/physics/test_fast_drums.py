@@ -48,12 +48,14 @@ def test_at_the_boundary_it_slides(record, drums):
 
 
 def test_above_the_boundary_it_centrifuges(record, drums):
-    known = {2.6: 0.015, 3.2: 0.012}
-    for omega2, result in drums({omega2: fast(omega2) for omega2 in known}).items():
+    """Nearest to the boundary the last loose grains take their time to find a place, and each of them makes 0.027: it lags by
+    a turn, among 230 at the surface. Ten revolutions more are for them."""
+    known = {2.6: (0.015, 26), 3.2: (0.012, 16)}
+    for omega2, result in drums({omega2: fast(omega2, revolutions) for omega2, (_, revolutions) in known.items()}).items():
         fallen, lag = fallen_and_lag(result)
         record.same(f"Omega_i^2 = {omega2}: regime", result["regime"]["name"], "centrifuging", "another code; the paper's Eq 36: 2.95 for 26 degrees at the free surface")
         record.between(f"Omega_i^2 = {omega2}: fallen", fallen, 0, 0.005, "another code: 0; a dozen of 2500")
-        record.between(f"Omega_i^2 = {omega2}: lag", lag, -0.005, 0.03, f"another code: {known[omega2]}; the threshold is 0.03", "rad a revolution")
+        record.between(f"Omega_i^2 = {omega2}: lag", lag, -0.005, 0.03, f"another code: {known[omega2][0]} after 16 revolutions; the threshold is 0.03", "rad a revolution")
 
 
 def test_a_slippery_wall_never_carries_the_bed_round(record, drums):
