@@ -135,7 +135,7 @@ static void push(const leap_frog *leap, const cluster_shape *shape, cluster_body
  * either orientation. A sphere's velocity is its displacement over dt: exactly what the friction spring integrates, and
  * what neighbor lists bound. */
 static vector4 carry_spheres(const leap_frog *leap, spheres *s, const cluster_body *body, const motion *m,
-                             const vector4 *picked_velocity)
+                             const half_row *picked_velocity)
 {
     const cluster_shape *shape = &s->clusters.shape[body->species];
     const size_t first = (size_t)body->first_sphere;
@@ -150,7 +150,7 @@ static vector4 carry_spheres(const leap_frog *leap, spheres *s, const cluster_bo
         const vector4 x0 = vector4_all(x[0]), x1 = vector4_all(x[1]), x2 = vector4_all(x[2]);
         const vector4 place = vector4_fused(x2, to[2], vector4_fused(x1, to[1], vector4_fused(x0, to[0], m->place)));
         const vector4 v = vector4_fused(x2, change[2], vector4_fused(x1, change[1], vector4_fused(x0, change[0], m->velocity)));
-        const vector4 astray = v - picked_velocity[first + k];
+        const vector4 astray = v - vector4_of(&picked_velocity[first + k]);
         s->velocity[first + k] = v;
         s->angular_velocity[first + k] = m->omega;
         s->place[first + k] = sphere_move(leap, &s->row[first + k], place, v, m->omega);
@@ -159,7 +159,7 @@ static vector4 carry_spheres(const leap_frog *leap, spheres *s, const cluster_bo
     return largest;
 }
 
-vector4 clusters_advance(const leap_frog *all, spheres *s, const vector4 *picked_velocity, size_t from, size_t to)
+vector4 clusters_advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
     motion m[SOME];

@@ -1,26 +1,31 @@
 #include "contact_list.h"
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling)
+dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, bool computes)
 {
     memset(list, 0, sizeof *list);
     list->has_rolling = has_rolling;
+    list->computes = computes;
     list->start = array_create(sphere_count + 1, sizeof *list->start);
     if (!list->start) return DEM_NO_MEMORY;
     return contact_list_reserve(list, BLOCK);
 }
 
-static void slots_free(contact_list *list)
+static void memory_free(contact_list *list)
 {
     free(list->first);
     free(list->second);
-    free(list->friction);
-    free(list->first_radius);
-    free(list->mass);
     for (int c = 0; c < 3; c++) free(list->t[c]);
     free(list->t_star);
     free(list->alpha_0);
-    free(list->rolling_friction);
     for (int c = 0; c < 3; c++) free(list->roll[c]);
+}
+
+static void slots_free(contact_list *list)
+{
+    free(list->friction);
+    free(list->first_radius);
+    free(list->mass);
+    free(list->rolling_friction);
     free(list->overlap);
     free(list->to_first);
     free(list->to_second);
@@ -28,46 +33,61 @@ static void slots_free(contact_list *list)
 
 void contact_list_clear(contact_list *list)
 {
+    memory_free(list);
     slots_free(list);
     free(list->start);
     memset(list, 0, sizeof *list);
 }
 
-static bool rolling_create(contact_list *list)
+/* A sixteenth more than asked for: lists of a flowing bed grow and shrink by a hundredth. */
+static size_t with_room(size_t count) { return round_up_to_block(count + count / 16); }
+
+static bool memory_create(contact_list *list, size_t n)
 {
-    list->rolling_friction = array_create(list->capacity, sizeof *list->rolling_friction);
-    for (int c = 0; c < 3; c++) list->roll[c] = array_create(list->capacity, sizeof *list->roll[c]);
-    return list->rolling_friction && list->roll[0] && list->roll[1] && list->roll[2];
+    list->capacity = n;
+    list->first = array_create(n, sizeof *list->first);
+    list->second = array_create(n, sizeof *list->second);
+    for (int c = 0; c < 3; c++) list->t[c] = array_create(n, sizeof *list->t[c]);
+    list->t_star = array_create(n, sizeof *list->t_star);
+    list->alpha_0 = array_create(n, sizeof *list->alpha_0);
+    for (int c = 0; list->has_rolling && c < 3; c++) list->roll[c] = array_create(n, sizeof *list->roll[c]);
+    return list->first && list->second && list->t[0] && list->t[1] && list->t[2] && list->t_star && list->alpha_0
+           && (!list->has_rolling || (list->roll[0] && list->roll[1] && list->roll[2]));
+}
+
+static bool slots_create(contact_list *list, size_t n)
+{
+    list->slot_capacity = n;
+    list->friction = array_create(n, sizeof *list->friction);
+    list->first_radius = array_create(n, sizeof *list->first_radius);
+    list->mass = array_create(n, sizeof *list->mass);
+    list->overlap = array_create(n, sizeof *list->overlap);
+    list->to_first = array_create(n, sizeof *list->to_first);
+    list->to_second = array_create(n, sizeof *list->to_second);
+    if (list->has_rolling) list->rolling_friction = array_create(n, sizeof *list->rolling_friction);
+    return list->friction && list->first_radius && list->mass && list->overlap && list->to_first && list->to_second
+           && (!list->has_rolling || list->rolling_friction);
 }
 
 dem_status contact_list_reserve(contact_list *list, size_t count)
 {
-    if (count <= list->capacity) return DEM_OK;
-    contact_list grown = { .start = list->start,
-                           .count = list->count,
-                           .capacity = round_up_to_block(count + count / 4),
-                           .has_rolling = list->has_rolling,
-                           .ends_differ = list->ends_differ };
-    const size_t n = grown.capacity;
-    grown.first = array_create(n, sizeof *grown.first);
-    grown.second = array_create(n, sizeof *grown.second);
-    grown.friction = array_create(n, sizeof *grown.friction);
-    grown.first_radius = array_create(n, sizeof *grown.first_radius);
-    grown.mass = array_create(n, sizeof *grown.mass);
-    for (int c = 0; c < 3; c++) grown.t[c] = array_create(n, sizeof *grown.t[c]);
-    grown.t_star = array_create(n, sizeof *grown.t_star);
-    grown.alpha_0 = array_create(n, sizeof *grown.alpha_0);
-    grown.overlap = array_create(n, sizeof *grown.overlap);
-    grown.to_first = array_create(n, sizeof *grown.to_first);
-    grown.to_second = array_create(n, sizeof *grown.to_second);
-    if (!grown.first || !grown.second || !grown.friction || !grown.first_radius || !grown.mass || !grown.t[0] || !grown.t[1]
-        || !grown.t[2] || !grown.t_star || !grown.alpha_0 || !grown.overlap || !grown.to_first || !grown.to_second
-        || (grown.has_rolling && !rolling_create(&grown))) {
-        slots_free(&grown);
-        return DEM_NO_MEMORY;
+    contact_list grown = *list;
+    if (count > list->capacity) {
+        if (!memory_create(&grown, with_room(count))) {
+            memory_free(&grown);
+            return DEM_NO_MEMORY;
+        }
+        memory_free(list);
+        *list = grown;
     }
-    slots_free(list);
-    *list = grown;
+    if (list->computes && count > list->slot_capacity) {
+        if (!slots_create(&grown, with_room(count))) {
+            slots_free(&grown);
+            return DEM_NO_MEMORY;
+        }
+        slots_free(list);
+        *list = grown;
+    }
     return DEM_OK;
 }
 
@@ -114,11 +134,24 @@ int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS])
     return list->has_rolling ? CONTACT_NUMBERS : CONTACT_NUMBERS - 3;
 }
 
+static void take_memory(contact_list *to, const contact_list *from)
+{
+    to->count = from->count;
+    to->capacity = from->capacity;
+    to->first = from->first;
+    to->second = from->second;
+    to->t_star = from->t_star;
+    to->alpha_0 = from->alpha_0;
+    to->start = from->start;
+    memcpy(to->t, from->t, sizeof to->t);
+    memcpy(to->roll, from->roll, sizeof to->roll);
+}
+
 void contact_list_swap(contact_list *a, contact_list *b)
 {
     const contact_list c = *a;
-    *a = *b;
-    *b = c;
+    take_memory(a, b);
+    take_memory(b, &c);
 }
 
 void contact_list_carry(contact_list *list, const contact_list *before, size_t i)

@@ -16,29 +16,33 @@
 typedef row8 contact_row;
 
 typedef struct contact_list {
-    size_t count, capacity; /* capacity: a multiple of BLOCK; slots behind count hold a pair that nobody reads */
-    int32_t *first;         /* (capacity) sphere index */
-    int32_t *second;        /* (capacity) sphere index, or that of the wall */
-    real *friction;         /* (capacity) mu */
-    real *first_radius;     /* (capacity) m, at full size */
-    real *mass;             /* (capacity) kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
-    real *t[3];             /* (capacity) N   contact_history, by component */
-    real *t_star;           /* (capacity) */
-    real *alpha_0;          /* (capacity) m */
-    bool has_rolling;       /* else there are none of the next two */
-    real *rolling_friction; /* (capacity) mu_r */
-    real *roll[3];          /* (capacity) N   contact_history, by component */
+    bool has_rolling; /* else there are none of what is for it alone */
+    bool computes;    /* else it is a list before, of which the first group is left: who, and what they remember */
+    /* (capacity) a multiple of BLOCK; slots behind count hold a pair that nobody reads */
+    size_t count, capacity;
+    int32_t *first;  /* sphere index */
+    int32_t *second; /* sphere index, or that of the wall */
+    real *t[3];      /* N   contact_history, by component */
+    real *t_star;
+    real *alpha_0; /* m */
+    real *roll[3]; /* N   contact_history, by component */
+    size_t *start; /* (spheres + 1) where each first sphere's contacts begin */
+    /* (slot_capacity) */
+    size_t slot_capacity;
+    real *friction;         /* mu */
+    real *first_radius;     /* m, at full size */
+    real *mass;             /* kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
+    real *rolling_friction; /* mu_r */
+    real *overlap;          /* m at the last step; negative: apart */
     bool ends_differ;       /* in their moments */
-    uint32_t *to_first;     /* (capacity) bytes from the first of spheres.load: which of them gets what the first gets */
-    uint32_t *to_second;    /* (capacity) likewise */
-    contact_row *row;       /* (capacity) of walls alone: what each contact gave at the last step */
-    real *overlap;          /* (capacity) m at the last step; negative: apart */
-    size_t *start;          /* (spheres + 1) where each first sphere's contacts begin */
+    uint32_t *to_first;     /* bytes from the first of spheres.load: which of them gets what the first gets */
+    uint32_t *to_second;    /* likewise */
+    contact_row *row;       /* of walls alone: what each contact gave at the last step */
 } contact_list;
 
 static inline uint32_t load_offset(size_t load) { return (uint32_t)(load * sizeof(row8)); }
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling);
+dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, bool computes);
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);
@@ -50,6 +54,7 @@ void contact_list_set_history(contact_list *list, size_t slot, const contact_his
 /* The arrays of what slots remember; returns how many they are. */
 enum { CONTACT_NUMBERS = 8 };
 int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS]);
+/* Exchanges who and what they remember. */
 void contact_list_swap(contact_list *a, contact_list *b);
 /* Copy the histories of sphere i's contacts from the list before (same first, same second). */
 void contact_list_carry(contact_list *list, const contact_list *before, size_t i);

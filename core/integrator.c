@@ -6,7 +6,7 @@ static inline double largest_of(double a, double b) { return a > b ? a : b; }
 
 /* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
  * its spin advances as its velocity does. Returns the largest of each component of (v - picked_velocity)^2. */
-vector4 spheres_advance(const leap_frog *all, spheres *s, const vector4 *picked_velocity, size_t from, size_t to)
+vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
     const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
@@ -19,7 +19,7 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const vector4 *picked_
         const vector4 per_mass = vector4_all(leap.dt * inverse_mass[i]), per_inertia = vector4_all(leap.dt * inverse_inertia[i]);
         const vector4 v = vector4_fused(per_mass, vector4_low(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));
         const vector4 omega = vector4_fused(per_inertia, vector4_high(&load[i]), keep * spin[i]);
-        const vector4 astray = v - picked_velocity[i];
+        const vector4 astray = v - vector4_of(&picked_velocity[i]);
         load[i] = (row8){ 0 };
         velocity[i] = v;
         spin[i] = omega;
@@ -43,7 +43,7 @@ leap_frog integrator_leap(const spheres *s, const container *drum, const body_fo
                         .corrector_passes = s->clusters.corrector_passes };
 }
 
-double integrator_advance(spheres *s, const vector4 *picked_velocity, const leap_frog *leap, size_t moved, vector4 so_far,
+double integrator_advance(spheres *s, const half_row *picked_velocity, const leap_frog *leap, size_t moved, vector4 so_far,
                           int threads)
 {
     const size_t count = s->single_count - moved, bodies = s->clusters.count;

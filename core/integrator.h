@@ -15,7 +15,7 @@ leap_frog integrator_leap(const spheres *spheres, const container *container, co
 /* One step for all particles, under their spheres' loads, but for the first `moved` single spheres, which have taken theirs;
  * so_far: what spheres_advance returned of those. Returns a bound on |v - picked_velocity| of every sphere, m/s: from the
  * largest of each component. */
-double integrator_advance(spheres *spheres, const vector4 *picked_velocity, const leap_frog *leap, size_t moved, vector4 so_far,
+double integrator_advance(spheres *spheres, const half_row *picked_velocity, const leap_frog *leap, size_t moved, vector4 so_far,
                           int threads);
 
 #endif

@@ -20,20 +20,19 @@ static void tray_place(const dem_scene *scene, size_t p, double x[3])
 static void lay_down(dem_scene *scene, size_t p)
 {
     spheres *s = &scene->spheres;
+    const vector4 rest = { 0 };
     double x[3];
     tray_place(scene, p, x);
     if (p < s->single_count) {
-        sphere_set_place(s, p, x);
-        s->velocity[p] = s->angular_velocity[p] = (vector4){ 0 };
+        sphere_set(s, p, (vector4){ x[0], x[1], x[2] }, rest, rest);
         return;
     }
     cluster_body *body = &s->clusters.body[p - s->single_count];
     const size_t first = (size_t)body->first_sphere, end = first + s->clusters.shape[body->species].sphere_count;
     for (size_t i = first; i < end; i++) {
         const double *now = sphere_place(s, i);
-        const double moved[3] = { now[0] - body->x[0] + x[0], now[1] - body->x[1] + x[1], now[2] - body->x[2] + x[2] };
-        sphere_set_place(s, i, moved);
-        s->velocity[i] = s->angular_velocity[i] = (vector4){ 0 };
+        sphere_set(s, i, (vector4){ now[0] - body->x[0] + x[0], now[1] - body->x[1] + x[1], now[2] - body->x[2] + x[2] }, rest,
+                   rest);
     }
     memcpy(body->x, x, sizeof x);
     body->velocity = (vector4){ 0 };

@@ -25,8 +25,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     list->is_shared = array_create(n, sizeof *list->is_shared);
     bool enough = list->start && list->built_at && list->picked_velocity && list->shared && list->is_shared;
     contact_list *const all[] = { &list->pairs, &list->pairs_before, &list->walls, &list->walls_before };
-    for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n, has_rolling) == DEM_OK && enough;
-    list->pairs.ends_differ = list->pairs_before.ends_differ = ends_differ;
+    for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n, has_rolling, k % 2 == 0) == DEM_OK && enough;
+    list->pairs.ends_differ = ends_differ;
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
     return DEM_NO_MEMORY;
@@ -89,12 +89,12 @@ static void sort_ascending(int32_t *x, size_t count)
 static dem_status part_reserve(pair_part *part, size_t capacity)
 {
     if (capacity <= part->capacity) return DEM_OK;
-    int32_t *second = array_create(capacity + capacity / 2, sizeof *second);
+    int32_t *second = array_create(capacity + capacity / 8, sizeof *second);
     if (!second) return DEM_NO_MEMORY;
     if (part->count) memcpy(second, part->second, part->count * sizeof *second);
     free(part->second);
     part->second = second;
-    part->capacity = capacity + capacity / 2;
+    part->capacity = capacity + capacity / 8;
     return DEM_OK;
 }
 
@@ -116,7 +116,7 @@ static dem_status append_neighbors(pair_part *part, const spheres *s, const cell
     enum { USUAL_ROOM = 64 };
     size_t room = USUAL_ROOM;
     for (;; room = *count) {
-        if (part_reserve(part, part->count + room + LANES) != DEM_OK) return DEM_NO_MEMORY;
+        if (part_reserve(part, part->count + room + BLOCK) != DEM_OK) return DEM_NO_MEMORY;
         *count = cell_grid_neighbors(grid, i, skin, part->second + part->count, room);
         if (*count <= room) break;
     }
@@ -132,10 +132,11 @@ static dem_status outer_part(neighbor_list *list, const spheres *s, int which, i
 {
     const size_t n = s->mobile_count, from = n * (size_t)which / (size_t)parts, to = n * (size_t)(which + 1) / (size_t)parts;
     list->part[which].count = 0;
+    if (parts == 1 && part_reserve(&list->part[0], list->pair_count) != DEM_OK) return DEM_NO_MEMORY; /* as many as last time */
     for (size_t i = from; i < to; i++) {
         const dem_status status = append_neighbors(&list->part[which], s, &list->grid, i, list->skin, &list->start[i + 1]);
         if (status != DEM_OK) return status;
-        list->built_at[i] = s->place[i];
+        memcpy(&list->built_at[i], s->row[i].place, sizeof list->built_at[i]);
     }
     return DEM_OK;
 }
@@ -143,25 +144,41 @@ static dem_status outer_part(neighbor_list *list, const spheres *s, int which, i
 static dem_status outer_reserve(neighbor_list *list, size_t count)
 {
     if (count <= list->pair_capacity) return DEM_OK;
-    const size_t capacity = round_up_to_block(count + count / 4);
-    int32_t *first = array_create(capacity, sizeof *first), *second = array_create(capacity, sizeof *second);
+    const size_t capacity = round_up_to_block(count + count / 16);
+    int32_t *first = array_create(capacity, sizeof *first);
     uint16_t *in_reach = array_create(capacity / LANES, sizeof *in_reach), *was_in_reach = array_create(capacity / LANES, 2);
-    if (!first || !second || !in_reach || !was_in_reach) {
+    if (!first || !in_reach || !was_in_reach) {
         free(first);
-        free(second);
         free(in_reach);
         free(was_in_reach);
         return DEM_NO_MEMORY;
     }
     free(list->first);
-    free(list->second);
     free(list->in_reach);
     free(list->was_in_reach);
     list->first = first;
-    list->second = second;
     list->in_reach = in_reach;
     list->was_in_reach = was_in_reach;
     list->pair_capacity = capacity;
+    return DEM_OK;
+}
+
+/* The parts' neighbors one after the other; of one part alone, its own memory. */
+static dem_status outer_join(neighbor_list *list, int parts, size_t count)
+{
+    list->pair_count = count;
+    if (parts == 1 || count > list->second_capacity) {
+        free(list->second);
+        list->second_capacity = parts == 1 ? list->part[0].capacity : round_up_to_block(count + count / 16);
+        list->second = parts == 1 ? list->part[0].second : array_create(list->second_capacity, sizeof *list->second);
+        if (parts == 1) list->part[0] = (pair_part){ 0 };
+        if (list->second_capacity > 0 && !list->second) {
+            list->second_capacity = 0;
+            return DEM_NO_MEMORY;
+        }
+    }
+    for (int32_t p = 0, *to = list->second; parts > 1 && p < parts; to += list->part[p++].count)
+        if (list->part[p].count) memcpy(to, list->part[p].second, list->part[p].count * sizeof *to);
     return DEM_OK;
 }
 
@@ -170,9 +187,8 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
     const size_t n = s->mobile_count;
     const double largest = fmax(s->largest_diameter, 2 * s->full_radius[spheres_count(s) - 1]);
     const int parts = threads < MOST_PARTS ? threads : MOST_PARTS;
-    dem_status status = cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, largest + list->skin),
-               of_part[MOST_PARTS];
-    if (status != DEM_OK) return status;
+    dem_status of_part[MOST_PARTS];
+    if (cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, largest + list->skin) != DEM_OK) return DEM_NO_MEMORY;
 #pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
     for (int p = 0; p < parts; p++) of_part[p] = outer_part(list, s, p, parts);
     size_t count = 0;
@@ -180,14 +196,8 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
         if (of_part[p] != DEM_OK) return of_part[p];
         count += list->part[p].count;
     }
-    status = outer_reserve(list, count);
-    if (status != DEM_OK) return status;
-    list->start[0] = list->pair_count = 0;
-    for (int p = 0; p < parts; p++) {
-        if (list->part[p].count)
-            memcpy(list->second + list->pair_count, list->part[p].second, list->part[p].count * sizeof *list->second);
-        list->pair_count += list->part[p].count;
-    }
+    if (outer_reserve(list, count) != DEM_OK || outer_join(list, parts, count) != DEM_OK) return DEM_NO_MEMORY;
+    list->start[0] = 0;
     for (size_t i = 0; i < n; i++) {
         const size_t end = list->start[i + 1] + list->start[i];
         for (size_t k = list->start[i]; k < end; k++) list->first[k] = (int32_t)i;
@@ -215,13 +225,16 @@ static outlook outlook_measure(const neighbor_list *list, const spheres *s, cons
     double displacement2 = 0.0, speed2 = 0.0;
     for (size_t i = 0; i < s->mobile_count; i++) {
         const vector4 v = s->velocity[i];
-        const double moved2 =
-            squared_distance((const double *)&list->built_at[i], sphere_place(s, i), drum->period, drum->inverse_period);
+        double moved2 = 0.0;
+        for (int c = 0; c < 3; c++) {
+            const double moved = (double)ring_difference(list->built_at[i][c], s->row[i].place[c]);
+            moved2 += moved * moved;
+        }
         const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         displacement2 = moved2 > displacement2 ? moved2 : displacement2;
         speed2 = v2 > speed2 ? v2 : speed2;
     }
-    outlook out = { sqrt(displacement2), sqrt(speed2) };
+    outlook out = { sqrt(displacement2) / s->ring_units, sqrt(speed2) };
     if (s->lining_count) {
         out.largest_speed = fmax(out.largest_speed, fabs(drum->rotation_rate) * drum->radius);
         out.largest_displacement = fmax(out.largest_displacement, fabs(drum->angle - list->turned_at_build) * drum->radius);
@@ -264,7 +277,7 @@ static void mark_in_reach(neighbor_list *list, const spheres *s, const container
     for (int part = 0; part < threads; part++) {
         const size_t from = part_start(s->mobile_count, part, threads), to = part_start(s->mobile_count, part + 1, threads);
         wall_reach_count(s, drum, ahead, from, to, list->walls.start + 1);
-        memcpy(list->picked_velocity + from, s->velocity + from, (to - from) * sizeof *s->velocity);
+        for (size_t i = from; i < to; i++) memcpy(&list->picked_velocity[i], s->row[i].v, sizeof *list->picked_velocity);
     }
 }
 

@@ -22,13 +22,13 @@ typedef struct pair_part {
 typedef struct neighbor_list {
     /* outer */
     double skin; /* m: pairs with a smaller gap are listed */
-    size_t pair_count, pair_capacity;
+    size_t pair_count, pair_capacity, second_capacity;
     size_t *start;           /* (mobile + 1) */
-    int32_t *first, *second; /* (pair_capacity) by first, then by second; padded with a pair far apart */
+    int32_t *first, *second; /* (pair_capacity, second_capacity) by first, then by second; padded with a pair far apart */
     uint16_t *in_reach;      /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
     uint16_t *was_in_reach;  /* likewise, at the pick before */
     pair_part part[MOST_PARTS];
-    vector4 *built_at; /* (mobile) m: places when the outer list was made */
+    ring_row *built_at; /* (mobile) places when the outer list was made */
     cell_grid grid;
     bool outer_valid;
     /* inner */
@@ -38,7 +38,7 @@ typedef struct neighbor_list {
     int steps_since_pick, safe_steps;
     double turned_at_build; /* rad: the drum's angle when the outer list was made */
     bool inner_valid;
-    vector4 *picked_velocity; /* (mobile) m/s at the pick */
+    half_row *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
     contact_row *wall_rows;           /* of the walls' contacts */

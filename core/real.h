@@ -21,6 +21,16 @@ typedef int32_t on_ring;
 /* on_ring: a coordinate modulo a length, in fixed point of 2^32 parts of it (DEM_DOUBLE: in shares of it). Differences are
  * exact, and come out as the way round that is shorter: a periodic axis needs nothing more. */
 #define RING_UNITS (sizeof(real) == sizeof(float) ? 4294967296.0 : 1.0)
+/* The way round from a to b. */
+static inline on_ring ring_difference(on_ring a, on_ring b)
+{
+#ifdef DEM_DOUBLE
+    return b - a - rint(b - a);
+#else
+    return (int32_t)((uint32_t)b - (uint32_t)a);
+#endif
+}
+
 /* Displacements are squared in steps of as many units. The ring is 3 to 8 of the largest diameters, so that these are 1024
  * to 2731 steps: whole steps' squares and their sum fit into a float, with bits to spare for half ones. */
 enum { RING_STEP_BITS = sizeof(real) == sizeof(float) ? 19 : 0 };

@@ -85,9 +85,10 @@ static bool find_place(const dem_scene *scene, double reach, double height, rand
 
 static void put_sphere(spheres *s, size_t i, const double x[3], vector4 velocity)
 {
-    sphere_set_place(s, i, x);
-    s->velocity[i] = velocity;
-    s->angular_velocity[i] = (vector4){ 0 };
+    const vector4 none = { 0 };
+    s->velocity[i] = velocity; /* as yet behind the last one */
+    s->angular_velocity[i] = none;
+    sphere_set(s, i, (vector4){ x[0], x[1], x[2] }, velocity, none);
 }
 
 static void put_cluster(spheres *s, cluster_body *body, const double x[3], vector4 velocity, random_stream *random)

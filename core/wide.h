@@ -160,6 +160,7 @@ WIDE_INLINE double wide_largest_lane(wide x)
 #if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
 WIDE_INLINE vector4 vector4_low(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row)); }
 WIDE_INLINE vector4 vector4_high(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row + 4)); }
+WIDE_INLINE vector4 vector4_of(const half_row *x) { return (vector4)_mm256_cvtps_pd((__m128)*x); }
 WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row)_mm256_cvtpd_ps((__m256d)x); }
 WIDE_INLINE vector4 vector4_rint(vector4 x)
 {
@@ -168,6 +169,7 @@ WIDE_INLINE vector4 vector4_rint(vector4 x)
 #else
 WIDE_INLINE vector4 vector4_low(const row8 *row) { return (vector4){ (double)(*row)[0], (double)(*row)[1], (double)(*row)[2] }; }
 WIDE_INLINE vector4 vector4_high(const row8 *row) { return (vector4){ (double)(*row)[4], (double)(*row)[5], (double)(*row)[6] }; }
+WIDE_INLINE vector4 vector4_of(const half_row *x) { return (vector4){ (double)(*x)[0], (double)(*x)[1], (double)(*x)[2] }; }
 WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row){ (real)x[0], (real)x[1], (real)x[2], (real)x[3] }; }
 WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint(x[1]), rint(x[2]), rint(x[3]) }; }
 #endif

@@ -51,16 +51,6 @@ WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
     for (int h = 0; h < HALVES; h++) to[h] = __builtin_convertvector(y.part[h], wide_double);
 }
 
-/* The way round from a to b, in units. */
-WIDE_INLINE on_ring ring_difference(on_ring a, on_ring b)
-{
-#ifdef DEM_DOUBLE
-    return b - a - rint(b - a);
-#else
-    return (int32_t)((uint32_t)b - (uint32_t)a);
-#endif
-}
-
 WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, wide_pairs *out)
 {
     typedef struct row {
