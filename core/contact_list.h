@@ -24,9 +24,9 @@ typedef struct contact_list {
     int32_t *second; /* sphere index, or that of the wall */
     real *t[3];      /* N   contact_history, by component */
     real *t_star;
-    real *alpha_0; /* m */
-    real *roll[3]; /* N   contact_history, by component */
-    size_t *start; /* (spheres + 1) where each first sphere's contacts begin */
+    real *alpha_0;   /* m */
+    real *roll[3];   /* N   contact_history, by component */
+    uint32_t *start; /* (spheres + 1) where each first sphere's contacts begin */
     /* (slot_capacity) */
     size_t slot_capacity;
     real *friction;         /* mu */
@@ -46,7 +46,8 @@ dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_r
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);
-/* Fill the slots from count up to the next whole block with a pair whose result goes to `nobody`, a load. */
+/* Fill the slots from count up to the next whole block with a pair whose result goes to `nobody`, a load: it has
+ * no radius, so there may be NaN in it. */
 void contact_list_pad(contact_list *list, int32_t first, int32_t second, size_t nobody);
 void contact_list_forget(contact_list *list, size_t slot);
 contact_history contact_list_history(const contact_list *list, size_t slot);

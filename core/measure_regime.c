@@ -43,24 +43,25 @@ static double share_of_bins(const bool bins[WALL_BINS])
 
 /* Slip of the surface against the drum, rad a revolution: of the spheres that were within d of it when a revolution began,
  * over that revolution. What falls from there goes on to count, and what comes there does not yet: of the spheres that are
- * there at one moment more than their share are on their way down. Until a revolution is over, of what there was of it. */
+ * there at one moment more than their share are on their way down. Until a revolution is over, of what there was of it.
+ * Azimuths are the drum's own: what lags by less than half a turn from one look to the next is followed. */
 static double surface_lag(dem_scene *scene, double inner, double d)
 {
     spheres *s = &scene->spheres;
     surface_meter *meter = &scene->surface;
-    const double time = dem_scene_time(scene), turned = scene->definition.rotation_rate * (time - meter->since);
+    const double rate = scene->definition.rotation_rate, time = dem_scene_time(scene), turned = rate * (time - meter->since);
     const bool begins = !(fabs(turned) < 2 * DEM_PI * (1 - 1e-9)); /* also where none has yet */
     mean way = { 0 };
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *x = sphere_place(s, i), angle = atan2(x[1], x[0]);
+        const double *x = sphere_place(s, i), angle = remainder(atan2(x[1], x[0]) - rate * time, 2 * DEM_PI);
         surface_track *track = &s->surface_track[i];
         const double further = angle - (double)track->angle;
         track->angle = (float)angle;
-        track->way += (float)(further - 2 * DEM_PI * rint(further / (2 * DEM_PI)));
+        track->way += (float)remainder(further, 2 * DEM_PI);
         if (!isnan(track->way)) mean_add(&way, (double)track->way);
         if (begins) track->way = fabs(hypot(x[0], x[1]) - inner) < d ? 0 : NAN;
     }
-    const double lag = 2 * DEM_PI * (1 - mean_of(&way) / turned);
+    const double lag = -2 * DEM_PI * mean_of(&way) / turned;
     if (begins) *meter = (surface_meter){ time, isnan(meter->since) ? NAN : lag };
     return isnan(meter->lag) ? lag : meter->lag;
 }

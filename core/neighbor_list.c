@@ -111,19 +111,21 @@ static size_t drop_own_particle(int32_t *found, size_t count, const spheres *s, 
 }
 
 /* Spheres after i within the skin of it, ascending, appended to the part. */
-static dem_status append_neighbors(pair_part *part, const spheres *s, const cell_grid *grid, size_t i, double skin, size_t *count)
+static dem_status append_neighbors(pair_part *part, const spheres *s, const cell_grid *grid, size_t i, double skin,
+                                   uint32_t *listed)
 {
     enum { USUAL_ROOM = 64 };
-    size_t room = USUAL_ROOM;
-    for (;; room = *count) {
+    size_t count, room = USUAL_ROOM;
+    for (;; room = count) {
         if (part_reserve(part, part->count + room + BLOCK) != DEM_OK) return DEM_NO_MEMORY;
-        *count = cell_grid_neighbors(grid, i, skin, part->second + part->count, room);
-        if (*count <= room) break;
+        count = cell_grid_neighbors(grid, i, skin, part->second + part->count, room);
+        if (count <= room) break;
     }
     int32_t *found = part->second + part->count;
-    sort_ascending(found, *count);
-    *count = drop_own_particle(found, *count, s, i);
-    part->count += *count;
+    sort_ascending(found, count);
+    count = drop_own_particle(found, count, s, i);
+    part->count += count;
+    *listed = (uint32_t)count;
     return DEM_OK;
 }
 
@@ -184,6 +186,7 @@ static dem_status outer_join(neighbor_list *list, int parts, size_t count)
 
 static dem_status outer_build(neighbor_list *list, const spheres *s, const container *drum, int threads)
 {
+    list->outer_valid = false;
     const size_t n = s->mobile_count;
     const double largest = fmax(s->largest_diameter, 2 * s->full_radius[spheres_count(s) - 1]);
     const int parts = threads < MOST_PARTS ? threads : MOST_PARTS;
@@ -503,7 +506,9 @@ dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container
     }
     /* Right after a build, the step at hand is safe whatever the speed. */
     list->safe_steps = steps > 1 ? steps : 1;
-    return inner_pick(list, s, drum, contact, list->safe_steps * time_step, threads);
+    const dem_status status = inner_pick(list, s, drum, contact, list->safe_steps * time_step, threads);
+    if (status != DEM_OK) neighbor_list_invalidate(list);
+    return status;
 }
 
 void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, const container *drum, const int32_t *id,

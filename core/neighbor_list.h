@@ -23,7 +23,7 @@ typedef struct neighbor_list {
     /* outer */
     double skin; /* m: pairs with a smaller gap are listed */
     size_t pair_count, pair_capacity, second_capacity;
-    size_t *start;           /* (mobile + 1) */
+    uint32_t *start;         /* (mobile + 1) */
     int32_t *first, *second; /* (pair_capacity, second_capacity) by first, then by second; padded with a pair far apart */
     uint16_t *in_reach;      /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
     uint16_t *was_in_reach;  /* likewise, at the pick before */

@@ -1,7 +1,7 @@
 /* The number type of contact arithmetic, and memory for wide loops.
  *
  * Positions, velocities and their integration are double always. Contacts are computed in `real`: differences
- * of positions are taken in double first, so nothing is lost by cancellation when real is float. */
+ * of positions are taken in fixed point first, so nothing is lost by cancellation when real is float. */
 #ifndef REAL_H
 #define REAL_H
 
@@ -113,14 +113,11 @@ static inline real inverse_cube_root(real x)
     return y;
 }
 
-/* Zeroed, aligned to a cache line; NULL when out of memory; freed with free(). */
-static inline void *array_create(size_t count, size_t size)
-{
-    if (size && count > (SIZE_MAX - ALIGNMENT) / size) return NULL;
-    const size_t bytes = (count * size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
-    void *memory = aligned_alloc(ALIGNMENT, bytes ? bytes : ALIGNMENT);
-    if (memory) memset(memory, 0, bytes);
-    return memory;
-}
+/* Zeroed, aligned to a cache line, large ones in huge pages where there are any; NULL when out of memory; freed with
+ * free() (array.c). */
+void *array_create(size_t count, size_t size);
+/* Once, before other threads are at work: what is freed of large arrays goes back to the system. Their sizes vary, and would
+ * leave holes. */
+void arrays_prepare(void);
 
 #endif

@@ -8,6 +8,7 @@
 dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
 {
     *out = NULL;
+    arrays_prepare();
     dem_scene *scene = array_create(1, sizeof *scene);
     if (!scene) return DEM_NO_MEMORY;
     scene->definition = *definition;

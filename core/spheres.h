@@ -32,8 +32,8 @@ static inline void sphere_row_store(sphere_row *row, vector4 place, vector4 v, v
 
 /* Of a sphere that was at the bed's inner surface when the drum's present revolution began (measure_regime.c). */
 typedef struct surface_track {
-    float angle; /* rad: its azimuth when last looked at */
-    float way;   /* rad: by which that has grown since the revolution began; NaN of all other spheres */
+    float angle; /* rad: its azimuth in the frame of the drum when last looked at */
+    float way;   /* rad: by which that has grown since the revolution began, less than 0 where it lags; NaN of all other spheres */
 } surface_track;
 
 typedef struct spheres {
@@ -115,8 +115,8 @@ static inline int32_t particle_id(const spheres *s, size_t p)
 
 /* How many particles a species has: shares by number, every species within one of its share, the total exact. */
 size_t species_particles(const dem_drum_definition *definition, size_t species);
-/* Before any place is set: rows tell places apart modulo the period along z (m; 0: none) and lengths that no listed pair
- * comes near. */
+/* Before any place is set: rows tell places apart modulo a length, the period along z (m; 0: none) or a whole part of it or
+ * some diameters. */
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
 /* Room for as many loads, all zeros. */
 dem_status spheres_reserve_loads(spheres *spheres, size_t count);

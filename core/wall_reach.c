@@ -50,14 +50,14 @@ static size_t walls_in_reach(const spheres *s, const container *c, wall_outlook 
     return count;
 }
 
-void wall_reach_count(const spheres *s, const container *c, wall_outlook outlook, size_t from, size_t to, size_t *count)
+void wall_reach_count(const spheres *s, const container *c, wall_outlook outlook, size_t from, size_t to, uint32_t *count)
 {
     if (c->wall_count == 1 && c->wall[0].kind == WALL_CYLINDER) {
         const double wall = c->wall[0].radius;
-        for (size_t i = from; i < to; i++) count[i] = cylinder_in_reach(s, i, wall, outlook);
+        for (size_t i = from; i < to; i++) count[i] = (uint32_t)cylinder_in_reach(s, i, wall, outlook);
         return;
     }
-    for (size_t i = from; i < to; i++) count[i] = walls_in_reach(s, c, outlook, i);
+    for (size_t i = from; i < to; i++) count[i] = (uint32_t)walls_in_reach(s, c, outlook, i);
 }
 
 void wall_reach_fill(contact_list *walls, const spheres *s, const container *c, wall_outlook outlook, size_t i)

@@ -231,7 +231,7 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
     return __builtin_convertvector((wide_floats)(INVERSE_CUBE_ROOT_MAGIC - __builtin_convertvector(third, wide_ints)), wide);
 }
 
-/* 1/sqrt(x), 1/x and x^(-1/3) for x > 0, as real.h has them for one. */
+/* 1/sqrt(x) and x^(-1/3) for x > 0, as real.h has them for one. */
 WIDE_INLINE wide wide_inverse_root(wide x)
 {
     wide y = wide_inverse_root_guess(x);

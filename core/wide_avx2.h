@@ -19,16 +19,6 @@ WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
     return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(above));
 }
 
-WIDE_INLINE wide wide_from_doubles(const wide_double x[HALVES])
-{
-    return (wide)_mm256_insertf128_ps(_mm256_castps128_ps256(_mm256_cvtpd_ps((__m256d)x[0])), _mm256_cvtpd_ps((__m256d)x[1]), 1);
-}
-WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
-{
-    to[0] = (wide_double)_mm256_cvtps_pd(_mm256_castps256_ps128((__m256)x));
-    to[1] = (wide_double)_mm256_cvtps_pd(_mm256_extractf128_ps((__m256)x, 1));
-}
-
 /* 4 x 4 numbers within each half of a vector: to[c] has in half L what from[0..3] have at 4 L + c. */
 WIDE_INLINE void transpose_halves(const __m256 from[4], __m256 to[4])
 {
