@@ -1,8 +1,7 @@
 """The paper's fast drums (Figs 5 and 7) from rest, on both sides of each boundary, against another code's counts.
 
 `fallen`: share of particles that were nearer the axis than R_i - 2 d within the last four revolutions; `lag`: slip of
-the surface particles against the drum, rad a revolution. Regimes are told by thresholds on these two; the other code's
-three names know no cataracting.
+the surface particles against the drum, rad a revolution. Regimes are told by thresholds on these two.
 """
 import math
 
@@ -27,38 +26,32 @@ def fallen_and_lag(result):
 
 
 def test_below_the_boundary_it_rains(record, drums):
-    """Its time is not told. Ours are looked at before the seventh revolution, in which the faster of them begins to stay up:
-    after sixteen it is where the other code's is at 2.2, in another bed earlier or later by a revolution or two."""
+    """A bed that never stays up is the same at any time: a revolution's spread is some hundredths."""
     known = {1.0: (1.0, 6.2), 2.0: (0.91, 5.9)}
-    for omega2, result in drums({omega2: fast(omega2, 6) for omega2 in known}).items():
+    for omega2, result in drums({omega2: fast(omega2, 8) for omega2 in known}).items():
         fallen, lag = fallen_and_lag(result)
-        record.same(f"Omega_i^2 = {omega2}: regime", result["regime"]["name"], {"raining", "cataracting"},
-                    "another code: more than 2 % fall, the one name it has for that")
-        record(f"Omega_i^2 = {omega2}: fallen", fallen, known[omega2][0], 0.12, "another code; a share that falls as loose ones settle")
+        record.same(f"Omega_i^2 = {omega2}: regime", result["regime"]["name"], {"raining", "cataracting"} if omega2 == 1.0 else "raining",
+                    "another code; at 1 the bed need not cover the whole wall")
+        record(f"Omega_i^2 = {omega2}: fallen", fallen, known[omega2][0], 0.12, "another code after 16 revolutions, here 8; a share that falls as loose ones settle")
         record(f"Omega_i^2 = {omega2}: lag", lag, known[omega2][1], 0.9, "another code, likewise", "rad a revolution")
 
 
 def test_at_the_boundary_it_slides(record, drums):
-    """2.2 is the paper's Figure 7: the last loose particles go within ten revolutions, what stays slips, ever less. When the
-    loose ones are gone differs by some revolutions from bed to bed, so the other code's later state is one that may be seen."""
+    """2.2 is the paper's Figure 7: the last loose particles go within ten revolutions, what stays slips."""
     result = drums({2.2: fast(2.2)})[2.2]
     fallen, lag = fallen_and_lag(result)
     record.same("Omega_i^2 = 2.2 after 16 revolutions: regime", result["regime"]["name"], {"raining", "sliding"}, "another code: 2.4 % fallen, where raining begins at 2 %")
-    record.between("Omega_i^2 = 2.2 after 16 revolutions: fallen", fallen, 0.004 / 3, 0.07, "another code: 0.024, and 0.004 ten revolutions later, each to a factor of three")
-    record.between("Omega_i^2 = 2.2 after 16 revolutions: lag", lag, 0.1 / 3, 0.9, "another code: 0.32, and 0.10 ten revolutions later: it follows the fallen", "rad a revolution")
+    record.between("Omega_i^2 = 2.2 after 16 revolutions: fallen", fallen, 0.002, 0.07, "another code: 0.024, some sixty particles, to a factor of three")
+    record.between("Omega_i^2 = 2.2 after 16 revolutions: lag", lag, 0.1, 0.9, "another code: 0.32, to a factor of three: it follows the fallen", "rad a revolution")
 
 
 def test_above_the_boundary_it_centrifuges(record, drums):
-    """Of 2500 grains some 230 are at the surface. One that finds no place among them lags by a turn, which is 0.027 in the
-    mean over all, of the threshold's 0.03: near the boundary it depends on the bed whether there are any."""
     known = {2.6: 0.015, 3.2: 0.012}
     for omega2, result in drums({omega2: fast(omega2) for omega2 in known}).items():
         fallen, lag = fallen_and_lag(result)
-        record.same(f"Omega_i^2 = {omega2}: regime", result["regime"]["name"], "centrifuging" if fallen == 0 else {"centrifuging", "sliding"},
-                    "another code: centrifuging; the paper's Eq 36: 2.95 for 26 degrees at the free surface; with loose grains it may be called sliding")
+        record.same(f"Omega_i^2 = {omega2}: regime", result["regime"]["name"], "centrifuging", "another code; the paper's Eq 36: 2.95 for 26 degrees at the free surface")
         record.between(f"Omega_i^2 = {omega2}: fallen", fallen, 0, 0.005, "another code: 0; a dozen of 2500")
-        record.between(f"Omega_i^2 = {omega2}: lag", lag, -0.005, 0.03 + 2 * math.pi * 2500 * fallen / 230,
-                       f"another code: {known[omega2]}; the threshold is 0.03, and what has fallen lags by a turn at most", "rad a revolution")
+        record.between(f"Omega_i^2 = {omega2}: lag", lag, -0.005, 0.03, f"another code: {known[omega2]}; the threshold is 0.03", "rad a revolution")
 
 
 def test_a_slippery_wall_never_carries_the_bed_round(record, drums):
