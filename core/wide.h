@@ -40,7 +40,6 @@ typedef double vector4 __attribute__((vector_size(32))); /* x, y, z and one unus
 #define WIDE_INLINE static inline __attribute__((always_inline))
 
 WIDE_INLINE wide wide_all(real x) { return x - (wide){ 0 }; }
-WIDE_INLINE wide_double wide_double_all(double x) { return x - (wide_double){ 0 }; }
 WIDE_INLINE wide wide_load(const real *p) { return *(const wide *)p; }
 WIDE_INLINE void wide_store(real *p, wide x) { *(wide *)p = x; }
 WIDE_INLINE wide wide_load_any(const real *p) /* not aligned */
