@@ -2,8 +2,12 @@
 
 `fallen`: share of particles that were nearer the axis than R_i - 2 d within the last four revolutions; `lag`: slip of
 the surface particles against the drum, rad a revolution. Regimes are told by thresholds on these two.
+
+The other code's numbers are of one bed each. From bed to bed they differ by single grains that stay loose, of which each
+makes a lag of 0.027, and below the boundary by when the bed begins to stay up: of five beds each, medians are compared.
 """
 import math
+import statistics
 
 import pytest
 from conftest import drum
@@ -11,10 +15,14 @@ from conftest import drum
 SECTION = "Fast drums"
 pytestmark = pytest.mark.long
 R_I = 0.063 * math.sqrt(0.5)
+BEDS = 5
+# N/m: an overlap of 1 % in the paper's slow drum, by the other code's measure. The 1 % of our own rule, here, is many times
+# stiffer, and a stiff bed begins to stay up sooner.
+STIFFNESS = 2500
 
 
 def fast(omega2, revolutions=16, **inputs):
-    return drum(0.2, math.sqrt(omega2 * 9.81 / R_I), revolutions=revolutions, **inputs)
+    return drum(0.2, math.sqrt(omega2 * 9.81 / R_I), revolutions=revolutions, contact={"stiffness": STIFFNESS}, **inputs)
 
 
 def fallen_and_lag(result):
@@ -25,33 +33,40 @@ def fallen_and_lag(result):
     return result["regime"]["evidence"]["fallen_fraction"], sum(late) / len(late)
 
 
-def test_below_the_boundary_it_rains(record, drums):
-    """A bed that never stays up is the same at any time: a revolution's spread is some hundredths."""
-    known = {1.0: (1.0, 6.2), 2.0: (0.91, 5.9)}
-    for omega2, result in drums({omega2: fast(omega2, 8) for omega2 in known}).items():
-        fallen, lag = fallen_and_lag(result)
-        record.same(f"Omega_i^2 = {omega2}: regime", result["regime"]["name"], {"raining", "cataracting"} if omega2 == 1.0 else "raining",
-                    "another code; at 1 the bed need not cover the whole wall")
-        record(f"Omega_i^2 = {omega2}: fallen", fallen, known[omega2][0], 0.12, "another code after 16 revolutions, here 8; a share that falls as loose ones settle")
-        record(f"Omega_i^2 = {omega2}: lag", lag, known[omega2][1], 0.9, "another code, likewise", "rad a revolution")
+def beds(drums, omega2, revolutions=16):
+    """Of five beds: the name that most bear, medians of fallen and of lag, and each bed's numbers in words."""
+    results = list(drums({seed: fast(omega2, revolutions, seed=seed) for seed in range(1, BEDS + 1)}).values())
+    fallen, lag = zip(*map(fallen_and_lag, results))
+    names = [r["regime"]["name"] for r in results]
+    each = f"the beds: {', '.join(f'{n} {f:.3g} {slip:.2g}' for n, f, slip in zip(names, fallen, lag))}"
+    return statistics.mode(names), statistics.median(fallen), statistics.median(lag), each
+
+
+@pytest.mark.parametrize("omega2, known_fallen, known_lag", [(1.0, 1.0, 6.2), (2.0, 0.91, 5.9)])
+def test_below_the_boundary_it_rains(record, drums, omega2, known_fallen, known_lag):
+    """Before any bed begins to stay up, it is the same at any time: a revolution's spread is some hundredths."""
+    name, fallen, lag, each = beds(drums, omega2, 8)
+    record.same(f"Omega_i^2 = {omega2}: regime", name, {"raining", "cataracting"},
+                f"another code, whose names know no bed that leaves a part of the wall bare; {each}")
+    record(f"Omega_i^2 = {omega2}: fallen", fallen, known_fallen, 0.12, "another code after 16 revolutions, here 8; a share that falls as loose ones settle")
+    record(f"Omega_i^2 = {omega2}: lag", lag, known_lag, 0.9, "another code, likewise", "rad a revolution")
 
 
 def test_at_the_boundary_it_slides(record, drums):
     """2.2 is the paper's Figure 7: the last loose particles go within ten revolutions, what stays slips."""
-    result = drums({2.2: fast(2.2)})[2.2]
-    fallen, lag = fallen_and_lag(result)
-    record.same("Omega_i^2 = 2.2 after 16 revolutions: regime", result["regime"]["name"], {"raining", "sliding"}, "another code: 2.4 % fallen, where raining begins at 2 %")
+    name, fallen, lag, each = beds(drums, 2.2)
+    record.same("Omega_i^2 = 2.2 after 16 revolutions: regime", name, {"raining", "sliding"},
+                f"another code: 2.4 % fallen, where raining begins at 2 %; {each}")
     record.between("Omega_i^2 = 2.2 after 16 revolutions: fallen", fallen, 0.002, 0.07, "another code: 0.024, some sixty particles, to a factor of three")
     record.between("Omega_i^2 = 2.2 after 16 revolutions: lag", lag, 0.1, 0.9, "another code: 0.32, to a factor of three: it follows the fallen", "rad a revolution")
 
 
-def test_above_the_boundary_it_centrifuges(record, drums):
-    known = {2.6: 0.015, 3.2: 0.012}
-    for omega2, result in drums({omega2: fast(omega2) for omega2 in known}).items():
-        fallen, lag = fallen_and_lag(result)
-        record.same(f"Omega_i^2 = {omega2}: regime", result["regime"]["name"], "centrifuging", "another code; the paper's Eq 36: 2.95 for 26 degrees at the free surface")
-        record.between(f"Omega_i^2 = {omega2}: fallen", fallen, 0, 0.005, "another code: 0; a dozen of 2500")
-        record.between(f"Omega_i^2 = {omega2}: lag", lag, -0.005, 0.03, f"another code: {known[omega2]}; the threshold is 0.03", "rad a revolution")
+@pytest.mark.parametrize("omega2, known_lag", [(2.6, 0.015), (3.2, 0.012)])
+def test_above_the_boundary_it_centrifuges(record, drums, omega2, known_lag):
+    name, fallen, lag, each = beds(drums, omega2)
+    record.same(f"Omega_i^2 = {omega2}: regime", name, "centrifuging", f"another code; the paper's Eq 36: 2.95 for 26 degrees at the free surface; {each}")
+    record.between(f"Omega_i^2 = {omega2}: fallen", fallen, 0, 0.005, "another code: 0; a dozen of 2500")
+    record.between(f"Omega_i^2 = {omega2}: lag", lag, -0.005, 0.03, f"another code: {known_lag}; the threshold is 0.03", "rad a revolution")
 
 
 def test_a_slippery_wall_never_carries_the_bed_round(record, drums):
