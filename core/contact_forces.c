@@ -95,13 +95,10 @@ WIDE_INLINE void make_rows(contact_block *restrict block, const real *restrict f
     }
 }
 
-static void keep_overlaps(const contact_block *restrict block, real *restrict overlap, wide *largest)
+static wide largest_overlaps(const contact_block *block, wide so_far)
 {
-    for (int k = 0; k < BLOCK; k += LANES) {
-        const wide here = wide_load(block->overlap + k);
-        wide_store(overlap + k, here);
-        *largest = wide_greater(*largest, here);
-    }
+    for (int k = 0; k < BLOCK; k += LANES) so_far = wide_greater(so_far, wide_load(block->overlap + k));
+    return so_far;
 }
 
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
@@ -112,20 +109,50 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
-    if (list->has_rolling) make_rows(block, list->first_radius + start, true, list->ends_differ);
-    else make_rows(block, list->first_radius + start, false, list->ends_differ);
-    keep_overlaps(block, list->overlap + start, largest);
+    const real *first_radius = list->first_radius + constants_of(list, start);
+    if (list->has_rolling) make_rows(block, first_radius, true, list->ends_differ);
+    else make_rows(block, first_radius, false, list->ends_differ);
+    *largest = largest_overlaps(block, *largest);
+}
+
+/* Bytes from the first of spheres.load: which of them gets what the first ends of a block get, and the second. */
+typedef struct block_loads {
+    uint32_t first[BLOCK], second[BLOCK];
+} block_loads;
+
+static uint32_t load_offset(size_t load) { return (uint32_t)(load * sizeof(row8)); }
+
+/* Of pairs start..start+BLOCK-1, which are a part's. later: the first of list->later_end that is not before them; then the
+ * first behind them. */
+static void find_loads(block_loads *restrict to, const neighbor_list *list, size_t start, const spheres *s, int part, size_t *later)
+{
+    const int32_t *restrict first = list->pairs.first + start, *restrict second = list->pairs.second + start;
+    const size_t mobile = s->mobile_count;
+    for (int k = 0; k < BLOCK; k++) {
+        to->first[k] = load_offset((uint32_t)first[k]);
+        to->second[k] = load_offset((uint32_t)second[k]);
+    }
+    if (s->lining_count || start + BLOCK > list->pairs.count) {
+        const uint32_t end = load_offset(mobile), nobody = load_offset(mobile + (size_t)part);
+        for (int k = 0; k < BLOCK; k++) { /* lining and padding */
+            to->first[k] = to->first[k] < end ? to->first[k] : nobody;
+            to->second[k] = to->second[k] < end ? to->second[k] : nobody;
+        }
+    }
+    for (; *later < list->later_count && list->later_end[*later] < 2 * (start + BLOCK); ++*later) {
+        const size_t end = list->later_end[*later] - 2 * start;
+        (end % 2 ? to->second : to->first)[end / 2] = load_offset(mobile + MOST_PARTS + *later);
+    }
 }
 
 /* Adds a block's rows to their spheres' loads, while they are in the first-level cache. */
-static void add_to_loads(const contact_block *restrict block, const contact_list *pairs, size_t start, row8 *loads)
+static void add_to_loads(const contact_block *restrict block, const block_loads *to, bool ends_differ, row8 *loads)
 {
     static const row8 on_second = { -1, -1, -1, 0, 1, 1, 1, 0 };
-    const uint32_t *restrict to_first = pairs->to_first + start, *restrict to_second = pairs->to_second + start;
-    const contact_row *restrict row = block->row, *restrict second_row = pairs->ends_differ ? block->second_row : block->row;
+    const contact_row *restrict row = block->row, *restrict second_row = ends_differ ? block->second_row : block->row;
     char *restrict load = (char *)loads;
     for (int k = 0; k < BLOCK; k++) {
-        row8 *const first = (row8 *)(load + to_first[k]), *const second = (row8 *)(load + to_second[k]);
+        row8 *const first = (row8 *)(load + to->first[k]), *const second = (row8 *)(load + to->second[k]);
         *first += row[k];
         *second = row8_fused(on_second, second_row[k], *second);
     }
@@ -152,16 +179,18 @@ static double part_forces(neighbor_list *list, spheres *s, const dem_contact_par
     contact_list *const pairs = &list->pairs;
     const size_t end = list->part_blocks[part + 1];
     const size_t last = list->part_begins[part + 1] < s->single_count ? list->part_begins[part + 1] : s->single_count;
-    size_t moved = list->part_begins[part], shared = list->part_shared[part];
+    size_t moved = list->part_begins[part], shared = list->part_shared[part], later = list->part_later[part];
     wide largest = wide_all(0);
     for (size_t k = list->walls.start[moved]; k < list->walls.start[list->part_begins[part + 1]]; k++)
         s->load[list->walls.first[k]] += list->walls.row[k];
     for (size_t b = list->part_blocks[part]; b < end; b++) {
         contact_block block;
+        block_loads loads;
         gather_spheres(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
         if (pairs->has_rolling) gather_spins(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
         contact_block_forces(pairs, b * BLOCK, &block, contact, false, dt, &largest);
-        add_to_loads(&block, pairs, b * BLOCK, s->load);
+        find_loads(&loads, list, b * BLOCK, s, part, &later);
+        add_to_loads(&block, &loads, pairs->ends_differ, s->load);
         const size_t complete = b + 1 < end ? (size_t)pairs->first[(b + 1) * BLOCK] : last;
         if (!leap || complete <= moved || complete > last) continue;
         *strayed = vector4_greater(*strayed, own_spheres_advance(list, s, leap, moved, complete, &shared));

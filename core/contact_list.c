@@ -1,10 +1,10 @@
 #include "contact_list.h"
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, bool computes)
+dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, contact_constants constants)
 {
     memset(list, 0, sizeof *list);
     list->has_rolling = has_rolling;
-    list->computes = computes;
+    list->constants = constants;
     list->start = array_create(sphere_count + 1, sizeof *list->start);
     if (!list->start) return DEM_NO_MEMORY;
     return contact_list_reserve(list, BLOCK);
@@ -20,21 +20,18 @@ static void memory_free(contact_list *list)
     for (int c = 0; c < 3; c++) free(list->roll[c]);
 }
 
-static void slots_free(contact_list *list)
+static void constants_free(contact_list *list)
 {
     free(list->friction);
     free(list->first_radius);
     free(list->mass);
     free(list->rolling_friction);
-    free(list->overlap);
-    free(list->to_first);
-    free(list->to_second);
 }
 
 void contact_list_clear(contact_list *list)
 {
     memory_free(list);
-    slots_free(list);
+    constants_free(list);
     free(list->start);
     memset(list, 0, sizeof *list);
 }
@@ -55,18 +52,14 @@ static bool memory_create(contact_list *list, size_t n)
            && (!list->has_rolling || (list->roll[0] && list->roll[1] && list->roll[2]));
 }
 
-static bool slots_create(contact_list *list, size_t n)
+static bool constants_create(contact_list *list, size_t n)
 {
-    list->slot_capacity = n;
+    list->constant_capacity = n;
     list->friction = array_create(n, sizeof *list->friction);
     list->first_radius = array_create(n, sizeof *list->first_radius);
     list->mass = array_create(n, sizeof *list->mass);
-    list->overlap = array_create(n, sizeof *list->overlap);
-    list->to_first = array_create(n, sizeof *list->to_first);
-    list->to_second = array_create(n, sizeof *list->to_second);
     if (list->has_rolling) list->rolling_friction = array_create(n, sizeof *list->rolling_friction);
-    return list->friction && list->first_radius && list->mass && list->overlap && list->to_first && list->to_second
-           && (!list->has_rolling || list->rolling_friction);
+    return list->friction && list->first_radius && list->mass && (!list->has_rolling || list->rolling_friction);
 }
 
 dem_status contact_list_reserve(contact_list *list, size_t count)
@@ -80,12 +73,13 @@ dem_status contact_list_reserve(contact_list *list, size_t count)
         memory_free(list);
         *list = grown;
     }
-    if (list->computes && count > list->slot_capacity) {
-        if (!slots_create(&grown, with_room(count))) {
-            slots_free(&grown);
+    const size_t constants[] = { [CONSTANTS_OF_NONE] = 0, [CONSTANTS_OF_ALL] = BLOCK, [CONSTANTS_OF_EACH] = count };
+    if (constants[list->constants] > list->constant_capacity) {
+        if (!constants_create(&grown, with_room(constants[list->constants]))) {
+            constants_free(&grown);
             return DEM_NO_MEMORY;
         }
-        slots_free(list);
+        constants_free(list);
         *list = grown;
     }
     return DEM_OK;
@@ -97,14 +91,14 @@ void contact_list_forget(contact_list *list, size_t slot)
     contact_list_set_history(list, slot, &nothing);
 }
 
-void contact_list_pad(contact_list *list, int32_t first, int32_t second, size_t nobody)
+void contact_list_pad(contact_list *list, int32_t first, int32_t second)
 {
+    const bool of_each = list->constants == CONSTANTS_OF_EACH;
     for (size_t k = list->count; k < round_up_to_block(list->count); k++) {
         list->first[k] = first;
         list->second[k] = second;
-        list->friction[k] = list->first_radius[k] = list->mass[k] = 0;
-        list->to_first[k] = list->to_second[k] = load_offset(nobody);
-        if (list->has_rolling) list->rolling_friction[k] = 0;
+        if (of_each) list->friction[k] = list->first_radius[k] = list->mass[k] = 0;
+        if (of_each && list->has_rolling) list->rolling_friction[k] = 0;
         contact_list_forget(list, k);
     }
 }

@@ -15,9 +15,13 @@
  * where radii are all the same and nothing resists rolling: then one row serves both ends, else each has one of its own. */
 typedef row8 contact_row;
 
+/* For whom a list holds what does not change in a step: nobody (a list before: who, and what they remember, is left), all
+ * contacts together since they are alike, or each. */
+typedef enum contact_constants { CONSTANTS_OF_NONE, CONSTANTS_OF_ALL, CONSTANTS_OF_EACH } contact_constants;
+
 typedef struct contact_list {
     bool has_rolling; /* else there are none of what is for it alone */
-    bool computes;    /* else it is a list before, of which the first group is left: who, and what they remember */
+    contact_constants constants;
     /* (capacity) a multiple of BLOCK; slots behind count hold a pair that nobody reads */
     size_t count, capacity;
     int32_t *first;  /* sphere index */
@@ -27,28 +31,29 @@ typedef struct contact_list {
     real *alpha_0;   /* m */
     real *roll[3];   /* N   contact_history, by component */
     uint32_t *start; /* (spheres + 1) where each first sphere's contacts begin */
-    /* (slot_capacity) */
-    size_t slot_capacity;
+    /* (constant_capacity) of all: one block, which serves every other */
+    size_t constant_capacity;
     real *friction;         /* mu */
     real *first_radius;     /* m, at full size */
     real *mass;             /* kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
     real *rolling_friction; /* mu_r */
-    real *overlap;          /* m at the last step; negative: apart */
     bool ends_differ;       /* in their moments */
-    uint32_t *to_first;     /* bytes from the first of spheres.load: which of them gets what the first gets */
-    uint32_t *to_second;    /* likewise */
     contact_row *row;       /* of walls alone: what each contact gave at the last step */
 } contact_list;
 
-static inline uint32_t load_offset(size_t load) { return (uint32_t)(load * sizeof(row8)); }
+/* Where the constants of the block at `start` are in their arrays. */
+static inline size_t constants_of(const contact_list *list, size_t start)
+{
+    return list->constants == CONSTANTS_OF_ALL ? 0 : start;
+}
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, bool computes);
+dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, contact_constants constants);
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);
-/* Fill the slots from count up to the next whole block with a pair whose result goes to `nobody`, a load: it has
- * no radius, so there may be NaN in it. */
-void contact_list_pad(contact_list *list, int32_t first, int32_t second, size_t nobody);
+/* Fill the slots from count up to the next whole block with a pair whose result nobody reads: it has no radius, so there
+ * may be NaN in it. */
+void contact_list_pad(contact_list *list, int32_t first, int32_t second);
 void contact_list_forget(contact_list *list, size_t slot);
 contact_history contact_list_history(const contact_list *list, size_t slot);
 void contact_list_set_history(contact_list *list, size_t slot, const contact_history *history);

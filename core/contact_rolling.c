@@ -40,6 +40,7 @@ void contact_block_roll(contact_block *block, contact_list *list, size_t start, 
     real *const k_t = block->stored;
     if (contact->law == DEM_WALTON_BRAUN)
         for (int k = 0; k < BLOCK; k++) k_t[k] = (real)(contact->stiffness * contact->tangential_stiffness_ratio);
-    rolling_moments(block, list->roll[0] + start, list->roll[1] + start, list->roll[2] + start, list->rolling_friction + start,
-                    list->first_radius + start, k_t, is_wall, (real)dt);
+    const size_t at = constants_of(list, start);
+    rolling_moments(block, list->roll[0] + start, list->roll[1] + start, list->roll[2] + start, list->rolling_friction + at,
+                    list->first_radius + at, k_t, is_wall, (real)dt);
 }

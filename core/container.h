@@ -44,5 +44,10 @@ double circle_level(double share);
 
 /* z brought into [-length/2, length/2): a function of z alone, so that wrapping gives the same bits whenever done. */
 static inline double wrap_axial(double z, double length, double inverse_length) { return z - length * rint(z * inverse_length); }
+static inline double squared_distance(const double a[3], const double b[3], double period, double inverse_period)
+{
+    const double dx = b[0] - a[0], dy = b[1] - a[1], dz = wrap_axial(b[2] - a[2], period, inverse_period);
+    return dx * dx + dy * dy + dz * dz;
+}
 
 #endif

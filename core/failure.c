@@ -86,23 +86,36 @@ static dem_status overlap_failure(dem_scene *scene, int32_t i, int32_t j, double
     return fail(scene, &what);
 }
 
-dem_status failure_check_overlaps(dem_scene *scene)
+/* Where sphere i was `since` (s) ago, if it has moved by then: single spheres alone have. */
+static vector4 place_before(const spheres *s, int32_t i, double since)
+{
+    const size_t k = (size_t)i;
+    return k < s->single_count ? s->place[k] - since * s->velocity[k] : s->place[k];
+}
+
+dem_status failure_check_overlaps(dem_scene *scene, double since)
 {
     /* A place that is no number overlaps with anything: tell the cause. */
     const dem_status places = failure_check_places(scene);
     if (places != DEM_OK) return places;
     const spheres *s = &scene->spheres;
+    const container *drum = &scene->drum;
     const contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
     for (size_t k = 0; k < pairs->count; k++) {
         const int32_t i = pairs->first[k], j = pairs->second[k];
-        const double overlap = (double)pairs->overlap[k];
+        const vector4 a = place_before(s, i, since), b = place_before(s, j, since);
+        const double distance2 = squared_distance((const double *)&a, (const double *)&b, drum->period, drum->inverse_period);
+        const double overlap = sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j) - sqrt(distance2);
         const double limit = FAILURE_OVERLAP * fmin(s->full_radius[i], s->full_radius[j]);
         if (!(overlap <= limit)) return overlap_failure(scene, i, (size_t)j < s->mobile_count ? j : -1, overlap, limit);
     }
     for (size_t k = 0; k < walls->count; k++) {
-        const double overlap = (double)walls->overlap[k];
-        const double limit = FAILURE_OVERLAP * s->full_radius[walls->first[k]];
-        if (!(overlap <= limit)) return overlap_failure(scene, walls->first[k], -1, overlap, limit);
+        const int32_t i = walls->first[k];
+        const vector4 a = place_before(s, i, since);
+        const double overlap =
+            sphere_radius(s, (size_t)i) - wall_seen_from(&drum->wall[walls->second[k]], (const double *)&a).distance;
+        const double limit = FAILURE_OVERLAP * s->full_radius[i];
+        if (!(overlap <= limit)) return overlap_failure(scene, i, -1, overlap, limit);
     }
     return DEM_OK;
 }

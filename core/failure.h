@@ -7,8 +7,9 @@
 /* An overlap beyond this share of the smaller radius is no contact any more. */
 #define FAILURE_OVERLAP 0.5
 
-dem_status failure_check_places(dem_scene *scene);   /* DEM_NOT_A_NUMBER, DEM_PARTICLE_ESCAPED */
-dem_status failure_check_overlaps(dem_scene *scene); /* DEM_OVERLAP_TOO_LARGE */
+dem_status failure_check_places(dem_scene *scene); /* DEM_NOT_A_NUMBER, DEM_PARTICLE_ESCAPED */
+/* At the places of `since` (s) ago, if single spheres have moved since the forces: DEM_OVERLAP_TOO_LARGE. */
+dem_status failure_check_overlaps(dem_scene *scene, double since);
 dem_status failure_of_settling(dem_scene *scene, double energy);
 dem_status failure_of_memory(dem_scene *scene);
 

@@ -10,11 +10,11 @@ static const double REGION_FRACTION = 0.5, PLACING_FRACTION = 0.28;
 static void assign_spheres(spheres *s, const dem_species *species, size_t k, size_t first, size_t count)
 {
     const double mass = dem_sphere_mass(species->diameter, species->density), r = (double)(real)(0.5 * species->diameter);
+    s->inverse_mass[k] = 1.0 / mass;
+    s->inverse_inertia[k] = 1.0 / (0.4 * mass * r * r);
     for (size_t i = first; i < first + count; i++) {
         s->species[i] = (int32_t)k;
         s->full_radius[i] = r;
-        s->inverse_mass[i] = 1.0 / mass;
-        s->inverse_inertia[i] = 1.0 / (0.4 * mass * r * r);
     }
 }
 
@@ -22,12 +22,12 @@ static void assign_spheres(spheres *s, const dem_species *species, size_t k, siz
 static void assign_clusters(spheres *s, const dem_species *species, size_t k, size_t body, size_t sphere, size_t count)
 {
     const dem_cluster *cluster = &species->cluster;
+    s->inverse_mass[k] = 1.0 / s->clusters.shape[k].mass;
     for (size_t b = body; b < body + count; b++) {
         s->clusters.body[b].species = (int32_t)k;
         s->clusters.body[b].first_sphere = (int32_t)sphere;
         for (size_t m = 0; m < cluster->sphere_count; m++, sphere++) {
             s->species[sphere] = (int32_t)k;
-            s->inverse_mass[sphere] = 1.0 / s->clusters.shape[k].mass;
             s->full_radius[sphere] = (double)(real)(0.5 * cluster->sphere[m].diameter);
             s->clusters.of_sphere[sphere - s->single_count] = (int32_t)b;
         }

@@ -111,17 +111,18 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
                                   bool is_wall, double dt)
 {
+    const size_t at = constants_of(list, start);
     if (contact->law == DEM_SPRING_DASHPOT) {
         const damped_law law = { (real)contact->stiffness, (real)(contact->stiffness * contact->tangential_stiffness_ratio),
                                  (real)damping_ratio(contact->restitution) };
-        linear_block(block, list->mass + start, law);
+        linear_block(block, list->mass + at, law);
     } else {
         const damped_law law =
             law_of_materials(contact->particle, is_wall ? contact->wall : contact->particle, contact->restitution);
-        hertz_mindlin_block(block, list->mass + start, list->first_radius + start, law, is_wall);
+        hertz_mindlin_block(block, list->mass + at, list->first_radius + at, law, is_wall);
     }
     normal_forces(block);
     turn_stretch(block, list->t[0] + start, list->t[1] + start, list->t[2] + start);
-    friction_forces(block, list->t[0] + start, list->t[1] + start, list->t[2] + start, list->friction + start,
+    friction_forces(block, list->t[0] + start, list->t[1] + start, list->t[2] + start, list->friction + at,
                     dt > 0 ? (real)(1 / dt) : 0);
 }

@@ -97,7 +97,7 @@ void contact_block_walton_braun(contact_block *block, contact_list *list, size_t
     if (contact->unloading_slope > 0)
         normal_forces_of_slope(block, list->alpha_0 + start, (real)k_1, (real)contact->unloading_slope);
     else normal_forces(block, list->alpha_0 + start, (real)k_1, (real)k_2);
-    turn_friction(block, t_x, t_y, t_z, list->friction + start);
+    turn_friction(block, t_x, t_y, t_z, list->friction + constants_of(list, start));
     friction_stiffness(block, list->t_star + start, k_t0);
     friction_forces(block, t_x, t_y, t_z, k_t0);
 }

@@ -7,8 +7,8 @@ static const double TAIL = 0.01;
 static double overlap_of(const spheres *s, const container *drum, int32_t i, int32_t j)
 {
     const double *a = sphere_place(s, (size_t)i), *b = sphere_place(s, (size_t)j);
-    const double dx = a[0] - b[0], dy = a[1] - b[1], dz = wrap_axial(a[2] - b[2], drum->length, 1.0 / drum->length);
-    return sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j) - sqrt(dx * dx + dy * dy + dz * dz);
+    return sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j)
+           - sqrt(squared_distance(a, b, drum->period, drum->inverse_period));
 }
 
 static int descending(const void *a, const void *b)

@@ -14,8 +14,10 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     list->margin = FIRST_MARGIN * s->smallest_diameter;
     list->least_margin = LEAST_MARGIN * s->smallest_diameter;
     list->most_margin = MOST_MARGIN * s->smallest_diameter;
-    bool ends_differ = has_rolling;
+    bool ends_differ = has_rolling, alike = s->lining_count == 0;
     for (size_t i = 1; i < spheres_count(s); i++) ends_differ = ends_differ || s->full_radius[i] != s->full_radius[0];
+    for (size_t i = 1; alike && i < s->mobile_count; i++)
+        alike = s->full_radius[i] == s->full_radius[0] && s->species[i] == s->species[0];
     cell_grid_init(&list->grid);
     const size_t n = s->mobile_count;
     list->start = array_create(n + 1, sizeof *list->start);
@@ -24,8 +26,10 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     list->shared = array_create(n, sizeof *list->shared);
     list->is_shared = array_create(n, sizeof *list->is_shared);
     bool enough = list->start && list->built_at && list->picked_velocity && list->shared && list->is_shared;
-    contact_list *const all[] = { &list->pairs, &list->pairs_before, &list->walls, &list->walls_before };
-    for (int k = 0; k < 4; k++) enough = contact_list_init(all[k], n, has_rolling, k % 2 == 0) == DEM_OK && enough;
+    contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
+    const contact_constants constants[] = { alike ? CONSTANTS_OF_ALL : CONSTANTS_OF_EACH, CONSTANTS_OF_EACH };
+    for (int k = 0; k < 4; k++)
+        enough = contact_list_init(all[k], n, has_rolling, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
     list->pairs.ends_differ = ends_differ;
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
@@ -46,6 +50,7 @@ void neighbor_list_clear(neighbor_list *list)
     free(list->shared);
     free(list->is_shared);
     free(list->later);
+    free(list->later_end);
     cell_grid_clear(&list->grid);
     contact_list_clear(&list->pairs);
     contact_list_clear(&list->pairs_before);
@@ -69,12 +74,6 @@ void neighbor_list_extend(neighbor_list *list, size_t before, size_t now)
 }
 
 /* ---- outer list ---- */
-
-static inline double squared_distance(const double a[3], const double b[3], double period, double inverse_period)
-{
-    const double dx = b[0] - a[0], dy = b[1] - a[1], dz = wrap_axial(b[2] - a[2], period, inverse_period);
-    return dx * dx + dy * dy + dz * dz;
-}
 
 static void sort_ascending(int32_t *x, size_t count)
 {
@@ -332,7 +331,7 @@ static dem_status pairs_pick(neighbor_list *list, size_t n, bool carry)
     return DEM_OK;
 }
 
-/* What a step reads of each pair from..to-1 and what does not change in it. */
+/* What does not change in a step, of each pair from..to-1. */
 static void describe_pairs(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact, size_t from, size_t to)
 {
     const int32_t mobile = (int32_t)s->mobile_count;
@@ -342,16 +341,25 @@ static void describe_pairs(contact_list *pairs, const spheres *s, const dem_cont
     for (size_t k = from; k < to; k++) {
         const bool between_mobile = second[k] < mobile;
         pairs->friction[k] = between_mobile ? mu : mu_wall;
-        pairs->to_first[k] = load_offset((size_t)first[k]);
-        pairs->to_second[k] = load_offset((size_t)(between_mobile ? second[k] : mobile));
+        pairs->first_radius[k] = (real)s->full_radius[first[k]];
     }
-    for (size_t k = from; k < to; k++) pairs->first_radius[k] = (real)s->full_radius[first[k]];
     if (pairs->has_rolling)
         for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
     if (contact->law == DEM_WALTON_BRAUN) return; /* which has no masses */
     for (size_t k = from; k < to; k++) {
-        const double own = s->inverse_mass[first[k]];
-        pairs->mass[k] = (real)(1 / (second[k] < mobile ? own + s->inverse_mass[second[k]] : own));
+        const double own = sphere_inverse_mass(s, (size_t)first[k]);
+        pairs->mass[k] = (real)(1 / (second[k] < mobile ? own + sphere_inverse_mass(s, (size_t)second[k]) : own));
+    }
+}
+
+/* The same of all, which are alike. */
+static void describe_all_pairs(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact)
+{
+    for (size_t k = 0; k < BLOCK; k++) {
+        pairs->friction[k] = (real)contact->friction;
+        pairs->first_radius[k] = (real)s->full_radius[0];
+        pairs->mass[k] = (real)(0.5 / sphere_inverse_mass(s, 0));
+        if (pairs->has_rolling) pairs->rolling_friction[k] = (real)contact->rolling_friction;
     }
 }
 
@@ -380,9 +388,16 @@ static dem_status later_reserve(neighbor_list *list, size_t count)
 {
     if (count <= list->later_capacity) return DEM_OK;
     int32_t *later = array_create(count + count / 4, sizeof *later);
-    if (!later) return DEM_NO_MEMORY;
+    uint32_t *later_end = array_create(count + count / 4, sizeof *later_end);
+    if (!later || !later_end) {
+        free(later);
+        free(later_end);
+        return DEM_NO_MEMORY;
+    }
     free(list->later);
+    free(list->later_end);
     list->later = later;
+    list->later_end = later_end;
     list->later_capacity = count + count / 4;
     return DEM_OK;
 }
@@ -414,28 +429,28 @@ static size_t shared_find(neighbor_list *list, size_t n)
     return ends;
 }
 
+static void later_add(neighbor_list *list, int32_t sphere, size_t end)
+{
+    list->later[list->later_count] = sphere;
+    list->later_end[list->later_count++] = (uint32_t)end;
+}
+
 static dem_status parts_share(neighbor_list *list, spheres *s, int threads)
 {
     const size_t n = s->mobile_count, behind = n + MOST_PARTS;
-    contact_list *pairs = &list->pairs;
+    const contact_list *pairs = &list->pairs;
     parts_begin(list, n, threads < MOST_PARTS ? threads : MOST_PARTS);
-    list->shared_count = list->later_count = list->part_shared[0] = list->part_shared[1] = 0;
+    list->shared_count = list->later_count = list->part_shared[0] = list->part_shared[1] = list->part_later[0] = 0;
     const size_t ends = list->parts > 1 ? shared_find(list, n) : 0;
     if (later_reserve(list, ends) != DEM_OK || spheres_reserve_loads(s, behind + ends) != DEM_OK) return DEM_NO_MEMORY;
     if (list->parts == 1) return DEM_OK;
-    int part = 0;
-    for (size_t k = 0; k < pairs->count; k++) {
-        while (k >= list->part_blocks[part + 1] * BLOCK) part++;
-        const size_t i = (size_t)pairs->first[k], j = (size_t)pairs->second[k];
-        if (list->is_shared[i]) {
-            pairs->to_first[k] = load_offset(behind + list->later_count);
-            list->later[list->later_count++] = (int32_t)i;
-        }
-        if (j >= n) {
-            pairs->to_second[k] = load_offset(n + (size_t)part);
-        } else if (list->is_shared[j]) {
-            pairs->to_second[k] = load_offset(behind + list->later_count);
-            list->later[list->later_count++] = (int32_t)j;
+    size_t k = 0;
+    for (int part = 0; part < list->parts; part++) {
+        list->part_later[part] = list->later_count;
+        for (; k < pairs->count && k < list->part_blocks[part + 1] * BLOCK; k++) {
+            const int32_t i = pairs->first[k], j = pairs->second[k];
+            if (list->is_shared[i]) later_add(list, i, 2 * k);
+            if ((size_t)j < n && list->is_shared[j]) later_add(list, j, 2 * k + 1);
         }
     }
     return DEM_OK;
@@ -455,11 +470,12 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     mark_in_reach(list, s, drum, duration, threads);
     dem_status status = pairs_pick(list, n, same_outer);
     starts_from_counts(&list->walls, n);
+    const bool alike = list->pairs.constants == CONSTANTS_OF_ALL;
     if (status != DEM_OK || contact_list_reserve(&list->walls, list->walls.count) != DEM_OK) return DEM_NO_MEMORY;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int part = 0; part < threads; part++) {
         const size_t from = part_start(n, part, threads), to = part_start(n, part + 1, threads);
-        describe_pairs(&list->pairs, s, contact, list->pairs.start[from], list->pairs.start[to]);
+        if (!alike) describe_pairs(&list->pairs, s, contact, list->pairs.start[from], list->pairs.start[to]);
         for (size_t i = from; !same_outer && i < to; i++) contact_list_carry(&list->pairs, &list->pairs_before, i);
         for (size_t i = from; i < to; i++) {
             if (list->walls.start[i] == list->walls.start[i + 1]) continue;
@@ -467,9 +483,10 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
             contact_list_carry(&list->walls, &list->walls_before, i);
         }
     }
+    if (alike) describe_all_pairs(&list->pairs, s, contact);
     list->picked_of = list->outer_builds;
-    contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s), n);
-    contact_list_pad(&list->walls, sphere_of_zeros(s), 0, n);
+    contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s));
+    contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
     list->strayed = s->lining_count ? 0.5 * drum->rotation_rate * drum->rotation_rate * drum->radius * duration * duration : 0.0;
     list->steps_since_pick = 0;

@@ -53,7 +53,11 @@ typedef struct neighbor_list {
     int32_t *shared;                    /* (mobile) spheres with contacts in several parts, ascending */
     uint8_t *is_shared;                 /* (mobile) */
     size_t shared_count;
-    int32_t *later; /* (later_count) whose the loads behind the others are, in the order of the list */
+    size_t part_later[MOST_PARTS];      /* the first of them in `later` */
+    /* (later_count) whose the loads behind the others are, in the order of the list, and which end of which pair they get:
+     * twice the pair, 1 more for the second end */
+    int32_t *later;
+    uint32_t *later_end;
     size_t later_count, later_capacity;
     int64_t outer_builds, inner_picks;
     int64_t picked_of; /* outer_builds at the last pick */

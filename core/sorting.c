@@ -106,8 +106,6 @@ dem_status sorting_apply(spheres *s, const int32_t *order, int32_t *sphere_order
     rearrange(s->full_radius, sizeof *s->full_radius, sphere_order, n, scratch);
     rearrange(s->velocity, sizeof *s->velocity, sphere_order, n, scratch);
     rearrange(s->angular_velocity, sizeof *s->angular_velocity, sphere_order, n, scratch);
-    rearrange(s->inverse_mass, sizeof *s->inverse_mass, sphere_order, n, scratch);
-    rearrange(s->inverse_inertia, sizeof *s->inverse_inertia, sphere_order, singles, scratch);
     rearrange(s->fallen_time, sizeof *s->fallen_time, sphere_order, n, scratch);
     rearrange(s->surface_track, sizeof *s->surface_track, sphere_order, n, scratch);
     free(scratch);

@@ -38,8 +38,8 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->full_radius = array_create(all, sizeof *s->full_radius);
     s->velocity = array_create(n, sizeof *s->velocity);
     s->angular_velocity = array_create(n, sizeof *s->angular_velocity);
-    s->inverse_mass = array_create(n, sizeof *s->inverse_mass);
-    s->inverse_inertia = array_create(singles, sizeof *s->inverse_inertia);
+    s->inverse_mass = array_create(definition->species_count, sizeof *s->inverse_mass);
+    s->inverse_inertia = array_create(definition->species_count, sizeof *s->inverse_inertia);
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
     s->surface_track = array_create(n, sizeof *s->surface_track);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
@@ -121,8 +121,8 @@ double spheres_kinetic_energy(const spheres *s)
     double energy = clusters_kinetic_energy(&s->clusters);
     for (size_t i = 0; i < s->single_count; i++) {
         const vector4 v = s->velocity[i], w = s->angular_velocity[i];
-        energy += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / s->inverse_mass[i]
-                  + 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) / s->inverse_inertia[i];
+        energy += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / s->inverse_mass[s->species[i]]
+                  + 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) / s->inverse_inertia[s->species[i]];
     }
     return energy;
 }

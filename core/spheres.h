@@ -52,8 +52,8 @@ typedef struct spheres {
                                                  * Zeros but between the forces and the motion. Behind those of the
                                                  * mobile ones are more, which serve the sums (neighbor_list.h) */
     size_t load_count;
-    double *inverse_mass;                       /* (mobile) 1/kg, of the particle that the sphere is or is a part of */
-    double *inverse_inertia;                    /* (single) 1/(kg m2) */
+    double *inverse_mass;                       /* (species) 1/kg, of a particle */
+    double *inverse_inertia;                    /* (species) 1/(kg m2), of those that are spheres by themselves */
     double *fallen_time;                        /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
     surface_track *surface_track;               /* (mobile) */
     vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
@@ -81,6 +81,10 @@ static inline void sphere_set_place(spheres *s, size_t i, const double x[3])
     const vector4 place = { x[0], x[1], x[2] };
     sphere_set(s, i, place, s->velocity[i], s->angular_velocity[i]);
 }
+static inline double sphere_inverse_mass(const spheres *s, size_t i) /* 1/kg, of the particle that it is or is a part of */
+{
+    return s->inverse_mass[s->species[i]];
+}
 static inline double sphere_radius(const spheres *s, size_t i) { return (double)s->row[i].radius; } /* m, now */
 static inline int32_t sphere_of_zeros(const spheres *s) { return (int32_t)(s->mobile_count + s->lining_count); }
 static inline int32_t sphere_far_away(const spheres *s) { return sphere_of_zeros(s) + 1; }
@@ -96,7 +100,7 @@ static inline int32_t particle_species(const spheres *s, size_t p)
 }
 static inline double particle_mass(const spheres *s, size_t p)
 {
-    return p < s->single_count ? 1 / s->inverse_mass[p] : s->clusters.shape[s->clusters.body[p - s->single_count].species].mass;
+    return p < s->single_count ? 1 / sphere_inverse_mass(s, p) : s->clusters.shape[s->clusters.body[p - s->single_count].species].mass;
 }
 static inline double particle_reach(const spheres *s, size_t p) /* m, at full size */
 {

@@ -47,7 +47,7 @@ static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4
     step_profile_lap(scene->profile, DEM_PART_PAIRS);
     const double largest = fmax(between, wall);
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
-    return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene) : DEM_OK;
+    return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene, leap ? dt : 0.0) : DEM_OK;
 }
 
 static bool torque_is_due(const dem_scene *scene)

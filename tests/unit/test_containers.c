@@ -23,8 +23,9 @@ static void check_rest(dem_scene *scene, const double x[3], const double down[3]
     for (size_t k = 0; k < walls->count; k++) {
         const wall_load load = wall_load_of(walls, k, &scene->spheres, &scene->drum);
         for (int c = 0; c < 3; c++) force[c] += load.force[c];
-        touched += load.force[0] != 0 || load.force[1] != 0 || load.force[2] != 0;
-        if (walls->overlap[k] > 0) /* the point is on the way down, a radius less the overlap away */
+        const bool touches = load.force[0] != 0 || load.force[1] != 0 || load.force[2] != 0;
+        touched += touches;
+        if (touches) /* the point is on the way down, a radius less the overlap away */
             for (int c = 0; c < 3; c++) CHECK_NEAR(load.point[c], place[c] + (R - alpha) * down[c], 1e-6 * R);
     }
     /* rounding of the overlap: a few of the radius's last digits, against alpha */
