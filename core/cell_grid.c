@@ -2,12 +2,22 @@
 
 enum { MOST_CELLS_A_SIDE = 1024 };
 
-void cell_grid_init(cell_grid *grid) { memset(grid, 0, sizeof *grid); }
+void cell_grid_init(cell_grid *grid, const spheres *s)
+{
+    memset(grid, 0, sizeof *grid);
+    double largest = 0.0, largest_of[MOST_LEVELS] = { 0 };
+    for (size_t i = 0; i < spheres_count(s); i++) largest = fmax(largest, s->full_radius[i]);
+    for (size_t i = 0; i < spheres_count(s); i++) {
+        const int octave = ilogb(largest / s->full_radius[i]), o = octave < MOST_LEVELS ? octave : MOST_LEVELS - 1;
+        largest_of[o] = fmax(largest_of[o], s->full_radius[i]);
+    }
+    for (int o = 0; o < MOST_LEVELS; o++)
+        if (largest_of[o] > 0) grid->level[grid->level_count++].largest = largest_of[o];
+}
 
 static void sphere_arrays_free(cell_grid *grid)
 {
     free(grid->sphere);
-    free(grid->cell_of);
     for (int c = 0; c < 3; c++) free(grid->x[c]);
     free(grid->radius);
 }
@@ -16,12 +26,12 @@ void cell_grid_clear(cell_grid *grid)
 {
     free(grid->start);
     sphere_arrays_free(grid);
-    cell_grid_init(grid);
+    memset(grid, 0, sizeof *grid);
 }
 
 static dem_status reserve_cells(cell_grid *grid, size_t cells)
 {
-    if (cells <= grid->capacity_cells) return DEM_OK;
+    if (grid->start && cells <= grid->capacity_cells) return DEM_OK;
     int32_t *start = array_create(cells + 1, sizeof *start);
     if (!start) return DEM_NO_MEMORY;
     free(grid->start);
@@ -35,61 +45,78 @@ static dem_status reserve_spheres(cell_grid *grid, size_t count)
     if (count <= grid->capacity_spheres) return DEM_OK;
     cell_grid grown = { 0 };
     grown.sphere = array_create(count + LANES, sizeof *grown.sphere);
-    grown.cell_of = array_create(count, sizeof *grown.cell_of);
     for (int c = 0; c < 3; c++) grown.x[c] = array_create(count + LANES, sizeof *grown.x[c]);
     grown.radius = array_create(count + LANES, sizeof *grown.radius);
-    if (!grown.sphere || !grown.cell_of || !grown.x[0] || !grown.x[1] || !grown.x[2] || !grown.radius) {
+    if (!grown.sphere || !grown.x[0] || !grown.x[1] || !grown.x[2] || !grown.radius) {
         sphere_arrays_free(&grown);
         return DEM_NO_MEMORY;
     }
     sphere_arrays_free(grid);
     grid->sphere = grown.sphere;
-    grid->cell_of = grown.cell_of;
     for (int c = 0; c < 3; c++) grid->x[c] = grown.x[c];
     grid->radius = grown.radius;
     grid->capacity_spheres = count;
     return DEM_OK;
 }
 
-static int cell_along(const cell_grid *grid, double x, int axis)
+/* As far as the grid goes: what lies outside counts to its border, a NaN to the lower one. */
+static int cell_along(const cell_grid *grid, const grid_level *level, double x, int axis)
 {
-    const double place = (x - grid->origin[axis]) * grid->inverse_size[axis];
-    const int cell = place > 0 ? (int)(place < 1e6 ? place : 1e6) : 0;
-    return cell < grid->cells[axis] ? cell : grid->cells[axis] - 1;
+    const double place = (x - grid->low[axis]) * level->inverse_size[axis], last = level->cells[axis] - 1;
+    return place > 0 ? (int)(place < last ? place : last) : 0;
 }
 
-static size_t set_cells(cell_grid *grid, const double low[3], const double high[3], double period, double reach)
+/* The cells of each level. Returns how many they are together. */
+static size_t set_cells(cell_grid *grid, double skin)
 {
-    size_t cells = 1;
-    for (int a = 0; a < 3; a++) {
-        const double side = high[a] - low[a];
-        grid->cells[a] = (int)fmax(1.0, fmin(floor(side / reach), MOST_CELLS_A_SIDE));
-        grid->origin[a] = low[a];
-        grid->inverse_size[a] = grid->cells[a] / side;
-        cells *= (size_t)grid->cells[a];
+    size_t cells = 0;
+    for (int l = 0; l < grid->level_count; l++) {
+        grid_level *level = &grid->level[l];
+        size_t of_level = 1;
+        for (int a = 0; a < 3; a++) {
+            const double side = grid->high[a] - grid->low[a];
+            level->cells[a] = (int)fmax(1.0, fmin(floor(side / (2 * level->largest + skin)), MOST_CELLS_A_SIDE));
+            level->inverse_size[a] = level->cells[a] / side;
+            of_level *= (size_t)level->cells[a];
+        }
+        level->first_cell = cells;
+        cells += of_level;
     }
-    grid->period = (real)period;
-    grid->inverse_period = (real)(period > 0 ? 1 / period : 0);
     return cells;
 }
 
-dem_status cell_grid_fill(cell_grid *grid, const spheres *s, const double low[3], const double high[3], double period, double reach)
+static const grid_level *level_of(const cell_grid *grid, double radius)
 {
-    const size_t cells = set_cells(grid, low, high, period, reach), n = spheres_count(s);
+    int l = 0;
+    while (l + 1 < grid->level_count && radius <= grid->level[l + 1].largest) l++;
+    return &grid->level[l];
+}
+
+static size_t cell_of(const cell_grid *grid, const grid_level *level, const double x[3])
+{
+    size_t cell = 0;
+    for (int a = 0; a < 3; a++) cell = cell * (size_t)level->cells[a] + (size_t)cell_along(grid, level, x[a], a);
+    return level->first_cell + cell;
+}
+
+dem_status cell_grid_fill(cell_grid *grid, const spheres *s, const double low[3], const double high[3], double period, double skin)
+{
+    const size_t n = spheres_count(s);
+    memcpy(grid->low, low, sizeof grid->low);
+    memcpy(grid->high, high, sizeof grid->high);
+    grid->period = (real)period;
+    grid->inverse_period = (real)(period > 0 ? 1 / period : 0);
+    const size_t cells = set_cells(grid, skin);
     if (reserve_cells(grid, cells) != DEM_OK || reserve_spheres(grid, n) != DEM_OK) return DEM_NO_MEMORY;
     memset(grid->start, 0, (cells + 1) * sizeof *grid->start);
-    for (size_t i = 0; i < n; i++) {
-        const double *x = sphere_place(s, i);
-        const int cx = cell_along(grid, x[0], 0), cy = cell_along(grid, x[1], 1), cz = cell_along(grid, x[2], 2);
-        grid->cell_of[i] = (int32_t)((cx * grid->cells[1] + cy) * grid->cells[2] + cz);
-        grid->start[grid->cell_of[i] + 1]++;
-    }
+    for (size_t i = 0; i < n; i++) grid->start[cell_of(grid, level_of(grid, s->full_radius[i]), sphere_place(s, i)) + 1]++;
     for (size_t c = 0; c < cells; c++) grid->start[c + 1] += grid->start[c];
     /* Filling moves each start to its cell's end, which is the next cell's start: shift back by one. */
     for (size_t i = 0; i < n; i++) {
-        const int32_t at = grid->start[grid->cell_of[i]]++;
+        const double *x = sphere_place(s, i);
+        const int32_t at = grid->start[cell_of(grid, level_of(grid, s->full_radius[i]), x)]++;
         grid->sphere[at] = (int32_t)i;
-        for (int c = 0; c < 3; c++) grid->x[c][at] = (real)sphere_place(s, i)[c];
+        for (int c = 0; c < 3; c++) grid->x[c][at] = (real)x[c];
         grid->radius[at] = (real)s->full_radius[i];
     }
     memmove(grid->start + 1, grid->start, cells * sizeof *grid->start);
@@ -115,29 +142,51 @@ static size_t find_in_run(const cell_grid *grid, int32_t from, int32_t to, int32
     return count;
 }
 
-size_t cell_grid_neighbors(const cell_grid *grid, size_t i, double skin, int32_t *found, size_t room)
+/* The cells along z that come within `way` of z, in one or, beyond a period's end, in two runs from..to-1. Returns how many. */
+static int runs_along_z(const cell_grid *grid, const grid_level *level, double z, double way, int from[2], int to[2])
 {
-    const int nz = grid->cells[2], ny = grid->cells[1], cell = grid->cell_of[i];
-    const int cz = cell % nz, cy = cell / nz % ny, cx = cell / nz / ny;
-    int32_t at = grid->start[cell];
-    while (grid->sphere[at] != (int32_t)i) at++;
-    const real x[3] = { grid->x[0][at], grid->x[1][at], grid->x[2][at] };
+    const int cells = level->cells[2], low = cell_along(grid, level, z - way, 2), high = cell_along(grid, level, z + way, 2);
+    from[0] = low;
+    to[0] = high + 1;
+    if (!(grid->period > 0)) return 1;
+    const double below = grid->low[2] - (z - way), above = z + way - grid->high[2];
+    if (below >= 0) { /* what is below the box is as far below its upper end */
+        from[1] = cell_along(grid, level, grid->high[2] - below, 2);
+        to[1] = cells;
+    } else if (above >= 0) {
+        from[1] = 0;
+        to[1] = cell_along(grid, level, grid->low[2] + above, 2) + 1;
+    } else {
+        return 1;
+    }
+    if ((below >= 0 && above >= 0) || (below >= 0 ? from[1] <= to[0] : to[1] >= from[0])) { /* they meet: all there are */
+        from[0] = 0;
+        to[0] = cells;
+        return 1;
+    }
+    return 2;
+}
+
+size_t cell_grid_neighbors(const cell_grid *grid, const spheres *s, size_t i, double skin, int32_t *found, size_t room)
+{
+    const double *place = sphere_place(s, i);
+    const real x[3] = { (real)place[0], (real)place[1], (real)place[2] };
     /* rounding of three coordinates of the box's size, twice over */
-    const double rounding = 1e-6 * (grid->cells[0] / grid->inverse_size[0] + grid->cells[2] / grid->inverse_size[2]);
-    const real reach = grid->radius[at] + (real)(skin + rounding);
+    const double rounding = 1e-6 * (grid->high[0] - grid->low[0] + grid->high[2] - grid->low[2]);
+    const double reach = s->full_radius[i] + skin + rounding;
     size_t count = 0;
-    for (int a = cx > 0 ? cx - 1 : 0; a <= cx + 1 && a < grid->cells[0]; a++)
-        for (int b = cy > 0 ? cy - 1 : 0; b <= cy + 1 && b < ny; b++) {
-            const int32_t *start = grid->start + (a * ny + b) * nz;
-            const int32_t id = (int32_t)i;
-            if (nz <= 3) {
-                count = find_in_run(grid, start[0], start[nz], id, x, reach, found, count, room);
-            } else {
-                const int low = cz > 0 ? cz - 1 : 0, high = cz + 1 < nz ? cz + 1 : nz - 1;
-                count = find_in_run(grid, start[low], start[high + 1], id, x, reach, found, count, room);
-                if (cz == 0) count = find_in_run(grid, start[nz - 1], start[nz], id, x, reach, found, count, room);
-                if (cz == nz - 1) count = find_in_run(grid, start[0], start[1], id, x, reach, found, count, room);
+    for (int l = 0; l < grid->level_count; l++) {
+        const grid_level *level = &grid->level[l];
+        const double way = reach + level->largest;
+        int from[2], to[2];
+        const int runs = runs_along_z(grid, level, place[2], way, from, to);
+        const int high_x = cell_along(grid, level, place[0] + way, 0), high_y = cell_along(grid, level, place[1] + way, 1);
+        for (int a = cell_along(grid, level, place[0] - way, 0); a <= high_x; a++)
+            for (int b = cell_along(grid, level, place[1] - way, 1); b <= high_y; b++) {
+                const int32_t *start = grid->start + level->first_cell + (a * level->cells[1] + b) * level->cells[2];
+                for (int r = 0; r < runs; r++)
+                    count = find_in_run(grid, start[from[r]], start[to[r]], (int32_t)i, x, (real)reach, found, count, room);
             }
-        }
+    }
     return count;
 }

@@ -18,7 +18,7 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     for (size_t i = 1; i < spheres_count(s); i++) ends_differ = ends_differ || s->full_radius[i] != s->full_radius[0];
     for (size_t i = 1; alike && i < s->mobile_count; i++)
         alike = s->full_radius[i] == s->full_radius[0] && s->species[i] == s->species[0];
-    cell_grid_init(&list->grid);
+    cell_grid_init(&list->grid, s);
     const size_t n = s->mobile_count;
     list->start = array_create(n + 1, sizeof *list->start);
     list->built_at = array_create(n, sizeof *list->built_at);
@@ -75,8 +75,19 @@ void neighbor_list_extend(neighbor_list *list, size_t before, size_t now)
 
 /* ---- outer list ---- */
 
+static int compare_numbers(const void *a, const void *b)
+{
+    const int32_t x = *(const int32_t *)a, y = *(const int32_t *)b;
+    return (x > y) - (x < y);
+}
+
 static void sort_ascending(int32_t *x, size_t count)
 {
+    enum { MANY = 100 }; /* neighbors of a sphere among much smaller ones */
+    if (count > MANY) {
+        qsort(x, count, sizeof *x, compare_numbers);
+        return;
+    }
     for (size_t k = 1; k < count; k++) {
         const int32_t value = x[k];
         size_t at = k;
@@ -117,7 +128,7 @@ static dem_status append_neighbors(pair_part *part, const spheres *s, const cell
     size_t count, room = USUAL_ROOM;
     for (;; room = count) {
         if (part_reserve(part, part->count + room + BLOCK) != DEM_OK) return DEM_NO_MEMORY;
-        count = cell_grid_neighbors(grid, i, skin, part->second + part->count, room);
+        count = cell_grid_neighbors(grid, s, i, skin, part->second + part->count, room);
         if (count <= room) break;
     }
     int32_t *found = part->second + part->count;
@@ -187,10 +198,9 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
 {
     list->outer_valid = false;
     const size_t n = s->mobile_count;
-    const double largest = fmax(s->largest_diameter, 2 * s->full_radius[spheres_count(s) - 1]);
     const int parts = threads < MOST_PARTS ? threads : MOST_PARTS;
     dem_status of_part[MOST_PARTS];
-    if (cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, largest + list->skin) != DEM_OK) return DEM_NO_MEMORY;
+    if (cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, list->skin) != DEM_OK) return DEM_NO_MEMORY;
 #pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
     for (int p = 0; p < parts; p++) of_part[p] = outer_part(list, s, p, parts);
     size_t count = 0;

@@ -27,13 +27,13 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     if (status == DEM_OK && definition->is_placed) filling_leave_out(&scene->filling, &scene->spheres, definition);
     else if (status == DEM_OK && has_stream(definition)) status = stream_init(scene);
     else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
+    if (status == DEM_OK) container_place_lining(&scene->drum, definition, &scene->spheres);
     if (status == DEM_OK) status = lost_init(scene);
     if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres, dem_has_rolling_friction(definition));
     if (status != DEM_OK) {
         dem_scene_free(scene);
         return status;
     }
-    container_place_lining(&scene->drum, definition, &scene->spheres);
     if (has_stream(definition)) stream_begin(scene);
     else scene_enter_phase(scene, DEM_PHASE_GROWING);
     *out = scene;

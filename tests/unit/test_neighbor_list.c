@@ -55,7 +55,7 @@ static void count_pairs(const dem_scene *scene, listed *l, census *c)
             const size_t i = l->order[a] < l->order[b] ? l->order[a] : l->order[b], j = l->order[a] + l->order[b] - i;
             const double *x = sphere_place(s, i), *y = sphere_place(s, j), reach = sphere_radius(s, i) + sphere_radius(s, j);
             const double dx = y[0] - x[0], dy = y[1] - x[1];
-            if (i >= l->mobile || fabs(dy) > reach) continue;
+            if (i >= l->mobile || fabs(dx) > reach || fabs(dy) > reach) continue;
             if (j < l->mobile && particle_of_sphere(s, i) == particle_of_sphere(s, j)) continue; /* one rigid body */
             const double dz = remainder(y[2] - x[2], scene->drum.length);
             if (dx * dx + dy * dy + dz * dz >= reach * reach) continue;
@@ -135,6 +135,19 @@ static void no_contact_is_missed_in_a_fast_start_of_two_sizes(void **unused)
 {
     (void)unused;
     dem_drum_definition d = two_sizes_drum();
+    d.rotation_rate = fast_rate(&d);
+    check_run(&d);
+}
+
+/* One large sphere to a hundred of a tenth of its size. */
+static void no_contact_is_missed_where_sizes_are_ten_times_apart(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = two_sizes_drum();
+    d.species[0] = (dem_species){ .diameter = 0.0006, .density = 2500, .share = 0.99 };
+    d.species[1] = (dem_species){ .diameter = 0.006, .density = 25, .share = 0.01 }; /* light, hence longer steps */
+    d.fill_fraction = 0.03;
+    d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 2);
     d.rotation_rate = fast_rate(&d);
     check_run(&d);
 }
@@ -241,6 +254,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_contact_is_missed_in_a_fast_start_of_two_sizes),
+        cmocka_unit_test(no_contact_is_missed_where_sizes_are_ten_times_apart),
         cmocka_unit_test(no_contact_is_missed_with_a_lining),
         cmocka_unit_test(no_contact_is_missed_in_a_slow_drum_turning_backwards),
         cmocka_unit_test(no_contact_is_missed_along_a_very_short_axis),
