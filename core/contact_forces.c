@@ -181,7 +181,7 @@ static double part_forces(neighbor_list *list, spheres *s, const dem_contact_par
     const size_t last = list->part_begins[part + 1] < s->single_count ? list->part_begins[part + 1] : s->single_count;
     size_t moved = list->part_begins[part], shared = list->part_shared[part], later = list->part_later[part];
     wide largest = wide_all(0);
-    for (size_t k = list->walls.start[moved]; k < list->walls.start[list->part_begins[part + 1]]; k++)
+    for (size_t k = list->wall_start[moved]; k < list->wall_start[list->part_begins[part + 1]]; k++)
         s->load[list->walls.first[k]] += list->walls.row[k];
     for (size_t b = list->part_blocks[part]; b < end; b++) {
         contact_block block;

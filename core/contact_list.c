@@ -1,12 +1,10 @@
 #include "contact_list.h"
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, contact_constants constants)
+dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants)
 {
     memset(list, 0, sizeof *list);
     list->has_rolling = has_rolling;
     list->constants = constants;
-    list->start = array_create(sphere_count + 1, sizeof *list->start);
-    if (!list->start) return DEM_NO_MEMORY;
     return contact_list_reserve(list, BLOCK);
 }
 
@@ -32,7 +30,6 @@ void contact_list_clear(contact_list *list)
 {
     memory_free(list);
     constants_free(list);
-    free(list->start);
     memset(list, 0, sizeof *list);
 }
 
@@ -136,7 +133,6 @@ static void take_memory(contact_list *to, const contact_list *from)
     to->second = from->second;
     to->t_star = from->t_star;
     to->alpha_0 = from->alpha_0;
-    to->start = from->start;
     memcpy(to->t, from->t, sizeof to->t);
     memcpy(to->roll, from->roll, sizeof to->roll);
 }
@@ -148,13 +144,32 @@ void contact_list_swap(contact_list *a, contact_list *b)
     take_memory(b, &c);
 }
 
-void contact_list_carry(contact_list *list, const contact_list *before, size_t i)
+/* Where a contact is in the order of lists. */
+static inline uint64_t place_in_order(const contact_list *list, size_t slot)
 {
-    /* Both are ordered by second, so one walk along each is enough. */
-    size_t old = before->start[i];
-    for (size_t k = list->start[i]; k < list->start[i + 1]; k++) {
-        while (old < before->start[i + 1] && before->second[old] < list->second[k]) old++;
-        if (old < before->start[i + 1] && before->second[old] == list->second[k]) {
+    return (uint64_t)(uint32_t)list->first[slot] << 32 | (uint32_t)list->second[slot];
+}
+
+/* The first slot that is not before `place`. */
+static size_t slot_at(const contact_list *list, uint64_t place)
+{
+    size_t low = 0, high = list->count;
+    while (low < high) {
+        const size_t middle = low + (high - low) / 2;
+        if (place_in_order(list, middle) < place) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+void contact_list_carry(contact_list *list, const contact_list *before, size_t from, size_t to)
+{
+    /* Both are ordered, so one walk along each is enough. */
+    size_t old = from < to ? slot_at(before, place_in_order(list, from)) : 0;
+    for (size_t k = from; k < to; k++) {
+        const uint64_t place = place_in_order(list, k);
+        while (old < before->count && place_in_order(before, old) < place) old++;
+        if (old < before->count && place_in_order(before, old) == place) {
             const contact_history history = contact_list_history(before, old);
             contact_list_set_history(list, k, &history);
         } else {

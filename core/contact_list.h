@@ -28,9 +28,8 @@ typedef struct contact_list {
     int32_t *second; /* sphere index, or that of the wall */
     real *t[3];      /* N   contact_history, by component */
     real *t_star;
-    real *alpha_0;   /* m */
-    real *roll[3];   /* N   contact_history, by component */
-    uint32_t *start; /* (spheres + 1) where each first sphere's contacts begin */
+    real *alpha_0; /* m */
+    real *roll[3]; /* N   contact_history, by component */
     /* (constant_capacity) of all: one block, which serves every other */
     size_t constant_capacity;
     real *friction;         /* mu */
@@ -47,7 +46,7 @@ static inline size_t constants_of(const contact_list *list, size_t start)
     return list->constants == CONSTANTS_OF_ALL ? 0 : start;
 }
 
-dem_status contact_list_init(contact_list *list, size_t sphere_count, bool has_rolling, contact_constants constants);
+dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants);
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);
@@ -62,7 +61,7 @@ enum { CONTACT_NUMBERS = 8 };
 int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS]);
 /* Exchanges who and what they remember. */
 void contact_list_swap(contact_list *a, contact_list *b);
-/* Copy the histories of sphere i's contacts from the list before (same first, same second). */
-void contact_list_carry(contact_list *list, const contact_list *before, size_t i);
+/* Copy the histories of the contacts from..to-1 from the list before (same first, same second). */
+void contact_list_carry(contact_list *list, const contact_list *before, size_t from, size_t to);
 
 #endif

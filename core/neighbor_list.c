@@ -23,13 +23,14 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     list->start = array_create(n + 1, sizeof *list->start);
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
+    list->wall_start = array_create(n + 1, sizeof *list->wall_start);
     list->shared = array_create(n, sizeof *list->shared);
     list->is_shared = array_create(n, sizeof *list->is_shared);
-    bool enough = list->start && list->built_at && list->picked_velocity && list->shared && list->is_shared;
+    bool enough = list->start && list->built_at && list->picked_velocity && list->wall_start && list->shared && list->is_shared;
     contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
     const contact_constants constants[] = { alike ? CONSTANTS_OF_ALL : CONSTANTS_OF_EACH, CONSTANTS_OF_EACH };
     for (int k = 0; k < 4; k++)
-        enough = contact_list_init(all[k], n, has_rolling, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
+        enough = contact_list_init(all[k], has_rolling, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
     list->pairs.ends_differ = ends_differ;
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
@@ -46,6 +47,7 @@ void neighbor_list_clear(neighbor_list *list)
     free(list->was_in_reach);
     free(list->built_at);
     free(list->picked_velocity);
+    free(list->wall_start);
     free(list->wall_rows);
     free(list->shared);
     free(list->is_shared);
@@ -63,14 +65,6 @@ void neighbor_list_invalidate(neighbor_list *list)
 {
     list->outer_valid = false;
     list->inner_valid = false;
-}
-
-void neighbor_list_extend(neighbor_list *list, size_t before, size_t now)
-{
-    for (size_t i = before + 1; i <= now; i++) {
-        list->pairs.start[i] = list->pairs.start[before];
-        list->walls.start[i] = list->walls.start[before];
-    }
 }
 
 /* ---- outer list ---- */
@@ -288,16 +282,15 @@ static void mark_in_reach(neighbor_list *list, const spheres *s, const container
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int part = 0; part < threads; part++) {
         const size_t from = part_start(s->mobile_count, part, threads), to = part_start(s->mobile_count, part + 1, threads);
-        wall_reach_count(s, drum, ahead, from, to, list->walls.start + 1);
+        wall_reach_count(s, drum, ahead, from, to, list->wall_start + 1);
         for (size_t i = from; i < to; i++) memcpy(&list->picked_velocity[i], s->row[i].v, sizeof *list->picked_velocity);
     }
 }
 
-static void starts_from_counts(contact_list *list, size_t n)
+static void starts_from_counts(uint32_t *start, size_t n)
 {
-    list->start[0] = 0;
-    for (size_t i = 0; i < n; i++) list->start[i + 1] += list->start[i];
-    list->count = list->start[n];
+    start[0] = 0;
+    for (size_t i = 0; i < n; i++) start[i + 1] += start[i];
 }
 
 static dem_status wall_rows_reserve(neighbor_list *list)
@@ -316,7 +309,7 @@ static dem_status wall_rows_reserve(neighbor_list *list)
 
 /* The pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells what
  * its pairs remember. */
-static dem_status pairs_pick(neighbor_list *list, size_t n, bool carry)
+static dem_status pairs_pick(neighbor_list *list, bool carry)
 {
     const size_t groups = (list->pair_count + LANES - 1) / LANES;
     contact_list *pairs = &list->pairs, *before = &list->pairs_before;
@@ -335,9 +328,6 @@ static dem_status pairs_pick(neighbor_list *list, size_t n, bool carry)
         wide_compress(pairs->second + pairs->count, now, list->second + g * LANES);
         pairs->count += wide_compress(pairs->first + pairs->count, now, list->first + g * LANES);
     }
-    memset(pairs->start, 0, (n + 1) * sizeof *pairs->start);
-    for (size_t k = 0; k < pairs->count; k++) pairs->start[pairs->first[k] + 1]++;
-    for (size_t i = 0; i < n; i++) pairs->start[i + 1] += pairs->start[i];
     return DEM_OK;
 }
 
@@ -478,20 +468,19 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     list->in_reach = list->was_in_reach;
     list->was_in_reach = was;
     mark_in_reach(list, s, drum, duration, threads);
-    dem_status status = pairs_pick(list, n, same_outer);
-    starts_from_counts(&list->walls, n);
+    dem_status status = pairs_pick(list, same_outer);
+    starts_from_counts(list->wall_start, n);
+    list->walls.count = list->wall_start[n];
     const bool alike = list->pairs.constants == CONSTANTS_OF_ALL;
     if (status != DEM_OK || contact_list_reserve(&list->walls, list->walls.count) != DEM_OK) return DEM_NO_MEMORY;
 #pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
     for (int part = 0; part < threads; part++) {
+        const size_t count = list->pairs.count, first = part_start(count, part, threads), end = part_start(count, part + 1, threads);
+        if (!alike) describe_pairs(&list->pairs, s, contact, first, end);
+        if (!same_outer) contact_list_carry(&list->pairs, &list->pairs_before, first, end);
         const size_t from = part_start(n, part, threads), to = part_start(n, part + 1, threads);
-        if (!alike) describe_pairs(&list->pairs, s, contact, list->pairs.start[from], list->pairs.start[to]);
-        for (size_t i = from; !same_outer && i < to; i++) contact_list_carry(&list->pairs, &list->pairs_before, i);
-        for (size_t i = from; i < to; i++) {
-            if (list->walls.start[i] == list->walls.start[i + 1]) continue;
-            wall_reach_fill(&list->walls, s, drum, ahead, i);
-            contact_list_carry(&list->walls, &list->walls_before, i);
-        }
+        for (size_t i = from; i < to; i++) wall_reach_fill(&list->walls, list->wall_start[i], list->wall_start[i + 1], s, drum, ahead, i);
+        contact_list_carry(&list->walls, &list->walls_before, list->wall_start[from], list->wall_start[to]);
     }
     if (alike) describe_all_pairs(&list->pairs, s, contact);
     list->picked_of = list->outer_builds;

@@ -41,6 +41,7 @@ typedef struct neighbor_list {
     half_row *picked_velocity; /* (mobile) m/s at the pick */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
+    uint32_t *wall_start;             /* (mobile + 1) where each sphere's begin in `walls` */
     contact_row *wall_rows;           /* of the walls' contacts */
     size_t wall_row_capacity;
     /* Blocks of pairs are dealt out to as many parts as there are threads, and each part sums the forces on its own spheres.
@@ -66,9 +67,7 @@ typedef struct neighbor_list {
 /* has_rolling: contacts resist rolling. */
 dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, bool has_rolling);
 void neighbor_list_clear(neighbor_list *list);
-void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand */
-/* Spheres were added behind the last one: they have touched nothing yet. Invalidate, too. */
-void neighbor_list_extend(neighbor_list *list, size_t before, size_t now);
+void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
  * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. made_new (may be NULL): whether anything was done. */
 dem_status neighbor_list_update(neighbor_list *list, spheres *spheres, const container *drum, const dem_contact_parameters *contact,

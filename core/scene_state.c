@@ -162,13 +162,12 @@ static bool contacts_fit(const dem_state *state, const char *ids, const char *hi
 }
 
 /* The list from which the next one carries its histories over. */
-static void restore_contacts(const dem_state *state, contact_list *list, size_t n, const char *ids, const char *history)
+static void restore_contacts(const dem_state *state, contact_list *list, const char *ids, const char *history)
 {
     const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
     const int32_t *pair = id->data;
     const double *h = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS)->data;
     list->count = id->rows;
-    memset(list->start, 0, (n + 1) * sizeof *list->start);
     for (size_t k = 0; k < id->rows; k++, pair += 2, h += HISTORY_NUMBERS) {
         list->first[k] = pair[0];
         list->second[k] = pair[1];
@@ -177,9 +176,7 @@ static void restore_contacts(const dem_state *state, contact_list *list, size_t 
                                                      .t_star = (real)h[3],
                                                      .alpha_0 = (real)h[4],
                                                      .roll = { (real)h[5], (real)h[6], (real)h[7] } });
-        list->start[pair[0] + 1]++;
     }
-    for (size_t i = 0; i < n; i++) list->start[i + 1] += list->start[i];
 }
 
 static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin,
@@ -269,8 +266,8 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     const dem_status order = restore_order(&scene->spheres, state);
     if (order != DEM_OK) return order;
     /* Nothing can fail from here on but memory for new lists. */
-    restore_contacts(state, pairs, n, "pair", "pair_history");
-    restore_contacts(state, walls, n, "wall_contact", "wall_history");
+    restore_contacts(state, pairs, "pair", "pair_history");
+    restore_contacts(state, walls, "wall_contact", "wall_history");
     scene->step_count = counter[STATE_STEP];
     scene->phase_start = counter[STATE_PHASE_START];
     scene->rotation_start = counter[STATE_ROTATION_START];

@@ -117,9 +117,10 @@ dem_status sorting_apply(spheres *s, const int32_t *order, int32_t *sphere_order
 
 /* The contacts of `from`, whose spheres have moved to now_at in memory (those from `mobile` on stay), in order of first,
  * then second, in `to`. Seen from the other sphere, friction points the other way. */
-static void contacts_move(contact_list *to, const contact_list *from, const int32_t *now_at, size_t mobile, bool between_spheres)
+static void contacts_move(contact_list *to, const contact_list *from, const int32_t *now_at, size_t mobile, bool between_spheres,
+                          int32_t *start)
 {
-    memset(to->start, 0, (mobile + 1) * sizeof *to->start);
+    memset(start, 0, (mobile + 1) * sizeof *start);
     for (int pass = 0; pass < 2; pass++) {
         for (size_t k = 0; k < from->count; k++) {
             int32_t first = now_at[from->first[k]], second = from->second[k];
@@ -132,10 +133,10 @@ static void contacts_move(contact_list *to, const contact_list *from, const int3
                 contact_history_turn(&history);
             }
             if (pass == 0) {
-                to->start[first + 1]++;
+                start[first + 1]++;
                 continue;
             }
-            size_t slot = to->start[first]++;
+            size_t slot = (size_t)start[first]++;
             for (; slot > 0 && to->first[slot - 1] == first && to->second[slot - 1] > second; slot--) {
                 const contact_history later = contact_list_history(to, slot - 1);
                 to->first[slot] = first;
@@ -147,16 +148,13 @@ static void contacts_move(contact_list *to, const contact_list *from, const int3
             contact_list_set_history(to, slot, &history);
         }
         if (pass == 1) break;
-        for (size_t i = 0; i < mobile; i++) to->start[i + 1] += to->start[i];
+        for (size_t i = 0; i < mobile; i++) start[i + 1] += start[i];
         for (size_t k = 0; k < from->count; k++) to->first[k] = -1; /* not filled yet */
     }
-    /* the second pass moved each start to its end, which is the next one's start */
-    memmove(to->start + 1, to->start, mobile * sizeof *to->start);
-    to->start[0] = 0;
     to->count = from->count;
 }
 
-static dem_status sort(dem_scene *scene, int32_t *order, int32_t *sphere_order, int32_t *now_at)
+static dem_status sort(dem_scene *scene, int32_t *order, int32_t *sphere_order, int32_t *now_at, int32_t *start)
 {
     spheres *s = &scene->spheres;
     neighbor_list *list = &scene->neighbors;
@@ -168,8 +166,8 @@ static dem_status sort(dem_scene *scene, int32_t *order, int32_t *sphere_order, 
         || sorting_apply(s, order, sphere_order) != DEM_OK)
         return DEM_NO_MEMORY;
     for (size_t k = 0; k < s->mobile_count; k++) now_at[sphere_order[k]] = (int32_t)k;
-    contacts_move(&list->pairs_before, &list->pairs, now_at, s->mobile_count, true);
-    contacts_move(&list->walls_before, &list->walls, now_at, s->mobile_count, false);
+    contacts_move(&list->pairs_before, &list->pairs, now_at, s->mobile_count, true, start);
+    contacts_move(&list->walls_before, &list->walls, now_at, s->mobile_count, false, start);
     contact_list_swap(&list->pairs, &list->pairs_before);
     contact_list_swap(&list->walls, &list->walls_before);
     neighbor_list_invalidate(list);
@@ -180,8 +178,8 @@ dem_status sorting_look(dem_scene *scene)
 {
     if (!is_due(scene)) return DEM_OK;
     const size_t n = scene->spheres.mobile_count;
-    int32_t *numbers = array_create(3 * n, sizeof *numbers);
-    const dem_status status = numbers ? sort(scene, numbers, numbers + n, numbers + 2 * n) : DEM_NO_MEMORY;
+    int32_t *numbers = array_create(4 * n + 1, sizeof *numbers);
+    const dem_status status = numbers ? sort(scene, numbers, numbers + n, numbers + 2 * n, numbers + 3 * n) : DEM_NO_MEMORY;
     free(numbers);
     return status;
 }

@@ -48,13 +48,11 @@ static size_t spheres_of(const dem_scene *scene, size_t particles)
 static void set_inside(dem_scene *scene, size_t particles)
 {
     spheres *s = &scene->spheres;
-    const size_t before = s->mobile_count;
     s->mobile_count = spheres_of(scene, particles);
     if (scene->stream.has_clusters) s->clusters.count = particles;
     else s->single_count = particles;
     spheres_pad(s);
     spheres_set_scale(s, 1.0);
-    neighbor_list_extend(&scene->neighbors, before, s->mobile_count);
 }
 
 static size_t inside(const dem_scene *scene) { return particles_count(&scene->spheres); }

@@ -60,10 +60,9 @@ void wall_reach_count(const spheres *s, const container *c, wall_outlook outlook
     for (size_t i = from; i < to; i++) count[i] = (uint32_t)walls_in_reach(s, c, outlook, i);
 }
 
-void wall_reach_fill(contact_list *walls, const spheres *s, const container *c, wall_outlook outlook, size_t i)
+void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres *s, const container *c, wall_outlook outlook,
+                     size_t i)
 {
-    size_t slot = walls->start[i];
-    const size_t end = walls->start[i + 1];
     for (int k = 0; slot < end; k++) {
         if (!in_reach(s, c, outlook, i, k)) continue;
         walls->first[slot] = (int32_t)i;

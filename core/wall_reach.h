@@ -15,7 +15,8 @@ typedef struct wall_outlook {
 /* count[i]: how many walls sphere i may touch, from..to-1. */
 void wall_reach_count(const spheres *spheres, const container *container, wall_outlook outlook, size_t from, size_t to,
                       uint32_t *count);
-/* The same walls into the slots that the list's starts have for sphere i, ascending, and what the contacts need. */
-void wall_reach_fill(contact_list *walls, const spheres *spheres, const container *container, wall_outlook outlook, size_t i);
+/* The same walls into the slots slot..end-1, ascending, and what the contacts need. */
+void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres *spheres, const container *container,
+                     wall_outlook outlook, size_t i);
 
 #endif

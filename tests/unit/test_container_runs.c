@@ -93,13 +93,14 @@ static void more_than_a_container_holds_does_not_fit(void **unused)
 static size_t check_all_listed(const dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
-    const contact_list *walls = &scene->neighbors.walls;
+    const neighbor_list *list = &scene->neighbors;
     size_t touching = 0;
     for (size_t i = 0; i < s->mobile_count; i++)
         for (int k = 0; k < scene->drum.wall_count; k++) {
             if (wall_seen_from(&scene->drum.wall[k], sphere_place(s, i)).distance >= sphere_radius(s, i)) continue;
             bool listed = false;
-            for (size_t slot = walls->start[i]; slot < walls->start[i + 1]; slot++) listed = listed || walls->second[slot] == k;
+            for (size_t slot = list->wall_start[i]; slot < list->wall_start[i + 1]; slot++)
+                listed = listed || list->walls.second[slot] == k;
             if (!listed) fail_msg("step %lld: sphere %zu at wall %d is not listed", (long long)scene->step_count, i, k);
             touching++;
         }

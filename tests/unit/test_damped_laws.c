@@ -161,7 +161,7 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
         contact.law = round % 2 ? DEM_SPRING_DASHPOT : DEM_HERTZ_MINDLIN;
         const bool is_wall = round % 4 < 2;
         contact_list list;
-        assert_int_equal(contact_list_init(&list, 1, false, CONSTANTS_OF_EACH), DEM_OK);
+        assert_int_equal(contact_list_init(&list, false, CONSTANTS_OF_EACH), DEM_OK);
         contact_block *b = array_create(1, sizeof *b);
         for (int k = 0; k < BLOCK; k++) {
             double n[3];

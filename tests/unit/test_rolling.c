@@ -115,7 +115,7 @@ static void compare_block(dice *d, dem_contact_law law, bool is_wall)
     static const double dt = 1e-5;
     const dem_contact_parameters contact = { .law = law, .stiffness = 4000, .tangential_stiffness_ratio = 0.5 };
     contact_list list;
-    assert_int_equal(contact_list_init(&list, 1, true, CONSTANTS_OF_EACH), DEM_OK);
+    assert_int_equal(contact_list_init(&list, true, CONSTANTS_OF_EACH), DEM_OK);
     contact_block *b = array_create(1, sizeof *b);
     real k_t[BLOCK], roll[BLOCK][3], radius[BLOCK];
     for (int k = 0; k < BLOCK; k++) {
