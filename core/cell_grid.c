@@ -117,7 +117,7 @@ dem_status cell_grid_fill(cell_grid *grid, const spheres *s, const double low[3]
         const int32_t at = grid->start[cell_of(grid, level_of(grid, s->full_radius[i]), x)]++;
         grid->sphere[at] = (int32_t)i;
         for (int c = 0; c < 3; c++) grid->x[c][at] = (real)x[c];
-        grid->radius[at] = (real)s->full_radius[i];
+        grid->radius[at] = s->full_radius[i];
     }
     memmove(grid->start + 1, grid->start, cells * sizeof *grid->start);
     grid->start[0] = 0;

@@ -9,12 +9,14 @@ static const double REGION_FRACTION = 0.5, PLACING_FRACTION = 0.28;
 /* Spheres by themselves, from id `first` on. */
 static void assign_spheres(spheres *s, const dem_species *species, size_t k, size_t first, size_t count)
 {
-    const double mass = dem_sphere_mass(species->diameter, species->density), r = (double)(real)(0.5 * species->diameter);
+    const double mass = dem_sphere_mass(species->diameter, species->density);
+    const real radius = (real)(0.5 * species->diameter);
+    const double r = (double)radius;
     s->inverse_mass[k] = 1.0 / mass;
     s->inverse_inertia[k] = 1.0 / (0.4 * mass * r * r);
     for (size_t i = first; i < first + count; i++) {
         s->species[i] = (int32_t)k;
-        s->full_radius[i] = r;
+        s->full_radius[i] = radius;
     }
 }
 
@@ -28,7 +30,7 @@ static void assign_clusters(spheres *s, const dem_species *species, size_t k, si
         s->clusters.body[b].first_sphere = (int32_t)sphere;
         for (size_t m = 0; m < cluster->sphere_count; m++, sphere++) {
             s->species[sphere] = (int32_t)k;
-            s->full_radius[sphere] = (double)(real)(0.5 * cluster->sphere[m].diameter);
+            s->full_radius[sphere] = (real)(0.5 * cluster->sphere[m].diameter);
             s->clusters.of_sphere[sphere - s->single_count] = (int32_t)b;
         }
     }

@@ -87,7 +87,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
             if (!(above_chord > -3 * d)) mean_add(&wall_spin, spin); /* the bed's own, not what falls at its ends */
             bins[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (WALL_BINS - 1e-9))] = true;
         }
-        if (rho < inner - 2 * d) s->fallen_time[i] = time;
+        if (rho < inner - 2 * d) s->fallen_time[i] = (float)time;
         /* Downslope speed of the flowing layer at the middle of the chord. */
         const double along = c * x[0] + sine * x[1], downslope = -(c * v[0] + sine * v[1]);
         if (fabs(along) < 0.25 * scene->drum.radius && downslope > 0) mean_add(&flow, downslope);

@@ -24,9 +24,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
     list->wall_start = array_create(n + 1, sizeof *list->wall_start);
-    list->shared = array_create(n, sizeof *list->shared);
-    list->is_shared = array_create(n, sizeof *list->is_shared);
-    bool enough = list->start && list->built_at && list->picked_velocity && list->wall_start && list->shared && list->is_shared;
+    list->most_spheres = n;
+    bool enough = list->start && list->built_at && list->picked_velocity && list->wall_start;
     contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
     const contact_constants constants[] = { alike ? CONSTANTS_OF_ALL : CONSTANTS_OF_EACH, CONSTANTS_OF_EACH };
     for (int k = 0; k < 4; k++)
@@ -341,7 +340,7 @@ static void describe_pairs(contact_list *pairs, const spheres *s, const dem_cont
     for (size_t k = from; k < to; k++) {
         const bool between_mobile = second[k] < mobile;
         pairs->friction[k] = between_mobile ? mu : mu_wall;
-        pairs->first_radius[k] = (real)s->full_radius[first[k]];
+        pairs->first_radius[k] = s->full_radius[first[k]];
     }
     if (pairs->has_rolling)
         for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
@@ -357,7 +356,7 @@ static void describe_all_pairs(contact_list *pairs, const spheres *s, const dem_
 {
     for (size_t k = 0; k < BLOCK; k++) {
         pairs->friction[k] = (real)contact->friction;
-        pairs->first_radius[k] = (real)s->full_radius[0];
+        pairs->first_radius[k] = s->full_radius[0];
         pairs->mass[k] = (real)(0.5 / sphere_inverse_mass(s, 0));
         if (pairs->has_rolling) pairs->rolling_friction[k] = (real)contact->rolling_friction;
     }
@@ -382,6 +381,13 @@ static void parts_begin(neighbor_list *list, size_t n, int parts)
     }
     list->part_blocks[parts] = blocks;
     list->part_begins[parts] = n;
+}
+
+static dem_status shared_reserve(neighbor_list *list)
+{
+    if (!list->shared) list->shared = array_create(list->most_spheres, sizeof *list->shared);
+    if (!list->is_shared) list->is_shared = array_create(list->most_spheres, sizeof *list->is_shared);
+    return list->shared && list->is_shared ? DEM_OK : DEM_NO_MEMORY;
 }
 
 static dem_status later_reserve(neighbor_list *list, size_t count)
@@ -441,6 +447,7 @@ static dem_status parts_share(neighbor_list *list, spheres *s, int threads)
     const contact_list *pairs = &list->pairs;
     parts_begin(list, n, threads < MOST_PARTS ? threads : MOST_PARTS);
     list->shared_count = list->later_count = list->part_shared[0] = list->part_shared[1] = list->part_later[0] = 0;
+    if (list->parts > 1 && shared_reserve(list) != DEM_OK) return DEM_NO_MEMORY;
     const size_t ends = list->parts > 1 ? shared_find(list, n) : 0;
     if (later_reserve(list, ends) != DEM_OK || spheres_reserve_loads(s, behind + ends) != DEM_OK) return DEM_NO_MEMORY;
     if (list->parts == 1) return DEM_OK;

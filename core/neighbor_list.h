@@ -51,8 +51,9 @@ typedef struct neighbor_list {
     size_t part_blocks[MOST_PARTS + 1]; /* the first block of each part */
     size_t part_begins[MOST_PARTS + 1]; /* the first sphere of each part's own */
     size_t part_shared[MOST_PARTS + 1]; /* the first of them in `shared` */
-    int32_t *shared;                    /* (mobile) spheres with contacts in several parts, ascending */
-    uint8_t *is_shared;                 /* (mobile) */
+    int32_t *shared;                    /* (mobile) spheres with contacts in several parts, ascending; NULL before there are */
+    uint8_t *is_shared;                 /* (mobile) likewise */
+    size_t most_spheres;                /* mobile ones that there will ever be */
     size_t shared_count;
     size_t part_later[MOST_PARTS];      /* the first of them in `later` */
     /* (later_count) whose the loads behind the others are, in the order of the list, and which end of which pair they get:

@@ -137,7 +137,7 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     numbers[STATE_TIME_STEP] = scene->definition.time_step;
     for (size_t p = 0; p < particles_count(s); p++) id[p] = particle_id(s, p);
     for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, sphere_place(s, i), 3 * sizeof *position);
-    memcpy(fallen, s->fallen_time, n * sizeof *fallen);
+    for (size_t i = 0; i < n; i++) fallen[i] = (double)s->fallen_time[i];
     return DEM_OK;
 }
 
@@ -189,7 +189,7 @@ static void restore_spheres(dem_scene *scene, const double *position, const doub
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = position + 3 * i, *v = velocity + 3 * i, *w = spin + 3 * i;
         sphere_set(s, i, (vector4){ x[0], x[1], x[2] }, (vector4){ v[0], v[1], v[2] }, (vector4){ w[0], w[1], w[2] });
-        s->fallen_time[i] = fallen[i];
+        s->fallen_time[i] = (float)fallen[i];
     }
 }
 

@@ -50,7 +50,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
         return DEM_NO_MEMORY;
     }
     for (size_t i = 0; i < n; i++) {
-        s->fallen_time[i] = -1e300;
+        s->fallen_time[i] = -1e30f;
         s->surface_track[i].way = NAN;
         s->id[i] = (int32_t)i;
     }
@@ -111,7 +111,7 @@ void spheres_set_scale(spheres *s, double scale)
     s->scale = scale;
     for (size_t i = 0; i < s->mobile_count; i++) {
         sphere_row *row = &s->row[i];
-        row->radius = (real)(scale * s->full_radius[i]);
+        row->radius = (real)(scale * (double)s->full_radius[i]);
         for (int c = 0; c < 3; c++) row->r_omega[c] = row->radius * row->omega[c];
     }
 }

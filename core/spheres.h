@@ -45,7 +45,7 @@ typedef struct spheres {
     double ring_units;         /* 1/m: of a row's place */
     int32_t *id;               /* (mobile) which sphere of the definition's it is, wherever it is in memory */
     int32_t *species;          /* (mobile) */
-    double *full_radius;       /* (mobile + lining) m, rounded to real */
+    real *full_radius;         /* (mobile + lining) m */
     vector4 *velocity;         /* (mobile) m/s at the half step */
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
     row8 *load;                /* (load_count) force N, 0, torque N m about the centre, 0: contacts only.
@@ -54,7 +54,7 @@ typedef struct spheres {
     size_t load_count;
     double *inverse_mass;                       /* (species) 1/kg, of a particle */
     double *inverse_inertia;                    /* (species) 1/(kg m2), of those that are spheres by themselves */
-    double *fallen_time;                        /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
+    float *fallen_time;                         /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
     surface_track *surface_track;               /* (mobile) */
     vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */

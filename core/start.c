@@ -11,7 +11,7 @@ static void begin_anew(dem_scene *scene, double elapsed)
     scene->maximum_overlap = 0.0;
     scene->torque = (torque_meter){ .sum = 0 };
     scene->surface = (surface_meter){ NAN, NAN };
-    for (size_t i = 0; i < scene->spheres.mobile_count; i++) scene->spheres.fallen_time[i] -= elapsed;
+    for (size_t i = 0; i < scene->spheres.mobile_count; i++) scene->spheres.fallen_time[i] -= (float)elapsed;
 }
 
 /* How far the container had turned. At the same rate and step its angle goes on to be counted from where it was counted

@@ -69,7 +69,7 @@ void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres
         walls->second[slot] = k;
         walls->friction[slot] = (real)c->wall[k].friction;
         if (walls->has_rolling) walls->rolling_friction[slot] = (real)c->wall[k].rolling_friction;
-        walls->first_radius[slot] = (real)s->full_radius[i];
+        walls->first_radius[slot] = s->full_radius[i];
         walls->mass[slot] = (real)(1 / sphere_inverse_mass(s, i));
         slot++;
     }

@@ -24,7 +24,7 @@ static void scatter(spheres *s, size_t count, double radius, double period, doub
         s->place[i][0] = dice_uniform(d, -radius, radius);
         s->place[i][1] = dice_uniform(d, -radius, radius);
         s->place[i][2] = dice_uniform(d, -period / 2, period / 2);
-        s->full_radius[i] = (double)(real)(i % 3 ? largest : largest * pow(ratio, -dice_uniform(d, 0, 1)));
+        s->full_radius[i] = (real)(i % 3 ? largest : largest * pow(ratio, -dice_uniform(d, 0, 1)));
     }
     /* the corners of the box and its seam */
     for (int c = 0; c < 3; c++) s->place[0][c] = c < 2 ? radius : -period / 2;

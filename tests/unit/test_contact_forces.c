@@ -178,7 +178,7 @@ static void compare_round(const questions *q, dem_scene *scene, difference seen[
     dem_state_clear(&state);
 
     for (size_t p = 0; p < PAIRS; p++) {
-        const double *radius = scene->spheres.full_radius + 2 * p;
+        const double radius[2] = { (double)scene->spheres.full_radius[2 * p], (double)scene->spheres.full_radius[2 * p + 1] };
         const answer a = scalar_answer(q, p, radius, touching_distance(&scene->spheres, radius[0] + radius[1]), &d->contact, dt);
         difference *worst = &seen[a.is_slipping ? FULL_SLIP : q->kind[p]];
         /* The overlap comes from places in units of 2^-32 of less than 8 diameters, the change of velocity is one of doubles. */

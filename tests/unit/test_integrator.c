@@ -14,7 +14,7 @@ static double error_of_overlap(int steps)
     d.time_step = end / steps;
     dem_scene *scene = weightless_scene(&d);
     double x[6];
-    const double touch = scene->spheres.full_radius[0] + scene->spheres.full_radius[1];
+    const double touch = (double)scene->spheres.full_radius[0] + (double)scene->spheres.full_radius[1];
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
                                        .position = (double[]){ 0.03, 0, 0, 0.03 + touch, 0, 0 },
                                        .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });

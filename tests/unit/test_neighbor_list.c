@@ -240,7 +240,7 @@ static void contacts_of_each_particle_are_counted_as_by_all_pairs(void **unused)
         for (size_t j = 0; j < spheres_count(s); j++) {
             const double *y = sphere_place(s, j), dz = remainder(y[2] - x[2], d.length);
             const double distance = sqrt((y[0] - x[0]) * (y[0] - x[0]) + (y[1] - x[1]) * (y[1] - x[1]) + dz * dz);
-            expected[i] += j != i && distance < s->full_radius[i] + s->full_radius[j];
+            expected[i] += j != i && distance < (double)s->full_radius[i] + (double)s->full_radius[j];
         }
         expected[i] += hypot(x[0], x[1]) + s->full_radius[i] > 0.5 * d.diameter;
     }
