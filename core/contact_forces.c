@@ -222,31 +222,45 @@ static vector4 part_finish(const neighbor_list *list, spheres *s, int part, cons
     return strayed;
 }
 
+typedef struct pair_work {
+    neighbor_list *list;
+    spheres *spheres;
+    const dem_contact_parameters *contact;
+    double dt;
+    const leap_frog *leap;
+    /* of each part */
+    double largest[MOST_PARTS]; /* m, overlaps */
+    vector4 strayed[MOST_PARTS];
+} pair_work;
+
+static void pairs_of_part(void *context, int part, int parts)
+{
+    (void)parts;
+    pair_work *const work = context;
+    vector4 strayed = { 0 };
+    work->largest[part] = part_forces(work->list, work->spheres, work->contact, work->dt, part, work->leap, &strayed);
+    work->strayed[part] = strayed;
+}
+
+static void rest_of_part(void *context, int part, int parts)
+{
+    (void)parts;
+    pair_work *const work = context;
+    work->strayed[part] = vector4_greater(work->strayed[part], part_finish(work->list, work->spheres, part, work->leap));
+}
+
 double contact_forces_between_spheres(neighbor_list *list, spheres *s, const dem_contact_parameters *contact, double dt,
                                       const leap_frog *leap, vector4 *strayed)
 {
-    const int parts = list->parts;
-    double largest = 0.0, x = 0.0, y = 0.0, z = 0.0;
-#pragma omp parallel num_threads(parts) if (parts > 1)
-    {
-#pragma omp for schedule(static) reduction(max : largest, x, y, z)
-        for (int part = 0; part < parts; part++) {
-            vector4 here = { 0 };
-            largest = fmax(largest, part_forces(list, s, contact, dt, part, leap, &here));
-            x = fmax(x, here[0]);
-            y = fmax(y, here[1]);
-            z = fmax(z, here[2]);
-        }
-        if (list->shared_count) {
-#pragma omp for schedule(static) reduction(max : x, y, z)
-            for (int part = 0; part < parts; part++) {
-                const vector4 here = part_finish(list, s, part, leap);
-                x = fmax(x, here[0]);
-                y = fmax(y, here[1]);
-                z = fmax(z, here[2]);
-            }
-        }
+    pair_work work;
+    work.list = list, work.spheres = s, work.contact = contact, work.dt = dt, work.leap = leap;
+    team_run(list->parts, pairs_of_part, &work);
+    if (list->shared_count) team_run(list->parts, rest_of_part, &work);
+    double largest = 0.0;
+    *strayed = (vector4){ 0 };
+    for (int part = 0; part < list->parts; part++) {
+        largest = fmax(largest, work.largest[part]);
+        *strayed = vector4_greater(*strayed, work.strayed[part]);
     }
-    *strayed = (vector4){ x, y, z };
     return largest;
 }

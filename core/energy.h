@@ -1,10 +1,8 @@
-/* What the drum gives to the bed, and what becomes of it.
- *
- * Contacts between spheres exchange momentum at one point, so their moments about the axis cancel in the sum over all
- * spheres: what is left of the contacts' forces and moments is what the drum does, by its wall, ends, lifters or lining. */
+/* What the drum gives to the bed, and what becomes of it. */
 #ifndef ENERGY_H
 #define ENERGY_H
 
+#include "contact_list.h"
 #include "spheres.h"
 
 /* The drum's torque, looked at every STEPS_BETWEEN_TORQUES steps of rotation: a contact lasts as many, so that
@@ -23,8 +21,11 @@ typedef struct energy_audit {
     double wall_work;    /* J, done by the drum: its torque times what it turned */
 } energy_audit;
 
-/* N m about the axis, of the drum on the bed; positive turns counter-clockwise. The loads are those of the last forces. */
-double energy_wall_torque(const spheres *spheres);
+/* N m about the axis, of the drum on the bed; positive turns counter-clockwise. At the places of the last forces. */
+double energy_torque_of_walls(const contact_list *walls, const spheres *spheres);
+/* The same with a lining's, from the loads: contacts between spheres exchange momentum at one point, so their moments about
+ * the axis cancel in the sum over all mobile spheres. */
+double energy_torque_of_loads(const spheres *spheres);
 /* W, of the contacts' forces `load` on the particles, with the velocities of now. */
 double energy_contact_power(const spheres *spheres, const row8 *load);
 /* J: kinetic energy and that of height above the axis, half a step ago, where velocities are known. What changes it is the

@@ -2,8 +2,6 @@
 
 #include "leap_frog.h"
 
-static inline double largest_of(double a, double b) { return a > b ? a : b; }
-
 /* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
  * its spin advances as its velocity does. Returns the largest of each component of (v - picked_velocity)^2. */
 vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
@@ -45,22 +43,34 @@ leap_frog integrator_leap(const spheres *s, const container *drum, const body_fo
                         .corrector_passes = s->clusters.corrector_passes };
 }
 
+typedef struct motion_work {
+    spheres *spheres;
+    const half_row *picked_velocity;
+    const leap_frog *leap;
+    size_t moved;
+    vector4 largest[MOST_PARTS]; /* of each part, as spheres_advance returns it */
+} motion_work;
+
+static void motion_of_part(void *context, int part, int parts)
+{
+    motion_work *const work = context;
+    spheres *const s = work->spheres;
+    const size_t count = s->single_count - work->moved, bodies = s->clusters.count;
+    const vector4 of_spheres = spheres_advance(work->leap, s, work->picked_velocity, work->moved + part_start(count, part, parts),
+                                               work->moved + part_start(count, part + 1, parts));
+    const vector4 of_clusters = clusters_advance(work->leap, s, work->picked_velocity, part_start(bodies, part, parts),
+                                                 part_start(bodies, part + 1, parts));
+    work->largest[part] = vector4_greater(of_spheres, of_clusters);
+}
+
 double integrator_advance(spheres *s, const half_row *picked_velocity, const leap_frog *leap, size_t moved, vector4 so_far,
                           int threads)
 {
-    const size_t count = s->single_count - moved, bodies = s->clusters.count;
-    double x = so_far[0], y = so_far[1], z = so_far[2];
-    if (count + bodies == 0) return sqrt(x + y + z);
-#pragma omp parallel for schedule(static) reduction(max : x, y, z) num_threads(threads) if (threads > 1)
-    for (int part = 0; part < threads; part++) {
-        const vector4 of_spheres = spheres_advance(leap, s, picked_velocity, moved + part_start(count, part, threads),
-                                                   moved + part_start(count, part + 1, threads));
-        const vector4 of_clusters =
-            clusters_advance(leap, s, picked_velocity, part_start(bodies, part, threads), part_start(bodies, part + 1, threads));
-        const vector4 largest = vector4_greater(of_spheres, of_clusters);
-        x = largest_of(x, largest[0]);
-        y = largest_of(y, largest[1]);
-        z = largest_of(z, largest[2]);
+    const int parts = team_parts(threads);
+    motion_work work = { .spheres = s, .picked_velocity = picked_velocity, .leap = leap, .moved = moved };
+    if (s->single_count - moved + s->clusters.count > 0) {
+        team_run(parts, motion_of_part, &work);
+        for (int part = 0; part < parts; part++) so_far = vector4_greater(so_far, work.largest[part]);
     }
-    return sqrt(x + y + z);
+    return sqrt(so_far[0] + so_far[1] + so_far[2]);
 }

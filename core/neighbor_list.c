@@ -132,6 +132,12 @@ static dem_status append_neighbors(pair_part *part, const spheres *s, const cell
     return DEM_OK;
 }
 
+typedef struct outer_work {
+    neighbor_list *list;
+    const spheres *spheres;
+    dem_status status[MOST_PARTS];
+} outer_work;
+
 /* Each part of the spheres lists its neighbors into memory of its own, so that threads need not wait for each other. */
 static dem_status outer_part(neighbor_list *list, const spheres *s, int which, int parts)
 {
@@ -144,6 +150,12 @@ static dem_status outer_part(neighbor_list *list, const spheres *s, int which, i
         memcpy(&list->built_at[i], s->row[i].place, sizeof list->built_at[i]);
     }
     return DEM_OK;
+}
+
+static void outer_of_part(void *context, int part, int parts)
+{
+    outer_work *const work = context;
+    work->status[part] = outer_part(work->list, work->spheres, part, parts);
 }
 
 static dem_status outer_reserve(neighbor_list *list, size_t count)
@@ -191,14 +203,13 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
 {
     list->outer_valid = false;
     const size_t n = s->mobile_count;
-    const int parts = threads < MOST_PARTS ? threads : MOST_PARTS;
-    dem_status of_part[MOST_PARTS];
+    const int parts = team_parts(threads);
+    outer_work work = { .list = list, .spheres = s };
     if (cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, list->skin) != DEM_OK) return DEM_NO_MEMORY;
-#pragma omp parallel for schedule(static) num_threads(parts) if (parts > 1)
-    for (int p = 0; p < parts; p++) of_part[p] = outer_part(list, s, p, parts);
+    team_run(parts, outer_of_part, &work);
     size_t count = 0;
     for (int p = 0; p < parts; p++) {
-        if (of_part[p] != DEM_OK) return of_part[p];
+        if (work.status[p] != DEM_OK) return work.status[p];
         count += list->part[p].count;
     }
     if (outer_reserve(list, count) != DEM_OK || outer_join(list, parts, count) != DEM_OK) return DEM_NO_MEMORY;
@@ -225,21 +236,40 @@ typedef struct outlook {
     double largest_speed;        /* m/s */
 } outlook;
 
-static outlook outlook_measure(const neighbor_list *list, const spheres *s, const container *drum)
+typedef struct outlook_work {
+    const neighbor_list *list;
+    const spheres *spheres;
+    outlook part[MOST_PARTS]; /* squared, the displacement in ring units */
+} outlook_work;
+
+static void outlook_of_part(void *context, int part, int parts)
 {
+    outlook_work *const work = context;
+    const spheres *const s = work->spheres;
     double displacement2 = 0.0, speed2 = 0.0;
-    for (size_t i = 0; i < s->mobile_count; i++) {
+    for (size_t i = part_start(s->mobile_count, part, parts); i < part_start(s->mobile_count, part + 1, parts); i++) {
         const vector4 v = s->velocity[i];
         double moved2 = 0.0;
         for (int c = 0; c < 3; c++) {
-            const double moved = (double)ring_difference(list->built_at[i][c], s->row[i].place[c]);
+            const double moved = (double)ring_difference(work->list->built_at[i][c], s->row[i].place[c]);
             moved2 += moved * moved;
         }
         const double v2 = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
         displacement2 = moved2 > displacement2 ? moved2 : displacement2;
         speed2 = v2 > speed2 ? v2 : speed2;
     }
-    outlook out = { sqrt(displacement2) / s->ring_units, sqrt(speed2) };
+    work->part[part] = (outlook){ displacement2, speed2 };
+}
+
+static outlook outlook_measure(const neighbor_list *list, const spheres *s, const container *drum, int threads)
+{
+    outlook_work work = { .list = list, .spheres = s };
+    team_run(team_parts(threads), outlook_of_part, &work);
+    outlook out = { 0, 0 };
+    for (int p = 0; p < team_parts(threads); p++) {
+        out.largest_displacement = fmax(out.largest_displacement, sqrt(work.part[p].largest_displacement) / s->ring_units);
+        out.largest_speed = fmax(out.largest_speed, sqrt(work.part[p].largest_speed));
+    }
     if (s->lining_count) {
         out.largest_speed = fmax(out.largest_speed, fabs(drum->rotation_rate) * drum->radius);
         out.largest_displacement = fmax(out.largest_displacement, fabs(drum->angle - list->turned_at_build) * drum->radius);
@@ -271,19 +301,49 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
     return wide_mask_bits(wide_exceeds(radii + wide_all((real)(2 * list->margin)), nearest));
 }
 
-static void mark_in_reach(neighbor_list *list, const spheres *s, const container *drum, double duration, int threads)
+/* What a pick is of, and what its parts find. */
+typedef struct pick_work {
+    neighbor_list *list;
+    const spheres *spheres;
+    const container *drum;
+    const dem_contact_parameters *contact;
+    wall_outlook ahead;
+    bool same_outer; /* as at the pick before */
+    /* how many pairs each part has in reach, and had at the pick before; then how many the parts before it have, had */
+    size_t now[MOST_PARTS + 1], was[MOST_PARTS + 1];
+} pick_work;
+
+static size_t groups_of(const neighbor_list *list) { return (list->pair_count + LANES - 1) / LANES; }
+
+static void mark_in_reach(void *context, int part, int parts)
 {
-    const size_t groups = (list->pair_count + LANES - 1) / LANES;
-    const wall_outlook ahead = { duration, list->margin };
-    const real unit = (real)(1 / s->ring_units);
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (size_t g = 0; g < groups; g++) list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, (real)duration);
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int part = 0; part < threads; part++) {
-        const size_t from = part_start(s->mobile_count, part, threads), to = part_start(s->mobile_count, part + 1, threads);
-        wall_reach_count(s, drum, ahead, from, to, list->wall_start + 1);
-        for (size_t i = from; i < to; i++) memcpy(&list->picked_velocity[i], s->row[i].v, sizeof *list->picked_velocity);
+    pick_work *const work = context;
+    neighbor_list *const list = work->list;
+    const spheres *const s = work->spheres;
+    const real unit = (real)(1 / s->ring_units), duration = (real)work->ahead.duration;
+    size_t now = 0, was = 0;
+    for (size_t g = part_start(groups_of(list), part, parts); g < part_start(groups_of(list), part + 1, parts); g++) {
+        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, duration);
+        now += (size_t)__builtin_popcount(list->in_reach[g]);
+        if (work->same_outer) was += (size_t)__builtin_popcount(list->was_in_reach[g]);
     }
+    work->now[part] = now;
+    work->was[part] = was;
+    const size_t from = part_start(s->mobile_count, part, parts), to = part_start(s->mobile_count, part + 1, parts);
+    wall_reach_count(s, work->drum, work->ahead, from, to, list->wall_start + 1);
+    for (size_t i = from; i < to; i++) memcpy(&list->picked_velocity[i], s->row[i].v, sizeof *list->picked_velocity);
+}
+
+/* Counts of the parts become where each begins. Returns the sum. */
+static size_t starts_of_parts(size_t *count, int parts)
+{
+    size_t sum = 0;
+    for (int p = 0; p <= parts; p++) {
+        const size_t here = p < parts ? count[p] : 0;
+        count[p] = sum;
+        sum += here;
+    }
+    return sum;
 }
 
 static void starts_from_counts(uint32_t *start, size_t n)
@@ -306,28 +366,34 @@ static dem_status wall_rows_reserve(neighbor_list *list)
     return DEM_OK;
 }
 
-/* The pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells what
- * its pairs remember. */
-static dem_status pairs_pick(neighbor_list *list, bool carry)
+/* A part's pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells
+ * what its pairs remember. */
+static void pick_pairs(void *context, int part, int parts)
 {
-    const size_t groups = (list->pair_count + LANES - 1) / LANES;
-    contact_list *pairs = &list->pairs, *before = &list->pairs_before;
-    size_t count = 0, old = 0;
-    for (size_t g = 0; g < groups; g++) count += (size_t)__builtin_popcount(list->in_reach[g]);
-    /* whole vectors are read and written, also at the end */
-    if (contact_list_reserve(pairs, count + LANES) != DEM_OK) return DEM_NO_MEMORY;
+    const pick_work *const work = context;
+    neighbor_list *const list = work->list;
     real *to[CONTACT_NUMBERS], *from[CONTACT_NUMBERS];
-    const int numbers = contact_list_memory(pairs, to);
-    contact_list_memory(before, from);
-    pairs->count = 0;
-    for (size_t g = 0; g < groups; g++) {
+    const int numbers = work->same_outer ? contact_list_memory(&list->pairs, to) : 0;
+    contact_list_memory(&list->pairs_before, from);
+    size_t at = work->now[part], old = work->was[part];
+    /* Vectors are written whole, also where only the first lanes count: the last ones, which reach into the next part, aside. */
+    real aside[CONTACT_NUMBERS][LANES];
+    int32_t first_aside[LANES], second_aside[LANES];
+    for (size_t g = part_start(groups_of(list), part, parts); g < part_start(groups_of(list), part + 1, parts); g++) {
         const uint32_t now = list->in_reach[g], was = list->was_in_reach[g];
-        for (int m = 0; carry && m < numbers; m++) wide_carry(to[m] + pairs->count, now, from[m] + old, was);
+        const size_t count = (size_t)__builtin_popcount(now);
+        const bool is_aside = part + 1 < parts && at + LANES > work->now[part + 1];
+        for (int m = 0; m < numbers; m++) wide_carry(is_aside ? aside[m] : to[m] + at, now, from[m] + old, was);
+        wide_compress(is_aside ? second_aside : list->pairs.second + at, now, list->second + g * LANES);
+        wide_compress(is_aside ? first_aside : list->pairs.first + at, now, list->first + g * LANES);
+        for (int m = 0; is_aside && m < numbers; m++) memcpy(to[m] + at, aside[m], count * sizeof *to[m]);
+        if (is_aside) {
+            memcpy(list->pairs.second + at, second_aside, count * sizeof *second_aside);
+            memcpy(list->pairs.first + at, first_aside, count * sizeof *first_aside);
+        }
+        at += count;
         old += (size_t)__builtin_popcount(was);
-        wide_compress(pairs->second + pairs->count, now, list->second + g * LANES);
-        pairs->count += wide_compress(pairs->first + pairs->count, now, list->first + g * LANES);
     }
-    return DEM_OK;
 }
 
 /* What does not change in a step, of each pair from..to-1. */
@@ -408,88 +474,139 @@ static dem_status later_reserve(neighbor_list *list, size_t count)
     return DEM_OK;
 }
 
-/* Who has contacts in several parts, and how many they are: contacts' second spheres lie behind the first. */
-static size_t shared_find(neighbor_list *list, size_t n)
+typedef struct share_work {
+    neighbor_list *list;
+    size_t spheres;
+    /* of each part: its own spheres that are shared, and ends of its pairs that such have; then those of the parts before it */
+    size_t shared[MOST_PARTS + 1], ends[MOST_PARTS + 1];
+} share_work;
+
+static size_t end_of_part(const neighbor_list *list, int part)
 {
-    const contact_list *pairs = &list->pairs;
-    memset(list->is_shared, 0, n);
-    for (int p = 0; p < list->parts; p++) {
-        size_t end = list->part_blocks[p + 1] * BLOCK;
-        if (end > pairs->count) end = pairs->count;
-        for (size_t k = list->part_blocks[p] * BLOCK; k < end; k++) {
-            const size_t i = (size_t)pairs->first[k], j = (size_t)pairs->second[k];
-            if (i < list->part_begins[p]) list->is_shared[i] = 1;
-            if (j < n && j >= list->part_begins[p + 1]) list->is_shared[j] = 1;
-        }
-    }
-    list->shared_count = 0;
-    for (int p = 0; p < list->parts; p++) {
-        list->part_shared[p] = list->shared_count;
-        for (size_t i = list->part_begins[p]; i < list->part_begins[p + 1]; i++)
-            if (list->is_shared[i]) list->shared[list->shared_count++] = (int32_t)i;
-    }
-    list->part_shared[list->parts] = list->shared_count;
-    size_t ends = 0;
-    for (size_t k = 0; k < pairs->count; k++)
-        ends += list->is_shared[pairs->first[k]] + ((size_t)pairs->second[k] < n ? list->is_shared[pairs->second[k]] : 0u);
-    return ends;
+    const size_t end = list->part_blocks[part + 1] * BLOCK;
+    return end < list->pairs.count ? end : list->pairs.count;
 }
 
-static void later_add(neighbor_list *list, int32_t sphere, size_t end)
+static void shared_clear(void *context, int part, int parts)
 {
-    list->later[list->later_count] = sphere;
-    list->later_end[list->later_count++] = (uint32_t)end;
+    const share_work *const work = context;
+    const size_t from = part_start(work->spheres, part, parts);
+    memset(work->list->is_shared + from, 0, part_start(work->spheres, part + 1, parts) - from);
+}
+
+/* Whom a part's pairs have that is another part's own: contacts' second spheres lie behind the first. */
+static void shared_mark(void *context, int part, int parts)
+{
+    (void)parts;
+    const share_work *const work = context;
+    neighbor_list *const list = work->list;
+    const size_t begin = list->part_begins[part], end = list->part_begins[part + 1];
+    for (size_t k = list->part_blocks[part] * BLOCK; k < end_of_part(list, part); k++) {
+        const size_t i = (size_t)list->pairs.first[k], j = (size_t)list->pairs.second[k];
+        /* several parts may mark one and the same */
+        if (i < begin) __atomic_store_n(&list->is_shared[i], 1, __ATOMIC_RELAXED);
+        if (j < work->spheres && j >= end) __atomic_store_n(&list->is_shared[j], 1, __ATOMIC_RELAXED);
+    }
+}
+
+static void shared_find(void *context, int part, int parts)
+{
+    (void)parts;
+    share_work *const work = context;
+    neighbor_list *const list = work->list;
+    size_t next = list->part_begins[part], ends = 0;
+    for (size_t i = list->part_begins[part]; i < list->part_begins[part + 1]; i++)
+        if (list->is_shared[i]) list->shared[next++] = (int32_t)i;
+    for (size_t k = list->part_blocks[part] * BLOCK; k < end_of_part(list, part); k++) {
+        const size_t j = (size_t)list->pairs.second[k];
+        ends += list->is_shared[list->pairs.first[k]] + (j < work->spheres ? list->is_shared[j] : 0u);
+    }
+    work->shared[part] = next - list->part_begins[part];
+    work->ends[part] = ends;
+}
+
+static void later_fill(void *context, int part, int parts)
+{
+    (void)parts;
+    const share_work *const work = context;
+    neighbor_list *const list = work->list;
+    size_t at = list->part_later[part];
+    for (size_t k = list->part_blocks[part] * BLOCK; k < end_of_part(list, part); k++)
+        for (size_t end = 2 * k; end < 2 * k + 2; end++) {
+            const int32_t i = end % 2 ? list->pairs.second[k] : list->pairs.first[k];
+            if ((size_t)i >= work->spheres || !list->is_shared[i]) continue;
+            list->later[at] = i;
+            list->later_end[at++] = (uint32_t)end;
+        }
 }
 
 static dem_status parts_share(neighbor_list *list, spheres *s, int threads)
 {
     const size_t n = s->mobile_count, behind = n + MOST_PARTS;
-    const contact_list *pairs = &list->pairs;
-    parts_begin(list, n, threads < MOST_PARTS ? threads : MOST_PARTS);
-    list->shared_count = list->later_count = list->part_shared[0] = list->part_shared[1] = list->part_later[0] = 0;
-    if (list->parts > 1 && shared_reserve(list) != DEM_OK) return DEM_NO_MEMORY;
-    const size_t ends = list->parts > 1 ? shared_find(list, n) : 0;
-    if (later_reserve(list, ends) != DEM_OK || spheres_reserve_loads(s, behind + ends) != DEM_OK) return DEM_NO_MEMORY;
-    if (list->parts == 1) return DEM_OK;
-    size_t k = 0;
-    for (int part = 0; part < list->parts; part++) {
-        list->part_later[part] = list->later_count;
-        for (; k < pairs->count && k < list->part_blocks[part + 1] * BLOCK; k++) {
-            const int32_t i = pairs->first[k], j = pairs->second[k];
-            if (list->is_shared[i]) later_add(list, i, 2 * k);
-            if ((size_t)j < n && list->is_shared[j]) later_add(list, j, 2 * k + 1);
-        }
+    parts_begin(list, n, team_parts(threads));
+    const int parts = list->parts;
+    share_work work = { .list = list, .spheres = n };
+    if (parts > 1) {
+        if (shared_reserve(list) != DEM_OK) return DEM_NO_MEMORY;
+        team_run(parts, shared_clear, &work);
+        team_run(parts, shared_mark, &work);
+        team_run(parts, shared_find, &work);
     }
+    list->shared_count = starts_of_parts(work.shared, parts);
+    list->later_count = starts_of_parts(work.ends, parts);
+    memcpy(list->part_shared, work.shared, sizeof list->part_shared);
+    memcpy(list->part_later, work.ends, sizeof list->part_later);
+    if (later_reserve(list, list->later_count) != DEM_OK || spheres_reserve_loads(s, behind + list->later_count) != DEM_OK)
+        return DEM_NO_MEMORY;
+    if (parts == 1) return DEM_OK;
+    for (int p = 0; p < parts; p++) /* each part found its own where its spheres begin: one after the other now */
+        memmove(list->shared + list->part_shared[p], list->shared + list->part_begins[p],
+                (list->part_shared[p + 1] - list->part_shared[p]) * sizeof *list->shared);
+    team_run(parts, later_fill, &work);
     return DEM_OK;
+}
+
+/* What the contacts of the lists at hand need, of a part. */
+static void complete_contacts(void *context, int part, int parts)
+{
+    const pick_work *const work = context;
+    neighbor_list *const list = work->list;
+    const size_t count = list->pairs.count, first = part_start(count, part, parts), end = part_start(count, part + 1, parts);
+    if (list->pairs.constants == CONSTANTS_OF_EACH) describe_pairs(&list->pairs, work->spheres, work->contact, first, end);
+    if (!work->same_outer) contact_list_carry(&list->pairs, &list->pairs_before, first, end);
+    const uint32_t *start = list->wall_start;
+    const size_t n = work->spheres->mobile_count, from = part_start(n, part, parts), to = part_start(n, part + 1, parts);
+    for (size_t i = from; i < to; i++)
+        if (start[i] < start[i + 1])
+            wall_reach_fill(&list->walls, start[i], start[i + 1], work->spheres, work->drum, work->ahead, i);
+    contact_list_carry(&list->walls, &list->walls_before, start[from], start[to]);
 }
 
 static dem_status inner_pick(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
                              double duration, int threads)
 {
     const size_t n = s->mobile_count;
-    const bool same_outer = list->picked_of == list->outer_builds;
-    const wall_outlook ahead = { duration, list->margin };
+    const int parts = team_parts(threads);
+    pick_work work = { .list = list, .spheres = s, .drum = drum, .contact = contact, .ahead = { duration, list->margin } };
+    work.same_outer = list->picked_of == list->outer_builds;
     contact_list_swap(&list->pairs, &list->pairs_before);
     contact_list_swap(&list->walls, &list->walls_before);
     uint16_t *const was = list->in_reach;
     list->in_reach = list->was_in_reach;
     list->was_in_reach = was;
-    mark_in_reach(list, s, drum, duration, threads);
-    dem_status status = pairs_pick(list, same_outer);
+    team_run(parts, mark_in_reach, &work);
+    const size_t count = starts_of_parts(work.now, parts);
+    starts_of_parts(work.was, parts);
     starts_from_counts(list->wall_start, n);
+    /* whole vectors are read and written, also at the end */
+    if (contact_list_reserve(&list->pairs, count + LANES) != DEM_OK
+        || contact_list_reserve(&list->walls, list->wall_start[n]) != DEM_OK)
+        return DEM_NO_MEMORY;
+    list->pairs.count = count;
     list->walls.count = list->wall_start[n];
-    const bool alike = list->pairs.constants == CONSTANTS_OF_ALL;
-    if (status != DEM_OK || contact_list_reserve(&list->walls, list->walls.count) != DEM_OK) return DEM_NO_MEMORY;
-#pragma omp parallel for schedule(static) num_threads(threads) if (threads > 1)
-    for (int part = 0; part < threads; part++) {
-        const size_t count = list->pairs.count, first = part_start(count, part, threads), end = part_start(count, part + 1, threads);
-        if (!alike) describe_pairs(&list->pairs, s, contact, first, end);
-        if (!same_outer) contact_list_carry(&list->pairs, &list->pairs_before, first, end);
-        const size_t from = part_start(n, part, threads), to = part_start(n, part + 1, threads);
-        for (size_t i = from; i < to; i++) wall_reach_fill(&list->walls, list->wall_start[i], list->wall_start[i + 1], s, drum, ahead, i);
-        contact_list_carry(&list->walls, &list->walls_before, list->wall_start[from], list->wall_start[to]);
-    }
-    if (alike) describe_all_pairs(&list->pairs, s, contact);
+    team_run(parts, pick_pairs, &work);
+    team_run(parts, complete_contacts, &work);
+    if (list->pairs.constants == CONSTANTS_OF_ALL) describe_all_pairs(&list->pairs, s, contact);
     list->picked_of = list->outer_builds;
     contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s));
     contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
@@ -498,7 +615,7 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     list->steps_since_pick = 0;
     list->inner_valid = true;
     list->inner_picks++;
-    status = wall_rows_reserve(list);
+    const dem_status status = wall_rows_reserve(list);
     return status == DEM_OK ? parts_share(list, s, threads) : status;
 }
 
@@ -519,7 +636,7 @@ dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container
     if (safe) return DEM_OK;
 
     choose_margin(list);
-    outlook now = outlook_measure(list, s, drum);
+    outlook now = outlook_measure(list, s, drum, threads);
     int steps = list->outer_valid ? safe_steps(list, &now, time_step) : 0;
     if (steps < HORIZON) {
         const dem_status status = outer_build(list, s, drum, threads);

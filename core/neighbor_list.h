@@ -10,10 +10,10 @@
 #include "cell_grid.h"
 #include "contact_list.h"
 #include "container.h"
+#include "team.h"
 
 enum { HORIZON = 24 }; /* steps between two picks of the inner list, at most */
 
-enum { MOST_PARTS = 64 };
 typedef struct pair_part {
     size_t count, capacity;
     int32_t *second;
@@ -55,7 +55,7 @@ typedef struct neighbor_list {
     uint8_t *is_shared;                 /* (mobile) likewise */
     size_t most_spheres;                /* mobile ones that there will ever be */
     size_t shared_count;
-    size_t part_later[MOST_PARTS];      /* the first of them in `later` */
+    size_t part_later[MOST_PARTS + 1]; /* the first of its pairs' ends in `later` */
     /* (later_count) whose the loads behind the others are, in the order of the list, and which end of which pair they get:
      * twice the pair, 1 more for the second end */
     int32_t *later;

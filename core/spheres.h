@@ -100,7 +100,8 @@ static inline int32_t particle_species(const spheres *s, size_t p)
 }
 static inline double particle_mass(const spheres *s, size_t p)
 {
-    return p < s->single_count ? 1 / sphere_inverse_mass(s, p) : s->clusters.shape[s->clusters.body[p - s->single_count].species].mass;
+    return p < s->single_count ? 1 / sphere_inverse_mass(s, p)
+                               : s->clusters.shape[s->clusters.body[p - s->single_count].species].mass;
 }
 static inline double particle_reach(const spheres *s, size_t p) /* m, at full size */
 {

@@ -15,6 +15,7 @@
 #include "sorting.h"
 #include "step_profile.h"
 #include "stream.h"
+#include "team.h"
 #include "wall_forces.h"
 
 dem_status scene_update_neighbors(dem_scene *scene)
@@ -34,36 +35,38 @@ static dem_status step_neighbors(dem_scene *scene)
     return status;
 }
 
-/* leap: those spheres that have all their forces move at once, while the processor has them at hand; NULL: none. */
-static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4 *strayed)
-{
-    const double dt = scene->definition.time_step;
-    const int threads = scene->definition.threads;
-    neighbor_list *list = &scene->neighbors;
-    spheres *s = &scene->spheres;
-    const double wall = contact_forces_with_walls(&list->walls, s, &scene->drum, &scene->contact, dt, threads);
-    step_profile_lap(scene->profile, DEM_PART_WALLS);
-    const double between = contact_forces_between_spheres(list, s, &scene->contact, dt, leap, strayed);
-    step_profile_lap(scene->profile, DEM_PART_PAIRS);
-    const double largest = fmax(between, wall);
-    scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
-    return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene, leap ? dt : 0.0) : DEM_OK;
-}
-
 static bool torque_is_due(const dem_scene *scene)
 {
     return scene->phase == DEM_PHASE_ROTATING && (scene->step_count - scene->rotation_start) % STEPS_BETWEEN_TORQUES == 0;
 }
 
-static void look_at_torque(dem_scene *scene)
+/* While the places are those of the forces: with a lining once all loads are there, else from the walls alone. */
+static void look_at_torque(dem_scene *scene, bool has_loads)
 {
-    const bool is_due = torque_is_due(scene);
-    if (!is_due && !(scene->audit.is_on && scene->phase == DEM_PHASE_ROTATING)) return;
-    const double torque = energy_wall_torque(&scene->spheres);
+    const bool is_due = torque_is_due(scene), is_lined = scene->spheres.lining_count > 0;
+    if (is_lined != has_loads || (!is_due && !(scene->audit.is_on && scene->phase == DEM_PHASE_ROTATING))) return;
+    const double torque =
+        is_lined ? energy_torque_of_loads(&scene->spheres) : energy_torque_of_walls(&scene->neighbors.walls, &scene->spheres);
     if (scene->audit.is_on) scene->audit.wall_work += scene->definition.time_step * scene->drum.rotation_rate * torque;
     if (!is_due) return;
     scene->torque.sum += torque;
     scene->torque.count += 1;
+}
+
+/* leap: those spheres that have all their forces move at once, while the processor has them at hand; NULL: none. */
+static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4 *strayed)
+{
+    const double dt = scene->definition.time_step;
+    neighbor_list *list = &scene->neighbors;
+    spheres *s = &scene->spheres;
+    const double wall = contact_forces_with_walls(list, s, &scene->drum, &scene->contact, dt);
+    step_profile_lap(scene->profile, DEM_PART_WALLS);
+    look_at_torque(scene, false);
+    const double between = contact_forces_between_spheres(list, s, &scene->contact, dt, leap, strayed);
+    step_profile_lap(scene->profile, DEM_PART_PAIRS);
+    const double largest = fmax(between, wall);
+    scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
+    return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene, leap ? dt : 0.0) : DEM_OK;
 }
 
 /* Half a step's work: once with the velocities before the forces act, once with those after. */
@@ -135,7 +138,7 @@ static double step_motion(dem_scene *scene, const leap_frog *leap, size_t moved,
 {
     spheres *s = &scene->spheres;
     row8 *load = NULL;
-    look_at_torque(scene);
+    look_at_torque(scene, true);
     if (scene->audit.is_on && (load = array_create(s->mobile_count, sizeof *load))) {
         memcpy(load, s->load, s->mobile_count * sizeof *load);
         audit_half_step(scene, load);
@@ -157,7 +160,7 @@ dem_status scene_step(dem_scene *scene)
     if (status != DEM_OK) return status;
     const body_forces body = forces_of_phase(scene);
     const leap_frog leap = integrator_leap(&scene->spheres, &scene->drum, &body, dt);
-    const bool looks = scene->profile || scene->audit.is_on || torque_is_due(scene);
+    const bool looks = scene->profile || scene->audit.is_on || (torque_is_due(scene) && scene->spheres.lining_count > 0);
     vector4 so_far = { 0 };
     status = step_contacts(scene, looks ? NULL : &leap, &so_far);
     if (status != DEM_OK) return status;
@@ -173,13 +176,24 @@ dem_status scene_step(dem_scene *scene)
     return status;
 }
 
-dem_status dem_scene_advance(dem_scene *scene, int64_t steps)
+typedef struct advance {
+    dem_scene *scene;
+    int64_t steps;
+} advance;
+
+static dem_status advance_scene(void *context)
 {
-    for (int64_t k = 0; k < steps; k++) {
-        const dem_status status = scene_step(scene);
+    const advance *a = context;
+    for (int64_t k = 0; k < a->steps; k++) {
+        const dem_status status = scene_step(a->scene);
         if (status != DEM_OK) return status;
     }
     /* Whoever looks at the scene now finds lists that hold for the present places. */
-    step_profile_begin(scene->profile);
-    return step_neighbors(scene);
+    step_profile_begin(a->scene->profile);
+    return step_neighbors(a->scene);
+}
+
+dem_status dem_scene_advance(dem_scene *scene, int64_t steps)
+{
+    return team_gather(scene->definition.threads, advance_scene, &(advance){ scene, steps });
 }

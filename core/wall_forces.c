@@ -75,23 +75,42 @@ static void gather(contact_block *restrict block, const contact_list *walls, siz
     }
 }
 
-double contact_forces_with_walls(contact_list *walls, const spheres *s, const container *c, const dem_contact_parameters *contact,
-                                 double dt, int threads)
+typedef struct wall_work {
+    neighbor_list *list;
+    const spheres *spheres;
+    const container *container;
+    const dem_contact_parameters *contact;
+    double dt;
+    double largest[MOST_PARTS]; /* m, overlaps of each part */
+} wall_work;
+
+/* The blocks that begin with a sphere of the part's own, which is at hand here from the pairs' forces. */
+static void walls_of_part(void *context, int part, int parts)
 {
-    double largest = 0.0;
-    const size_t blocks = round_up_to_block(walls->count) / BLOCK;
-#pragma omp parallel for schedule(static) reduction(max : largest) num_threads(threads) if (threads > 1)
-    for (int part = 0; part < threads; part++) {
-        wide largest_here = wide_all(0);
-        for (size_t b = part_start(blocks, part, threads); b < part_start(blocks, part + 1, threads); b++) {
-            contact_block block;
-            gather(&block, walls, b * BLOCK, s, c);
-            if (walls->has_rolling) gather_spins(&block, walls, b * BLOCK, s, c);
-            contact_block_forces(walls, b * BLOCK, &block, contact, true, dt, &largest_here);
-            memcpy(walls->row + b * BLOCK, block.row, sizeof block.row);
-        }
-        largest = fmax(largest, wide_largest_lane(largest_here));
+    (void)parts;
+    wall_work *const work = context;
+    contact_list *const walls = &work->list->walls;
+    const size_t from = round_up_to_block(work->list->wall_start[work->list->part_begins[part]]) / BLOCK;
+    const size_t to = round_up_to_block(work->list->wall_start[work->list->part_begins[part + 1]]) / BLOCK;
+    wide largest = wide_all(0);
+    for (size_t b = from; b < to; b++) {
+        contact_block block;
+        gather(&block, walls, b * BLOCK, work->spheres, work->container);
+        if (walls->has_rolling) gather_spins(&block, walls, b * BLOCK, work->spheres, work->container);
+        contact_block_forces(walls, b * BLOCK, &block, work->contact, true, work->dt, &largest);
+        memcpy(walls->row + b * BLOCK, block.row, sizeof block.row);
     }
+    work->largest[part] = wide_largest_lane(largest);
+}
+
+double contact_forces_with_walls(neighbor_list *list, const spheres *s, const container *c, const dem_contact_parameters *contact,
+                                 double dt)
+{
+    wall_work work;
+    work.list = list, work.spheres = s, work.container = c, work.contact = contact, work.dt = dt;
+    team_run(list->parts, walls_of_part, &work);
+    double largest = 0.0;
+    for (int part = 0; part < list->parts; part++) largest = fmax(largest, work.largest[part]);
     return largest;
 }
 

@@ -3,13 +3,12 @@
 #ifndef WALL_FORCES_H
 #define WALL_FORCES_H
 
-#include "contact_list.h"
-#include "container.h"
+#include "neighbor_list.h"
 
-/* At the positions of this step, each contact into its own row of the list; updates what contacts remember. dt: s, the
- * step since the last call. Returns the largest overlap, m. */
-double contact_forces_with_walls(contact_list *walls, const spheres *spheres, const container *container,
-                                 const dem_contact_parameters *contact, double dt, int threads);
+/* At the positions of this step, each contact into its own row of the list of walls; updates what contacts remember. dt: s,
+ * the step since the last call. Returns the largest overlap, m. */
+double contact_forces_with_walls(neighbor_list *list, const spheres *spheres, const container *container,
+                                 const dem_contact_parameters *contact, double dt);
 
 /* What a contact does to the container. True only between contact_forces_with_walls and the move that follows: then
  * spheres and walls are still where the forces were computed. */

@@ -115,10 +115,14 @@ static void with_too_little_room_the_count_is_still_right(void **unused)
 static void check_part(double x, int cell, int cells, double low, double high)
 {
     const double size = (high - low) / cells;
-    CHECK_BETWEEN(x, cell > 0 ? low + size * cell - 1e-12 : -INFINITY, cell < cells - 1 ? low + size * (cell + 1) + 1e-12 : INFINITY);
+    CHECK_BETWEEN(x, cell > 0 ? low + size * cell - 1e-12 : -INFINITY,
+                  cell < cells - 1 ? low + size * (cell + 1) + 1e-12 : INFINITY);
 }
 
-static size_t cells_of(const grid_level *level) { return (size_t)level->cells[0] * (size_t)level->cells[1] * (size_t)level->cells[2]; }
+static size_t cells_of(const grid_level *level)
+{
+    return (size_t)level->cells[0] * (size_t)level->cells[1] * (size_t)level->cells[2];
+}
 
 /* The spheres of one level's cells, which are marked as seen: each where its cell is, none too large or in another octave. */
 static void check_level(const cell_grid *grid, const grid_level *level, const spheres *s, double skin, bool *seen)
@@ -129,7 +133,8 @@ static void check_level(const cell_grid *grid, const grid_level *level, const sp
         for (int32_t k = grid->start[level->first_cell + c]; k < grid->start[level->first_cell + c + 1]; k++) {
             const int32_t i = grid->sphere[k];
             const int z = level->cells[2], y = level->cells[1], cell[3] = { (int)c / z / y, (int)c / z % y, (int)c % z };
-            for (int a = 0; a < 3; a++) check_part(sphere_place(s, (size_t)i)[a], cell[a], level->cells[a], grid->low[a], grid->high[a]);
+            for (int a = 0; a < 3; a++)
+                check_part(sphere_place(s, (size_t)i)[a], cell[a], level->cells[a], grid->low[a], grid->high[a]);
             CHECK_BETWEEN(s->full_radius[i], level->largest / 2, level->largest);
             assert_false(seen[i]);
             seen[i] = true;

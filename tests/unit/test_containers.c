@@ -16,8 +16,8 @@ static void check_rest(dem_scene *scene, const double x[3], const double down[3]
     put(scene, place, NULL, NULL);
     go_on(scene, 3000);
     for (int c = 0; c < 3; c++) CHECK_NEAR(sphere_place(&scene->spheres, 0)[c], place[c], 1e-3 * alpha);
-    contact_list *walls = &scene->neighbors.walls;
-    contact_forces_with_walls(walls, &scene->spheres, &scene->drum, &scene->contact, 0.0, 1);
+    const contact_list *walls = &scene->neighbors.walls;
+    contact_forces_with_walls(&scene->neighbors, &scene->spheres, &scene->drum, &scene->contact, 0.0);
     double force[3] = { 0 };
     int touched = 0;
     for (size_t k = 0; k < walls->count; k++) {
