@@ -12,7 +12,7 @@
 #include "container.h"
 #include "team.h"
 
-enum { HORIZON = 24 }; /* steps between two picks of the inner list, at most */
+enum { HORIZON = 16 }; /* steps between two picks of the inner list, at most */
 
 typedef struct pair_part {
     size_t count, capacity;
