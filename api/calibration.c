@@ -12,8 +12,8 @@
 #define FACTOR_OF_ROLLING_FRICTION 1.3
 #define REFERENCE_FRICTION 0.1
 
-/* Contacts in double precision, of which a vector holds half as many. */
-#define COST_OF_DOUBLE 1.5
+/* Contacts in double precision, of which a vector holds half as many: 2.35 by AVX-512, 1.76 by AVX2. */
+#define COST_OF_DOUBLE 2.05
 
 #define FORMAT 1
 

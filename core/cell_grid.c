@@ -1,18 +1,22 @@
 #include "cell_grid.h"
 
-enum { MOST_CELLS_A_SIDE = 1024 };
+/* Small spheres may be few in a wide box: larger cells than theirs are right, too, and cost less than many empty ones. */
+enum { MOST_CELLS_A_SIDE = 1024, MOST_CELLS_A_SPHERE = 32 };
 
 void cell_grid_init(cell_grid *grid, const spheres *s)
 {
     memset(grid, 0, sizeof *grid);
     double largest = 0.0, largest_of[MOST_LEVELS] = { 0 };
+    size_t spheres_of[MOST_LEVELS] = { 0 };
     for (size_t i = 0; i < spheres_count(s); i++) largest = fmax(largest, s->full_radius[i]);
     for (size_t i = 0; i < spheres_count(s); i++) {
         const int octave = ilogb(largest / s->full_radius[i]), o = octave < MOST_LEVELS ? octave : MOST_LEVELS - 1;
         largest_of[o] = fmax(largest_of[o], s->full_radius[i]);
+        spheres_of[o]++;
     }
     for (int o = 0; o < MOST_LEVELS; o++)
-        if (largest_of[o] > 0) grid->level[grid->level_count++].largest = largest_of[o];
+        if (spheres_of[o] > 0)
+            grid->level[grid->level_count++] = (grid_level){ .largest = largest_of[o], .spheres = spheres_of[o] };
 }
 
 static void sphere_arrays_free(cell_grid *grid)
@@ -66,23 +70,32 @@ static int cell_along(const cell_grid *grid, const grid_level *level, double x, 
     return place > 0 ? (int)(place < last ? place : last) : 0;
 }
 
-/* The cells of each level. Returns how many they are together. */
-static size_t set_cells(cell_grid *grid, double skin)
+/* Cells of a level, no smaller than `size`. Returns how many. */
+static size_t set_cells_of_level(const cell_grid *grid, grid_level *level, double size)
 {
-    size_t cells = 0;
-    for (int l = 0; l < grid->level_count; l++) {
-        grid_level *level = &grid->level[l];
-        size_t of_level = 1;
-        for (int a = 0; a < 3; a++) {
-            const double side = grid->high[a] - grid->low[a];
-            level->cells[a] = (int)fmax(1.0, fmin(floor(side / (2 * level->largest + skin)), MOST_CELLS_A_SIDE));
-            level->inverse_size[a] = level->cells[a] / side;
-            of_level *= (size_t)level->cells[a];
-        }
-        level->first_cell = cells;
-        cells += of_level;
+    size_t cells = 1;
+    for (int a = 0; a < 3; a++) {
+        const double side = grid->high[a] - grid->low[a];
+        level->cells[a] = (int)fmax(1.0, fmin(floor(side / size), MOST_CELLS_A_SIDE));
+        level->inverse_size[a] = level->cells[a] / side;
+        cells *= (size_t)level->cells[a];
     }
     return cells;
+}
+
+/* The cells of all levels. Returns how many they are together. */
+static size_t set_cells(cell_grid *grid, double skin)
+{
+    size_t all = 0;
+    for (int l = 0; l < grid->level_count; l++) {
+        grid_level *level = &grid->level[l];
+        double size = 2 * level->largest + skin;
+        size_t cells;
+        while ((cells = set_cells_of_level(grid, level, size)) > MOST_CELLS_A_SPHERE * level->spheres) size *= 1.26;
+        level->first_cell = all;
+        all += cells;
+    }
+    return all;
 }
 
 static const grid_level *level_of(const cell_grid *grid, double radius)

@@ -11,6 +11,7 @@ typedef struct grid_level {
     double inverse_size[3]; /* 1/m */
     size_t first_cell;      /* cells are counted through all levels; z runs fastest */
     double largest;         /* m, radius of its spheres */
+    size_t spheres;         /* how many */
 } grid_level;
 
 enum { MOST_LEVELS = 12 };

@@ -38,7 +38,7 @@ WIDE_INLINE void store_vector(real to[3][BLOCK], int k, const wide x[3])
 }
 
 /* Everything behind the gathering, the same for spheres and walls (contact_forces.c): from the block's geometry to its
- * rows, and the list's overlaps and histories from `start` on. largest: m, the largest overlaps so far. */
+ * rows, and the list's histories from `start` on. largest: m, the largest overlaps so far. */
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
                           bool is_wall, double dt, wide *largest);
 /* The law of a block's contacts, whose geometry is in the block: sets f_n and force, updates the list's histories

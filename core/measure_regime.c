@@ -103,7 +103,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
 static double fallen_fraction(const dem_scene *scene, double since)
 {
     double fallen = 0.0;
-    for (size_t i = 0; i < scene->spheres.mobile_count; i++) fallen += scene->spheres.fallen_time[i] >= since;
+    for (size_t i = 0; i < scene->spheres.mobile_count; i++) fallen += scene->spheres.fallen_time[i] >= (float)since;
     return fallen / (double)scene->spheres.mobile_count;
 }
 

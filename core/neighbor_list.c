@@ -600,8 +600,11 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     starts_from_counts(list->wall_start, n);
     /* whole vectors are read and written, also at the end */
     if (contact_list_reserve(&list->pairs, count + LANES) != DEM_OK
-        || contact_list_reserve(&list->walls, list->wall_start[n]) != DEM_OK)
+        || contact_list_reserve(&list->walls, list->wall_start[n]) != DEM_OK) {
+        contact_list_swap(&list->pairs, &list->pairs_before); /* what contacts remember is there */
+        contact_list_swap(&list->walls, &list->walls_before);
         return DEM_NO_MEMORY;
+    }
     list->pairs.count = count;
     list->walls.count = list->wall_start[n];
     team_run(parts, pick_pairs, &work);

@@ -50,7 +50,7 @@ typedef struct spheres {
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
     row8 *load;                /* (load_count) force N, 0, torque N m about the centre, 0: contacts only.
                                                  * Zeros but between the forces and the motion. Behind those of the
-                                                 * mobile ones are more, which serve the sums (neighbor_list.h) */
+                                                 * mobile ones are more, which serve the sums or nobody (neighbor_list.h) */
     size_t load_count;
     double *inverse_mass;                       /* (species) 1/kg, of a particle */
     double *inverse_inertia;                    /* (species) 1/(kg m2), of those that are spheres by themselves */

@@ -1,7 +1,7 @@
 /* The step:
  *     neighbor lists, made again when a displacement asks for it; contact history carried over
- *     forces of contacts between spheres, and with the container, summed for each sphere
- *     a look at the drum's torque now and then
+ *     forces of contacts with the container; a look at the drum's torque now and then
+ *     forces of contacts between spheres, summed for each; single spheres that have all theirs take their step
  *     each cluster's sum over its spheres; velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
  *     what fell off a plate is laid aside; what is due of a stream enters
  *     the container moves; the phase may change

@@ -75,19 +75,22 @@ dem_status team_gather(int threads, dem_status (*lead)(void *context), void *con
 {
     if (threads == 1) return lead(context);
     enum { SPINS = 300 }; /* some ten microseconds */
-    team t = { 0 };
+    team t = { 0 }, *const outer = led;
     dem_status status = DEM_OK;
 #pragma omp parallel num_threads(team_parts(threads))
     {
         const int member = omp_get_thread_num();
+        if (member == 0) {
+            t.members = omp_get_num_threads();
+            t.spins = t.members <= omp_get_num_procs() ? SPINS : 0;
+        }
+#pragma omp barrier
         if (member > 0) {
             follow(&t, member);
         } else {
-            t.members = omp_get_num_threads();
-            t.spins = t.members <= omp_get_num_procs() ? SPINS : 0;
             led = &t;
             status = lead(context);
-            led = NULL;
+            led = outer;
             give(&t, 0, NULL, NULL);
         }
     }

@@ -13,7 +13,8 @@ typedef void team_work(void *context, int part, int parts);
 
 /* Runs lead(context) with as many threads at hand as team_run can use. Returns what it returns. */
 dem_status team_gather(int threads, dem_status (*lead)(void *context), void *context);
-/* All parts (at most MOST_PARTS): by the team that the calling thread leads, or else one after the other. */
+/* All parts (at most MOST_PARTS): by the team that the calling thread leads, or else one after the other. The work itself
+ * hands out none. */
 void team_run(int parts, team_work *work, void *context);
 /* For `threads` of them. */
 static inline int team_parts(int threads) { return threads < MOST_PARTS ? threads : MOST_PARTS; }

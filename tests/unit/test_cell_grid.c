@@ -167,6 +167,22 @@ static void every_sphere_is_in_its_cell_once_and_in_order(void **unused)
     discard(&grid, &s);
 }
 
+/* Three hundred spheres, a third of them down to a thousandth of the others: not a thousand million cells. */
+static void cells_are_no_more_than_some_for_each_sphere(void **unused)
+{
+    (void)unused;
+    dice d = { 109 };
+    spheres s;
+    cell_grid grid;
+    scatter(&s, COUNT, 0.5, 0.7, 0.05, 1000, &d);
+    cell_grid_init(&grid, &s);
+    assert_int_equal(fill(&grid, &s, 0.5, 0.7, 1e-5), DEM_OK);
+    size_t cells = 0;
+    for (int l = 0; l < grid.level_count; l++) cells += cells_of(&grid.level[l]);
+    CHECK_BETWEEN(cells, 1, 32 * COUNT);
+    discard(&grid, &s);
+}
+
 /* A place that is not a number, or far outside, gets some cell and is found by the checks of places. */
 static void a_place_outside_or_not_a_number_gets_a_cell_of_the_grid(void **unused)
 {
@@ -192,6 +208,7 @@ int main(void)
         cmocka_unit_test(every_pair_within_the_skin_is_found_once),
         cmocka_unit_test(with_too_little_room_the_count_is_still_right),
         cmocka_unit_test(every_sphere_is_in_its_cell_once_and_in_order),
+        cmocka_unit_test(cells_are_no_more_than_some_for_each_sphere),
         cmocka_unit_test(a_place_outside_or_not_a_number_gets_a_cell_of_the_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
