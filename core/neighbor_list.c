@@ -141,7 +141,7 @@ typedef struct outer_work {
 /* Each part of the spheres lists its neighbors into memory of its own, so that threads need not wait for each other. */
 static dem_status outer_part(neighbor_list *list, const spheres *s, int which, int parts)
 {
-    const size_t n = s->mobile_count, from = n * (size_t)which / (size_t)parts, to = n * (size_t)(which + 1) / (size_t)parts;
+    const size_t from = part_start(s->mobile_count, which, parts), to = part_start(s->mobile_count, which + 1, parts);
     list->part[which].count = 0;
     if (parts == 1 && part_reserve(&list->part[0], list->pair_count) != DEM_OK) return DEM_NO_MEMORY; /* as many as last time */
     for (size_t i = from; i < to; i++) {
