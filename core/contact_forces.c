@@ -2,13 +2,16 @@
 
 #include "contact_block.h"
 #include "leap_frog.h"
+#include "wall_forces.h"
 
+/* coming: the second ends of the next block, whose rows are sent for; NULL: they are in the cache anyway. */
 static void gather_spheres(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
-                           const int32_t *restrict second)
+                           const int32_t *restrict second, const int32_t *coming)
 {
     const double step = spheres_ring_step(s);
     const wide to_steps = wide_all((real)(1 / step)), to_metres = wide_all((real)step);
     for (int k = 0; k < BLOCK; k += LANES) {
+        for (int j = k; coming && j < k + LANES; j++) __builtin_prefetch(&s->row[coming[j]]);
         wide_pairs pairs;
         wide_row_pairs(s->row, first + k, second + k, &pairs);
         wide x[3];
@@ -145,86 +148,25 @@ static void find_loads(block_loads *restrict to, const neighbor_list *list, size
     }
 }
 
-/* Adds a block's rows to their spheres' loads, while they are in the first-level cache. */
-static void add_to_loads(const contact_block *restrict block, const block_loads *to, bool ends_differ, row8 *loads)
+/* Adds a block's rows to their spheres' loads, while they are in the first-level cache. coming: as above, for their loads. */
+static void add_to_loads(const contact_block *restrict block, const block_loads *to, bool ends_differ, row8 *loads,
+                         const int32_t *coming)
 {
     static const row8 on_second = { -1, -1, -1, 0, 1, 1, 1, 0 };
     const contact_row *restrict row = block->row, *restrict second_row = ends_differ ? block->second_row : block->row;
     char *restrict load = (char *)loads;
     for (int k = 0; k < BLOCK; k++) {
         row8 *const first = (row8 *)(load + to->first[k]), *const second = (row8 *)(load + to->second[k]);
+        if (coming) __builtin_prefetch(&loads[coming[k]], 1);
         *first += row[k];
         *second = row8_fused(on_second, second_row[k], *second);
     }
 }
 
-/* Single spheres that have all their forces, from..to-1, but those that wait for other parts. */
-static vector4 own_spheres_advance(const neighbor_list *list, spheres *s, const leap_frog *leap, size_t from, size_t to,
-                                   size_t *shared)
-{
-    vector4 strayed = { 0 };
-    for (; *shared < list->shared_count && (size_t)list->shared[*shared] < to; (*shared)++) {
-        const size_t waiting = (size_t)list->shared[*shared];
-        if (waiting > from) strayed = vector4_greater(strayed, spheres_advance(leap, s, list->picked_velocity, from, waiting));
-        from = waiting + 1;
-    }
-    return to > from ? vector4_greater(strayed, spheres_advance(leap, s, list->picked_velocity, from, to)) : strayed;
-}
-
-/* One part's blocks. A sphere is first in contacts with those behind it in memory alone: behind its last one as first, it
- * has all its forces, and no other contact reads its row in this step. */
-static double part_forces(neighbor_list *list, spheres *s, const dem_contact_parameters *contact, double dt, int part,
-                          const leap_frog *leap, vector4 *strayed)
-{
-    contact_list *const pairs = &list->pairs;
-    const size_t end = list->part_blocks[part + 1];
-    const size_t last = list->part_begins[part + 1] < s->single_count ? list->part_begins[part + 1] : s->single_count;
-    size_t moved = list->part_begins[part], shared = list->part_shared[part], later = list->part_later[part];
-    wide largest = wide_all(0);
-    for (size_t k = list->wall_start[moved]; k < list->wall_start[list->part_begins[part + 1]]; k++)
-        s->load[list->walls.first[k]] += list->walls.row[k];
-    for (size_t b = list->part_blocks[part]; b < end; b++) {
-        contact_block block;
-        block_loads loads;
-        gather_spheres(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
-        if (pairs->has_rolling) gather_spins(&block, s, pairs->first + b * BLOCK, pairs->second + b * BLOCK);
-        contact_block_forces(pairs, b * BLOCK, &block, contact, false, dt, &largest);
-        find_loads(&loads, list, b * BLOCK, s, part, &later);
-        add_to_loads(&block, &loads, pairs->ends_differ, s->load);
-        const size_t complete = b + 1 < end ? (size_t)pairs->first[(b + 1) * BLOCK] : last;
-        if (!leap || complete <= moved || complete > last) continue;
-        *strayed = vector4_greater(*strayed, own_spheres_advance(list, s, leap, moved, complete, &shared));
-        moved = complete;
-    }
-    if (leap && moved < last) *strayed = vector4_greater(*strayed, own_spheres_advance(list, s, leap, moved, last, &shared));
-    return wide_largest_lane(largest);
-}
-
-/* What several parts gave to one sphere, in the order of the list as if there were but one part; then its step. */
-static vector4 part_finish(const neighbor_list *list, spheres *s, int part, const leap_frog *leap)
-{
-    const size_t from = list->part_begins[part], to = list->part_begins[part + 1], end = list->part_shared[part + 1];
-    row8 *const later = s->load + s->mobile_count + MOST_PARTS;
-    for (size_t k = 0; k < list->later_count; k++) {
-        const size_t i = (size_t)list->later[k];
-        if (i < from || i >= to) continue;
-        s->load[i] += later[k];
-        later[k] = (row8){ 0 };
-    }
-    vector4 strayed = { 0 };
-    for (size_t k = list->part_shared[part], next; leap && k < end && (size_t)list->shared[k] < s->single_count; k = next) {
-        next = k + 1;
-        while (next < end && list->shared[next] == list->shared[next - 1] + 1 && (size_t)list->shared[next] < s->single_count)
-            next++;
-        const size_t i = (size_t)list->shared[k];
-        strayed = vector4_greater(strayed, spheres_advance(leap, s, list->picked_velocity, i, i + (next - k)));
-    }
-    return strayed;
-}
-
 typedef struct pair_work {
     neighbor_list *list;
     spheres *spheres;
+    const container *walls; /* NULL: their contacts have their rows */
     const dem_contact_parameters *contact;
     double dt;
     const leap_frog *leap;
@@ -233,27 +175,118 @@ typedef struct pair_work {
     vector4 strayed[MOST_PARTS];
 } pair_work;
 
+/* How far one part has come. */
+typedef struct part_turn {
+    const pair_work *work;
+    size_t complete; /* the first sphere that has not all its forces yet */
+    size_t shared;   /* the next of list->shared */
+    size_t walls;    /* the first contact with a wall that has no row yet */
+    wide largest;    /* m, overlaps */
+    vector4 strayed;
+} part_turn;
+
+/* Contacts with walls come last in a sphere's sum. */
+WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, size_t to)
+{
+    for (size_t k = list->wall_start[from]; k < list->wall_start[to]; k++) s->load[list->walls.first[k]] += list->walls.row[k];
+}
+
+/* The spheres from..to-1 have all their forces from others. */
+WIDE_INLINE void spheres_complete(part_turn *turn, size_t from, size_t to)
+{
+    const pair_work *const work = turn->work;
+    neighbor_list *const list = work->list;
+    spheres *const s = work->spheres;
+    for (; work->walls && turn->walls < list->wall_start[to]; turn->walls += BLOCK)
+        contact_forces_with_walls_of_block(list, turn->walls, s, work->walls, work->contact, work->dt, &turn->largest);
+    add_walls(list, s, from, to);
+    const size_t last = to < s->single_count ? to : s->single_count;
+    if (work->leap && from < last)
+        turn->strayed = vector4_greater(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
+}
+
+/* The part's own up to `to`, but those that wait for other parts. */
+WIDE_INLINE void own_spheres_complete(part_turn *turn, size_t to)
+{
+    const neighbor_list *const list = turn->work->list;
+    for (; turn->shared < list->shared_count && (size_t)list->shared[turn->shared] < to; turn->shared++) {
+        const size_t waiting = (size_t)list->shared[turn->shared];
+        if (turn->complete < waiting) spheres_complete(turn, turn->complete, waiting);
+        turn->complete = waiting + 1;
+    }
+    if (turn->complete < to) spheres_complete(turn, turn->complete, to);
+    turn->complete = to;
+}
+
+/* One part's blocks. A sphere is first in contacts with those behind it in memory alone: behind its last one as first, it
+ * has all its forces, and no other contact reads its row in this step. */
+static void part_forces(pair_work *work, int part)
+{
+    neighbor_list *const list = work->list;
+    spheres *const s = work->spheres;
+    contact_list *const pairs = &list->pairs;
+    const size_t end = list->part_blocks[part + 1], own_end = list->part_begins[part + 1];
+    part_turn turn = { .work = work, .complete = list->part_begins[part], .shared = list->part_shared[part] };
+    size_t later = list->part_later[part];
+    for (size_t b = list->part_blocks[part]; b < end; b++) {
+        const int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
+        const int32_t *const coming = s->are_many && b + 1 < end ? second + BLOCK : NULL;
+        contact_block block;
+        block_loads loads;
+        gather_spheres(&block, s, first, second, coming);
+        if (pairs->has_rolling) gather_spins(&block, s, first, second);
+        contact_block_forces(pairs, b * BLOCK, &block, work->contact, false, work->dt, &turn.largest);
+        find_loads(&loads, list, b * BLOCK, s, part, &later);
+        add_to_loads(&block, &loads, pairs->ends_differ, s->load, coming);
+        if (b + 1 == end) break;
+        const size_t next = (size_t)first[BLOCK];
+        if (next > turn.complete) own_spheres_complete(&turn, next);
+    }
+    own_spheres_complete(&turn, own_end);
+    work->largest[part] = wide_largest_lane(turn.largest);
+    work->strayed[part] = turn.strayed;
+}
+
+/* What several parts gave to one sphere, in the order of the list as if there were but one part; then its step. */
+static void part_finish(pair_work *work, int part)
+{
+    const neighbor_list *const list = work->list;
+    spheres *const s = work->spheres;
+    const size_t from = list->part_begins[part], to = list->part_begins[part + 1];
+    row8 *const later = s->load + s->mobile_count + MOST_PARTS;
+    for (size_t k = 0; k < list->later_count; k++) {
+        const size_t i = (size_t)list->later[k];
+        if (i < from || i >= to) continue;
+        s->load[i] += later[k];
+        later[k] = (row8){ 0 };
+    }
+    part_turn turn = { .work = work, .strayed = work->strayed[part] };
+    for (size_t k = list->part_shared[part], next; k < list->part_shared[part + 1]; k = next) {
+        next = k + 1;
+        while (next < list->part_shared[part + 1] && list->shared[next] == list->shared[next - 1] + 1) next++;
+        const size_t i = (size_t)list->shared[k];
+        spheres_complete(&turn, i, i + (next - k));
+    }
+    work->strayed[part] = turn.strayed;
+}
+
 static void pairs_of_part(void *context, int part, int parts)
 {
     (void)parts;
-    pair_work *const work = context;
-    vector4 strayed = { 0 };
-    work->largest[part] = part_forces(work->list, work->spheres, work->contact, work->dt, part, work->leap, &strayed);
-    work->strayed[part] = strayed;
+    part_forces(context, part);
 }
 
 static void rest_of_part(void *context, int part, int parts)
 {
     (void)parts;
-    pair_work *const work = context;
-    work->strayed[part] = vector4_greater(work->strayed[part], part_finish(work->list, work->spheres, part, work->leap));
+    part_finish(context, part);
 }
 
-double contact_forces_between_spheres(neighbor_list *list, spheres *s, const dem_contact_parameters *contact, double dt,
-                                      const leap_frog *leap, vector4 *strayed)
+double contact_forces_between_spheres(neighbor_list *list, spheres *s, const container *walls,
+                                      const dem_contact_parameters *contact, double dt, const leap_frog *leap, vector4 *strayed)
 {
     pair_work work;
-    work.list = list, work.spheres = s, work.contact = contact, work.dt = dt, work.leap = leap;
+    work.list = list, work.spheres = s, work.walls = walls, work.contact = contact, work.dt = dt, work.leap = leap;
     team_run(list->parts, pairs_of_part, &work);
     if (list->shared_count) team_run(list->parts, rest_of_part, &work);
     double largest = 0.0;

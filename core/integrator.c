@@ -7,14 +7,22 @@
 vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
+    enum { AHEAD = 32 };         /* what is sent for is needed after a block of contacts or two */
     const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
     const int32_t *restrict species = s->species;
     vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity, *restrict place = s->place;
     sphere_row *restrict row = s->row;
     row8 *restrict load = s->load;
     const vector4 keep = vector4_all(leap.keep), dt = vector4_all(leap.dt);
+    const bool many = s->are_many;
     vector4 largest = { 0 };
     for (size_t i = from; i < to; i++) {
+        if (many) {
+            __builtin_prefetch(&place[i + AHEAD], 1);
+            __builtin_prefetch(&velocity[i + AHEAD], 1);
+            __builtin_prefetch(&spin[i + AHEAD], 1);
+            __builtin_prefetch(&picked_velocity[i + AHEAD]);
+        }
         const vector4 per_mass = vector4_all(leap.dt * inverse_mass[species[i]]),
                       per_inertia = vector4_all(leap.dt * inverse_inertia[species[i]]);
         const vector4 v = vector4_fused(per_mass, vector4_low(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));

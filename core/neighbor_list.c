@@ -290,6 +290,9 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
  * arithmetic, whose rounding `margin` is widened for. */
 static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, real unit, real duration)
 {
+    enum { AHEAD = 4 * LANES };
+    for (size_t k = pair + AHEAD; s->are_many && k < pair + AHEAD + LANES && k < list->pair_count; k++)
+        __builtin_prefetch(&s->row[list->second[k]]);
     wide_pairs p;
     wide_row_pairs(s->row, list->first + pair, list->second + pair, &p);
     wide x[3];

@@ -59,6 +59,7 @@ typedef struct spheres {
     vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */
     double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */
+    bool are_many;                              /* for the cache: it pays to send for what comes next */
     double scale;                               /* share of full size that the mobile spheres have now */
 } spheres;
 

@@ -1,7 +1,7 @@
 /* The step:
  *     neighbor lists, made again when a displacement asks for it; contact history carried over
- *     forces of contacts with the container; a look at the drum's torque now and then
- *     forces of contacts between spheres, summed for each; single spheres that have all theirs take their step
+ *     forces of contacts between spheres and with the container, summed for each; single spheres that have all theirs take
+ *         their step; now and then, those with the container before all others, and a look at the drum's torque
  *     each cluster's sum over its spheres; velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
  *     what fell off a plate is laid aside; what is due of a stream enters
  *     the container moves; the phase may change
@@ -59,12 +59,14 @@ static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4
     const double dt = scene->definition.time_step;
     neighbor_list *list = &scene->neighbors;
     spheres *s = &scene->spheres;
-    const double wall = contact_forces_with_walls(list, s, &scene->drum, &scene->contact, dt);
+    const bool walls_first = !leap || list->parts > 1 || torque_is_due(scene);
+    double largest = walls_first ? contact_forces_with_walls(list, s, &scene->drum, &scene->contact, dt) : 0.0;
     step_profile_lap(scene->profile, DEM_PART_WALLS);
-    look_at_torque(scene, false);
-    const double between = contact_forces_between_spheres(list, s, &scene->contact, dt, leap, strayed);
+    if (walls_first) look_at_torque(scene, false);
+    const double between =
+        contact_forces_between_spheres(list, s, walls_first ? NULL : &scene->drum, &scene->contact, dt, leap, strayed);
+    largest = fmax(largest, between);
     step_profile_lap(scene->profile, DEM_PART_PAIRS);
-    const double largest = fmax(between, wall);
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
     return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene, leap ? dt : 0.0) : DEM_OK;
 }

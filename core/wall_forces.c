@@ -75,6 +75,19 @@ static void gather(contact_block *restrict block, const contact_list *walls, siz
     }
 }
 
+void contact_forces_with_walls_of_block(neighbor_list *list, size_t start, const spheres *s, const container *c,
+                                        const dem_contact_parameters *contact, double dt, wide *largest)
+{
+    contact_list *const walls = &list->walls;
+    for (size_t k = start + BLOCK; s->are_many && k < start + 2 * BLOCK && k < walls->count; k++)
+        __builtin_prefetch(&s->place[walls->first[k]], 1); /* rows come with the pairs' */
+    contact_block block;
+    gather(&block, walls, start, s, c);
+    if (walls->has_rolling) gather_spins(&block, walls, start, s, c);
+    contact_block_forces(walls, start, &block, contact, true, dt, largest);
+    memcpy(walls->row + start, block.row, sizeof block.row);
+}
+
 typedef struct wall_work {
     neighbor_list *list;
     const spheres *spheres;
@@ -89,17 +102,12 @@ static void walls_of_part(void *context, int part, int parts)
 {
     (void)parts;
     wall_work *const work = context;
-    contact_list *const walls = &work->list->walls;
-    const size_t from = round_up_to_block(work->list->wall_start[work->list->part_begins[part]]) / BLOCK;
-    const size_t to = round_up_to_block(work->list->wall_start[work->list->part_begins[part + 1]]) / BLOCK;
+    neighbor_list *const list = work->list;
+    const size_t from = round_up_to_block(list->wall_start[list->part_begins[part]]);
+    const size_t to = round_up_to_block(list->wall_start[list->part_begins[part + 1]]);
     wide largest = wide_all(0);
-    for (size_t b = from; b < to; b++) {
-        contact_block block;
-        gather(&block, walls, b * BLOCK, work->spheres, work->container);
-        if (walls->has_rolling) gather_spins(&block, walls, b * BLOCK, work->spheres, work->container);
-        contact_block_forces(walls, b * BLOCK, &block, work->contact, true, work->dt, &largest);
-        memcpy(walls->row + b * BLOCK, block.row, sizeof block.row);
-    }
+    for (size_t start = from; start < to; start += BLOCK)
+        contact_forces_with_walls_of_block(list, start, work->spheres, work->container, work->contact, work->dt, &largest);
     work->largest[part] = wide_largest_lane(largest);
 }
 

@@ -10,6 +10,10 @@
 double contact_forces_with_walls(neighbor_list *list, const spheres *spheres, const container *container,
                                  const dem_contact_parameters *contact, double dt);
 
+/* The same of the contacts from `start` on, a whole block. largest: m, the largest overlaps so far. */
+void contact_forces_with_walls_of_block(neighbor_list *list, size_t start, const spheres *spheres, const container *container,
+                                        const dem_contact_parameters *contact, double dt, wide *largest);
+
 /* What a contact does to the container. True only between contact_forces_with_walls and the move that follows: then
  * spheres and walls are still where the forces were computed. */
 typedef struct wall_load {
