@@ -166,7 +166,7 @@ static void add_to_loads(const contact_block *restrict block, const block_loads 
 typedef struct pair_work {
     neighbor_list *list;
     spheres *spheres;
-    const container *walls; /* NULL: their contacts have their rows */
+    const container *walls; /* NULL: all their contacts have their rows */
     const dem_contact_parameters *contact;
     double dt;
     const leap_frog *leap;
@@ -180,8 +180,9 @@ typedef struct part_turn {
     const pair_work *work;
     size_t complete; /* the first sphere that has not all its forces yet */
     size_t shared;   /* the next of list->shared */
-    size_t walls;    /* the first contact with a wall that has no row yet */
-    wide largest;    /* m, overlaps */
+    size_t walls;    /* the first contact with a wall whose row is the part's to make yet */
+    size_t walls_end;
+    wide largest; /* m, overlaps */
     vector4 strayed;
 } part_turn;
 
@@ -197,8 +198,6 @@ WIDE_INLINE void spheres_complete(part_turn *turn, size_t from, size_t to)
     const pair_work *const work = turn->work;
     neighbor_list *const list = work->list;
     spheres *const s = work->spheres;
-    for (; work->walls && turn->walls < list->wall_start[to]; turn->walls += BLOCK)
-        contact_forces_with_walls_of_block(list, turn->walls, s, work->walls, work->contact, work->dt, &turn->largest);
     add_walls(list, s, from, to);
     const size_t last = to < s->single_count ? to : s->single_count;
     if (work->leap && from < last)
@@ -208,7 +207,10 @@ WIDE_INLINE void spheres_complete(part_turn *turn, size_t from, size_t to)
 /* The part's own up to `to`, but those that wait for other parts. */
 WIDE_INLINE void own_spheres_complete(part_turn *turn, size_t to)
 {
-    const neighbor_list *const list = turn->work->list;
+    const pair_work *const work = turn->work;
+    neighbor_list *const list = work->list;
+    for (; turn->walls < turn->walls_end && turn->walls < list->wall_start[to]; turn->walls += BLOCK)
+        contact_forces_with_walls_of_block(list, turn->walls, work->spheres, work->walls, work->contact, work->dt, &turn->largest);
     for (; turn->shared < list->shared_count && (size_t)list->shared[turn->shared] < to; turn->shared++) {
         const size_t waiting = (size_t)list->shared[turn->shared];
         if (turn->complete < waiting) spheres_complete(turn, turn->complete, waiting);
@@ -216,6 +218,28 @@ WIDE_INLINE void own_spheres_complete(part_turn *turn, size_t to)
     }
     if (turn->complete < to) spheres_complete(turn, turn->complete, to);
     turn->complete = to;
+}
+
+/* The blocks of contacts with walls that are one part's alone. */
+static void part_walls(const neighbor_list *list, int part, size_t *from, size_t *to)
+{
+    const size_t end = list->wall_start[list->part_begins[part + 1]];
+    *from = round_up_to_block(list->wall_start[list->part_begins[part]]);
+    *to = part + 1 < list->parts ? end / BLOCK * BLOCK : end;
+}
+
+/* Those that several parts have a share in, before any of them begins. */
+static double walls_of_several(const pair_work *work)
+{
+    wide largest = wide_all(0);
+    const neighbor_list *const list = work->list;
+    for (size_t part = 1, done = 0; part < (size_t)list->parts; part++) {
+        const size_t from = list->wall_start[list->part_begins[part]], start = from / BLOCK * BLOCK;
+        if (from == start || start + BLOCK <= done) continue;
+        contact_forces_with_walls_of_block(work->list, start, work->spheres, work->walls, work->contact, work->dt, &largest);
+        done = start + BLOCK;
+    }
+    return wide_largest_lane(largest);
 }
 
 /* One part's blocks. A sphere is first in contacts with those behind it in memory alone: behind its last one as first, it
@@ -227,6 +251,7 @@ static void part_forces(pair_work *work, int part)
     contact_list *const pairs = &list->pairs;
     const size_t end = list->part_blocks[part + 1], own_end = list->part_begins[part + 1];
     part_turn turn = { .work = work, .complete = list->part_begins[part], .shared = list->part_shared[part] };
+    if (work->walls) part_walls(list, part, &turn.walls, &turn.walls_end);
     size_t later = list->part_later[part];
     for (size_t b = list->part_blocks[part]; b < end; b++) {
         const int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
@@ -287,9 +312,9 @@ double contact_forces_between_spheres(neighbor_list *list, spheres *s, const con
 {
     pair_work work;
     work.list = list, work.spheres = s, work.walls = walls, work.contact = contact, work.dt = dt, work.leap = leap;
+    double largest = walls ? walls_of_several(&work) : 0.0;
     team_run(list->parts, pairs_of_part, &work);
     if (list->shared_count) team_run(list->parts, rest_of_part, &work);
-    double largest = 0.0;
     *strayed = (vector4){ 0 };
     for (int part = 0; part < list->parts; part++) {
         largest = fmax(largest, work.largest[part]);

@@ -7,8 +7,8 @@
 /* Contact forces at the positions of this step, and the spheres' loads of them and of the walls' rows; updates what contacts
  * remember. dt: s, the step since the last call. Returns the largest overlap, m.
  *
- * walls: whose contacts get their rows on the way, while their spheres are in the cache; by one thread alone. NULL: they have
- * them (contact_forces_with_walls).
+ * walls: whose contacts get their rows on the way, while their spheres are in the cache. NULL: they have them
+ * (contact_forces_with_walls).
  *
  * Each load is one running sum, in the list's order and then of the walls: contacts in reach that do not touch, whose
  * number depends on when the list was made, add zeros.

@@ -59,7 +59,7 @@ static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4
     const double dt = scene->definition.time_step;
     neighbor_list *list = &scene->neighbors;
     spheres *s = &scene->spheres;
-    const bool walls_first = !leap || list->parts > 1 || torque_is_due(scene);
+    const bool walls_first = !leap || torque_is_due(scene);
     double largest = walls_first ? contact_forces_with_walls(list, s, &scene->drum, &scene->contact, dt) : 0.0;
     step_profile_lap(scene->profile, DEM_PART_WALLS);
     if (walls_first) look_at_torque(scene, false);
