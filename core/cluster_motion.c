@@ -154,7 +154,7 @@ static vector4 carry_spheres(const leap_frog *leap, spheres *s, const cluster_bo
         s->velocity[first + k] = v;
         s->angular_velocity[first + k] = m->omega;
         s->place[first + k] = sphere_move(leap, &s->row[first + k], place, v, m->omega);
-        largest = vector4_greater(largest, astray * astray);
+        largest = vector4_greater_size(largest, astray);
     }
     return largest;
 }
@@ -185,7 +185,7 @@ vector4 clusters_advance(const leap_frog *all, spheres *s, const half_row *picke
         for (size_t b = 0; b < count; b++) {
             body[b].orientation = (quaternion){ turned.q[0][b], turned.q[1][b], turned.q[2][b], turned.q[3][b] };
             axes_of(&turned, b, m[b].after);
-            largest = vector4_greater(largest, carry_spheres(&leap, s, &body[b], &m[b], picked_velocity));
+            largest = vector4_greater_size(largest, carry_spheres(&leap, s, &body[b], &m[b], picked_velocity));
         }
     }
     return largest;

@@ -12,7 +12,7 @@ typedef struct contact_block {
     real n[3][BLOCK];              /* displacement between centres, in a unit u; then unit normal, first to second */
     real distance2[BLOCK];         /* u2; to the wall: from the axis */
     real gap2[BLOCK];              /* m u: square of the distance at first touch less distance2 (wall: the reverse) */
-    real reach[BLOCK];             /* u: distance at first touch */
+    real reach[BLOCK];             /* u: distance at first touch; this and the next are set once where spheres are alike */
     real radii[BLOCK];             /* m, of both together; a wall has none */
     real v[3][BLOCK];              /* m/s: second less first */
     real r_omega[3][BLOCK];        /* m/s: sum of radius times spin */
@@ -21,7 +21,7 @@ typedef struct contact_block {
     real closing[BLOCK];           /* m/s, rate of the overlap */
     real ds[3][BLOCK];             /* m, tangential displacement of this step */
     real f_n[BLOCK];               /* N, normal force */
-    real force[3][BLOCK];          /* N, friction force on the first */
+    real force[3][BLOCK];          /* N, friction force on the first, of laws that do not remember it */
     real h[3][BLOCK];              /* direction of the stored friction force, turned into the tangent plane */
     real mu_n[BLOCK];              /* N, limit of friction */
     real stored[BLOCK];            /* N, magnitude of the stored friction force; then what it becomes along h */

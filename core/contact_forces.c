@@ -4,27 +4,46 @@
 #include "leap_frog.h"
 #include "wall_forces.h"
 
-/* coming: the second ends of the next block, whose rows are sent for; NULL: they are in the cache anyway. */
-static void gather_spheres(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
-                           const int32_t *restrict second, const int32_t *coming)
+/* alike: all spheres have one radius, and the block has its reach and radii. coming: the second ends of the next block,
+ * whose rows are sent for; NULL: they are in the cache anyway. */
+WIDE_INLINE void gather(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
+                        const int32_t *restrict second, const int32_t *coming, bool alike)
 {
-    const double step = spheres_ring_step(s);
-    const wide to_steps = wide_all((real)(1 / step)), to_metres = wide_all((real)step);
+    const wide to_units = wide_all((real)s->ring_units), to_metres = wide_all((real)(1 / s->ring_units));
+    const wide all_reach = alike ? wide_load(block->reach) : to_units;
     for (int k = 0; k < BLOCK; k += LANES) {
         for (int j = k; coming && j < k + LANES; j++) __builtin_prefetch(&s->row[coming[j]]);
         wide_pairs pairs;
         wide_row_pairs(s->row, first + k, second + k, &pairs);
         wide x[3];
-        const wide reach = pairs.radii * to_steps, gap2 = wide_ring_gap2(pairs.turned, reach, x);
+        const wide reach = alike ? all_reach : pairs.radii * to_units, gap2 = wide_ring_gap2(pairs.turned, reach, x);
         store_vector(block->n, k, x);
         wide_store(block->distance2 + k, wide_dot(x, x));
         wide_store(block->gap2 + k, gap2 * to_metres);
-        wide_store(block->reach + k, reach);
-        wide_store(block->radii + k, pairs.radii);
         store_vector(block->v, k, pairs.v);
         store_vector(block->r_omega, k, pairs.r_omega);
         store_vector(block->omega, k, pairs.omega);
+        if (alike) continue;
+        wide_store(block->reach + k, reach);
+        wide_store(block->radii + k, pairs.radii);
     }
+}
+
+/* Of spheres that are all alike. */
+static void set_reach(contact_block *block, const spheres *s)
+{
+    const wide radii = wide_all(2 * s->row[0].radius), reach = radii * wide_all((real)s->ring_units);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        wide_store(block->reach + k, reach);
+        wide_store(block->radii + k, radii);
+    }
+}
+
+static void gather_spheres(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
+                           const int32_t *restrict second, const int32_t *coming, bool alike)
+{
+    if (alike) gather(block, s, first, second, coming, true);
+    else gather(block, s, first, second, coming, false);
 }
 
 /* For rolling friction alone: the rows' sums don't tell. */
@@ -39,15 +58,18 @@ static void gather_spins(contact_block *restrict block, const spheres *s, const 
 }
 
 /* Unit normal and overlap. The overlap is the difference of squares, which was taken exactly, over the sum: a small
- * overlap keeps its digits. */
-static void normals(contact_block *restrict block)
+ * overlap keeps its digits. Returns the largest overlap so far. */
+static wide normals(contact_block *restrict block, wide largest)
 {
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide distance2 = wide_load(block->distance2 + k), to_unit = wide_inverse_root(distance2);
         for (int c = 0; c < 3; c++) wide_store(block->n[c] + k, wide_load(block->n[c] + k) * to_unit);
         const wide sum = wide_fused(distance2, to_unit, wide_load(block->reach + k));
-        wide_store(block->overlap + k, wide_load(block->gap2 + k) / sum);
+        const wide overlap = wide_load(block->gap2 + k) / sum;
+        wide_store(block->overlap + k, overlap);
+        largest = wide_greater(largest, overlap);
     }
+    return largest;
 }
 
 /* a x b, one component */
@@ -73,17 +95,18 @@ static void displacements(contact_block *restrict block, real time_step)
     }
 }
 
-/* f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
+/* force: T. f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
  * spheres grow, radii are below full size, but then there is no friction, hence no moment.) rolls: with the
  * moments of rolling friction, opposite for the two ends. */
-WIDE_INLINE void make_rows(contact_block *restrict block, const real *restrict first_radius, bool rolls, bool ends_differ)
+WIDE_INLINE void make_rows(contact_block *restrict block, const real *const force[3], const real *restrict first_radius, bool rolls,
+                           bool ends_differ)
 {
     const wide half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
-        const wide t[3] = { wide_load(block->force[0] + k), wide_load(block->force[1] + k), wide_load(block->force[2] + k) };
-        const wide f_n = -wide_load(block->f_n + k), less = half * wide_load(block->overlap + k);
-        const wide r_first = wide_load(first_radius + k), r_a = r_first - less;
+        const wide t[3] = { wide_load(force[0] + k), wide_load(force[1] + k), wide_load(force[2] + k) };
+        const wide f_n = -wide_load(block->f_n + k), overlap = wide_load(block->overlap + k);
+        const wide r_first = wide_load(first_radius + k), r_a = wide_fused(-half, overlap, r_first);
         wide f[3], q[3], moment[3];
         for (int c = 0; c < 3; c++) {
             f[c] = wide_fused(f_n, n[c], t[c]);
@@ -92,30 +115,25 @@ WIDE_INLINE void make_rows(contact_block *restrict block, const real *restrict f
         }
         wide_store_rows(block->row + k, f, moment);
         if (!ends_differ) continue;
-        const wide r_b = wide_load(block->radii + k) - r_first - less;
+        const wide r_b = wide_load(block->radii + k) - r_first - half * overlap;
         for (int c = 0; c < 3; c++) moment[c] = rolls ? wide_fused(r_b, q[c], -wide_load(block->moment[c] + k)) : r_b * q[c];
         wide_store_rows(block->second_row + k, f, moment);
     }
 }
 
-static wide largest_overlaps(const contact_block *block, wide so_far)
-{
-    for (int k = 0; k < BLOCK; k += LANES) so_far = wide_greater(so_far, wide_load(block->overlap + k));
-    return so_far;
-}
-
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
                           bool is_wall, double dt, wide *largest)
 {
-    normals(block);
+    *largest = normals(block, *largest);
     displacements(block, (real)dt);
     if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
     const real *first_radius = list->first_radius + constants_of(list, start);
-    if (list->has_rolling) make_rows(block, first_radius, true, list->ends_differ);
-    else make_rows(block, first_radius, false, list->ends_differ);
-    *largest = largest_overlaps(block, *largest);
+    const real *force[3];
+    for (int c = 0; c < 3; c++) force[c] = contact->law == DEM_WALTON_BRAUN ? list->t[c] + start : block->force[c];
+    if (list->has_rolling) make_rows(block, force, first_radius, true, list->ends_differ);
+    else make_rows(block, force, first_radius, false, list->ends_differ);
 }
 
 /* Bytes from the first of spheres.load: which of them gets what the first ends of a block get, and the second. */
@@ -155,11 +173,15 @@ static void add_to_loads(const contact_block *restrict block, const block_loads 
     static const row8 on_second = { -1, -1, -1, 0, 1, 1, 1, 0 };
     const contact_row *restrict row = block->row, *restrict second_row = ends_differ ? block->second_row : block->row;
     char *restrict load = (char *)loads;
-    for (int k = 0; k < BLOCK; k++) {
-        row8 *const first = (row8 *)(load + to->first[k]), *const second = (row8 *)(load + to->second[k]);
-        if (coming) __builtin_prefetch(&loads[coming[k]], 1);
-        *first += row[k];
-        *second = row8_fused(on_second, second_row[k], *second);
+    for (int begin = 0; begin < BLOCK; begin += LANES) {
+#pragma GCC unroll 16 /* rows lie in an order that is known then */
+        for (int lane = 0; lane < LANES; lane++) {
+            const int k = begin + lane, from = begin + wide_row_slot(lane);
+            row8 *const first = (row8 *)(load + to->first[k]), *const second = (row8 *)(load + to->second[k]);
+            if (coming) __builtin_prefetch(&loads[coming[k]], 1);
+            *first += row[from];
+            *second = row8_fused(on_second, second_row[from], *second);
+        }
     }
 }
 
@@ -201,7 +223,7 @@ WIDE_INLINE void spheres_complete(part_turn *turn, size_t from, size_t to)
     add_walls(list, s, from, to);
     const size_t last = to < s->single_count ? to : s->single_count;
     if (work->leap && from < last)
-        turn->strayed = vector4_greater(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
+        turn->strayed = vector4_greater_size(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
 }
 
 /* The part's own up to `to`, but those that wait for other parts. */
@@ -253,12 +275,14 @@ static void part_forces(pair_work *work, int part)
     part_turn turn = { .work = work, .complete = list->part_begins[part], .shared = list->part_shared[part] };
     if (work->walls) part_walls(list, part, &turn.walls, &turn.walls_end);
     size_t later = list->part_later[part];
+    const bool alike = pairs->constants == CONSTANTS_OF_ALL;
+    contact_block block;
+    if (alike) set_reach(&block, s);
     for (size_t b = list->part_blocks[part]; b < end; b++) {
         const int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
         const int32_t *const coming = s->are_many && b + 1 < end ? second + BLOCK : NULL;
-        contact_block block;
         block_loads loads;
-        gather_spheres(&block, s, first, second, coming);
+        gather_spheres(&block, s, first, second, coming, alike);
         if (pairs->has_rolling) gather_spins(&block, s, first, second);
         contact_block_forces(pairs, b * BLOCK, &block, work->contact, false, work->dt, &turn.largest);
         find_loads(&loads, list, b * BLOCK, s, part, &later);
@@ -318,7 +342,7 @@ double contact_forces_between_spheres(neighbor_list *list, spheres *s, const con
     *strayed = (vector4){ 0 };
     for (int part = 0; part < list->parts; part++) {
         largest = fmax(largest, work.largest[part]);
-        *strayed = vector4_greater(*strayed, work.strayed[part]);
+        *strayed = vector4_greater_size(*strayed, work.strayed[part]);
     }
     return largest;
 }

@@ -13,9 +13,9 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
     vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity, *restrict place = s->place;
     sphere_row *restrict row = s->row;
     row8 *restrict load = s->load;
-    const vector4 keep = vector4_all(leap.keep), dt = vector4_all(leap.dt);
+    const vector4 keep = vector4_all(leap.keep), dt = vector4_all(leap.dt), units = vector4_all(leap.ring_units);
     const bool many = s->are_many;
-    vector4 largest = { 0 };
+    vector4 largest = { 0 }, farthest = { 0 };
     for (size_t i = from; i < to; i++) {
         if (many) {
             __builtin_prefetch(&place[i + AHEAD], 1);
@@ -23,17 +23,22 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
             __builtin_prefetch(&spin[i + AHEAD], 1);
             __builtin_prefetch(&picked_velocity[i + AHEAD]);
         }
-        const vector4 per_mass = vector4_all(leap.dt * inverse_mass[species[i]]),
-                      per_inertia = vector4_all(leap.dt * inverse_inertia[species[i]]);
+        const vector4 per_mass = dt * vector4_from(&inverse_mass[species[i]]),
+                      per_inertia = dt * vector4_from(&inverse_inertia[species[i]]);
         const vector4 v = vector4_fused(per_mass, vector4_low(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));
         const vector4 omega = vector4_fused(per_inertia, vector4_high(&load[i]), keep * spin[i]);
         const vector4 astray = v - vector4_of(&picked_velocity[i]);
         load[i] = (row8){ 0 };
         velocity[i] = v;
         spin[i] = omega;
-        place[i] = sphere_move(&leap, &row[i], vector4_fused(dt, v, place[i]), v, omega);
-        largest = vector4_greater(largest, astray * astray);
+        const vector4 x = vector4_fused(dt, v, place[i]);
+        place[i] = x;
+        sphere_row_store(&row[i], x * units, v, omega);
+        largest = vector4_greater_size(largest, astray);
+        farthest = vector4_greater_size(farthest, x);
     }
+    if (!(farthest[2] <= leap.inside)) /* few steps of few spheres: a comparison costs less than wrapping them all */
+        for (size_t i = from; i < to; i++) place[i] = sphere_move(&leap, &row[i], place[i], velocity[i], spin[i]);
     return largest;
 }
 
@@ -43,6 +48,7 @@ leap_frog integrator_leap(const spheres *s, const container *drum, const body_fo
     return (leap_frog){ .gravity_dt = { up[0] * g_dt, up[1] * g_dt, up[2] * g_dt },
                         .period = { 0.0, 0.0, drum->period },
                         .inverse_period = { 0.0, 0.0, drum->inverse_period },
+                        .inside = drum->period > 0 ? 0.499999 * drum->period : INFINITY,
                         .ring_units = s->ring_units,
                         .dt = dt,
                         .keep = 1.0 - body->drag * dt,
@@ -68,7 +74,7 @@ static void motion_of_part(void *context, int part, int parts)
                                                work->moved + part_start(count, part + 1, parts));
     const vector4 of_clusters = clusters_advance(work->leap, s, work->picked_velocity, part_start(bodies, part, parts),
                                                  part_start(bodies, part + 1, parts));
-    work->largest[part] = vector4_greater(of_spheres, of_clusters);
+    work->largest[part] = vector4_greater_size(of_spheres, of_clusters);
 }
 
 double integrator_advance(spheres *s, const half_row *picked_velocity, const leap_frog *leap, size_t moved, vector4 so_far,
@@ -78,7 +84,7 @@ double integrator_advance(spheres *s, const half_row *picked_velocity, const lea
     motion_work work = { .spheres = s, .picked_velocity = picked_velocity, .leap = leap, .moved = moved };
     if (s->single_count - moved + s->clusters.count > 0) {
         team_run(parts, motion_of_part, &work);
-        for (int part = 0; part < parts; part++) so_far = vector4_greater(so_far, work.largest[part]);
+        for (int part = 0; part < parts; part++) so_far = vector4_greater_size(so_far, work.largest[part]);
     }
-    return sqrt(so_far[0] + so_far[1] + so_far[2]);
+    return sqrt(so_far[0] * so_far[0] + so_far[1] * so_far[1] + so_far[2] * so_far[2]);
 }

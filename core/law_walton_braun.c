@@ -39,8 +39,8 @@ static void turn_friction(contact_block *restrict block, const real *restrict t_
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
         const wide ds[3] = { wide_load(block->ds[0] + k), wide_load(block->ds[1] + k), wide_load(block->ds[2] + k) };
-        const wide tn = -wide_dot(t, n);
-        const wide u[3] = { wide_fused(tn, n[0], t[0]), wide_fused(tn, n[1], t[1]), wide_fused(tn, n[2], t[2]) };
+        const wide tn = wide_dot(t, n);
+        const wide u[3] = { wide_fused(-tn, n[0], t[0]), wide_fused(-tn, n[1], t[1]), wide_fused(-tn, n[2], t[2]) };
         const wide uu = wide_dot(u, u);
         const wide turn = wide_select(wide_exceeds(uu, tiny), wide_inverse_root(uu), zero);
         const wide size = uu * turn, off = tn * turn, magnitude = wide_fused(half * size, wide_lesser(off * off, one), size);
@@ -58,15 +58,14 @@ static void friction_stiffness(contact_block *restrict block, real *restrict t_s
     const wide zero = wide_all(0), one = wide_all(1), floor = wide_all(SLIP_FLOOR), k_t0 = wide_all(stiffness);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide mu_n = wide_load(block->mu_n + k), stored = wide_load(block->stored + k), s_p = wide_load(block->s_p + k);
-        const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE));
-        const wide tau = wide_select(pressed, stored / mu_n, zero);
-        const wide sign = wide_select(wide_exceeds(zero, s_p), -one, one);
-        const wide turning = wide_lesser(sign * wide_load(t_star + k), sign * tau);
-        const wide left = wide_greater(one - sign * tau, floor), left_at_turn = wide_greater(one - turning, floor);
+        const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE)), back = wide_exceeds(zero, s_p);
+        const wide tau = wide_negate(back, wide_select(pressed, stored / mu_n, zero));
+        const wide turning = wide_lesser(wide_negate(back, wide_load(t_star + k)), tau);
+        const wide left = wide_greater(one - tau, floor), left_at_turn = wide_greater(one - turning, floor);
         const wide k_t = k_t0 * (left * wide_inverse_cube_root(left * left * left_at_turn));
-        const wide s = wide_fused(k_t, s_p, stored), star = sign * turning;
+        const wide s = wide_fused(k_t, s_p, stored), star = wide_negate(back, turning);
         wide_store(block->stored + k, s);
-        wide_store(t_star + k, wide_select(pressed, wide_select(wide_exceeds(zero, s), -star, star), zero));
+        wide_store(t_star + k, wide_select(pressed, wide_negate(wide_exceeds(zero, s), star), zero));
     }
 }
 
@@ -82,7 +81,6 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
         const wide size2 = wide_dot(f, f);
         const wide scale = wide_select(wide_exceeds(size2, mu_n * mu_n), mu_n * wide_inverse_root(size2), one);
         for (int c = 0; c < 3; c++) f[c] = f[c] * scale;
-        store_vector(block->force, k, f);
         wide_store(t_x + k, f[0]);
         wide_store(t_y + k, f[1]);
         wide_store(t_z + k, f[2]);

@@ -5,8 +5,10 @@
 #include "neighbor_list.h"
 
 typedef struct leap_frog {
-    vector4 gravity_dt, period, inverse_period; /* the last two along z alone */
-    double ring_units;                          /* 1/m */
+    vector4 gravity_dt;
+    vector4 period, inverse_period; /* along z alone */
+    double inside;                  /* m: nearer than this to z = 0, half a period is not passed; infinite where there is none */
+    double ring_units;              /* 1/m */
     double dt, keep;
     double scale_now, scale_next; /* share of full size that clusters have */
     int corrector_passes;
@@ -23,7 +25,7 @@ WIDE_INLINE vector4 sphere_move(const leap_frog *leap, sphere_row *row, vector4 
 }
 
 /* Eqns 3 and 4 for the single spheres from..to-1, which leaves their loads zeros. Returns the largest of each component of
- * (v - picked_velocity)^2. */
+ * v - picked_velocity, by size. */
 vector4 spheres_advance(const leap_frog *leap, spheres *spheres, const half_row *picked_velocity, size_t from, size_t to);
 /* Eqns 3-23 for the clusters from..to-1 and their spheres; likewise. */
 vector4 clusters_advance(const leap_frog *leap, spheres *spheres, const half_row *picked_velocity, size_t from, size_t to);

@@ -31,9 +31,10 @@ static inline on_ring ring_difference(on_ring a, on_ring b)
 #endif
 }
 
-/* Displacements are squared in steps of as many units. The ring is 3 to 8 of the largest diameters, so that these are 1024
- * to 2731 steps: whole steps' squares and their sum fit into a float, with bits to spare for half ones. */
-enum { RING_STEP_BITS = sizeof(real) == sizeof(float) ? 19 : 0 };
+/* Displacements are squared in two parts, of which the lower has as many bits. The ring is 3 to 8 of the largest diameters,
+ * so that two spheres that touch are 1024 to 2731 of the lower part's ranges apart at most: squares of the upper parts and
+ * their sum fit into a float, with bits to spare. */
+enum { RING_LOW_BITS = 19 };
 /* Adding this to a double leaves its nearest whole number in the lowest bits. */
 #define RING_SHIFT 6755399441055744.0
 

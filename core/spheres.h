@@ -22,8 +22,8 @@ typedef struct sphere_row {
 /* Place (in ring units), velocity and spin of a step; the radius stays. */
 static inline void sphere_row_store(sphere_row *row, vector4 place, vector4 v, vector4 omega)
 {
-    const real radius = row->radius;
-    const half_row w = half_row_of(omega), front = half_row_place(place, radius), v_row = half_row_of(v), r_omega = radius * w;
+    const half_row radii = half_row_from(&row->radius);
+    const half_row w = half_row_of(omega), front = half_row_place(place, radii), v_row = half_row_of(v), r_omega = radii * w;
     memcpy(row->place, &front, sizeof front); /* and the radius */
     memcpy(row->v, &v_row, sizeof v_row);
     memcpy(row->r_omega, &r_omega, sizeof r_omega);
@@ -127,7 +127,6 @@ void spheres_set_period(spheres *spheres, const dem_drum_definition *definition,
 /* Room for as many loads, all zeros. */
 dem_status spheres_reserve_loads(spheres *spheres, size_t count);
 void spheres_pad(spheres *spheres); /* the last two rows, also after a change of the counts */
-static inline double spheres_ring_step(const spheres *s) /* m */ { return (1 << RING_STEP_BITS) / s->ring_units; }
 /* Radii of the mobile spheres at `scale` of their full size, in the rows. */
 void spheres_set_scale(spheres *spheres, double scale);
 double spheres_kinetic_energy(const spheres *spheres); /* J */

@@ -85,7 +85,7 @@ void contact_forces_with_walls_of_block(neighbor_list *list, size_t start, const
     gather(&block, walls, start, s, c);
     if (walls->has_rolling) gather_spins(&block, walls, start, s, c);
     contact_block_forces(walls, start, &block, contact, true, dt, largest);
-    memcpy(walls->row + start, block.row, sizeof block.row);
+    for (int k = 0; k < BLOCK; k++) walls->row[start + (size_t)k] = block.row[(k & -LANES) | wide_row_slot(k & (LANES - 1))];
 }
 
 typedef struct wall_work {

@@ -174,18 +174,24 @@ WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint
 #endif
 
 /* The front of a sphere's row: its place (ring units), rounded to whole ones in single precision, and its radius. */
-#ifdef DEM_DOUBLE
-WIDE_INLINE half_row half_row_place(vector4 place, real radius) { return (half_row){ place[0], place[1], place[2], radius }; }
-#else
-WIDE_INLINE half_row half_row_place(vector4 place, real radius)
+WIDE_INLINE half_row half_row_place(vector4 place, half_row radii)
 {
+#ifdef DEM_DOUBLE
+    return (half_row){ place[0], place[1], place[2], radii[3] };
+#else
     typedef int64_t long4 __attribute__((vector_size(32)));
-    const ring_row whole = __builtin_convertvector((long4)(place + RING_SHIFT), ring_row);
-    half_row front = (half_row)whole;
-    front[3] = radius;
-    return front;
-}
+    const ring_row whole = __builtin_convertvector((long4)(place + RING_SHIFT), ring_row), last = { 0, 0, 0, -1 };
+    return (half_row)((whole & ~last) | ((ring_row)radii & last));
 #endif
+}
+WIDE_INLINE half_row half_row_from(const real *x)
+{
+#if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
+    return (half_row)_mm_broadcast_ss((const float *)x);
+#else
+    return (half_row){ *x, *x, *x, *x };
+#endif
+}
 
 /* a b + c, where a has zeros and ones: products are exact, so fused or not is the same. */
 WIDE_INLINE row8 row8_fused(row8 a, row8 b, row8 c)
@@ -206,12 +212,26 @@ WIDE_INLINE vector4 vector4_fused(vector4 a, vector4 b, vector4 c)
 #endif
 }
 
-WIDE_INLINE vector4 vector4_greater(vector4 a, vector4 b)
+/* One number four times, from memory: that takes no arithmetic. */
+WIDE_INLINE vector4 vector4_from(const double *x)
 {
 #if WIDE_BYTES > 16
-    return (vector4)_mm256_max_pd((__m256d)a, (__m256d)b);
+    return (vector4)_mm256_broadcast_sd(x);
 #else
-    for (int k = 0; k < 4; k++) a[k] = a[k] > b[k] ? a[k] : b[k];
+    return (vector4){ *x, *x, *x, *x };
+#endif
+}
+
+/* a, or the size of b where that is greater. */
+WIDE_INLINE vector4 vector4_greater_size(vector4 a, vector4 b)
+{
+#if WIDE_BYTES == 64
+    enum { LARGER_SIZE = 11 };
+    return (vector4)_mm256_range_pd((__m256d)a, (__m256d)b, LARGER_SIZE);
+#elif WIDE_BYTES > 16
+    return (vector4)_mm256_max_pd((__m256d)a, _mm256_andnot_pd(_mm256_set1_pd(-0.0), (__m256d)b));
+#else
+    for (int k = 0; k < 4; k++) a[k] = a[k] > fabs(b[k]) ? a[k] : fabs(b[k]);
     return a;
 #endif
 }
@@ -250,8 +270,8 @@ WIDE_INLINE wide wide_inverse_cube_root(wide x)
     return y;
 }
 
-/* By how much reach^2 exceeds the square of a displacement, which is x, all in steps of the ring. A displacement has up to
- * 32 bits, a float 24: the whole steps' squares are exact, and so is what they leave of reach^2 where the two are near. */
+/* By how much reach^2 exceeds the square of a displacement, which is x, all in units of the ring. A displacement has up to
+ * 32 bits, a float 24: the squares of its high bits are exact, and so is what they leave of reach^2 where the two are near. */
 WIDE_INLINE wide wide_ring_gap2(const wide_ring turned[3], wide reach, wide x[3])
 {
     wide gap2 = reach * reach;
@@ -261,15 +281,15 @@ WIDE_INLINE wide wide_ring_gap2(const wide_ring turned[3], wide reach, wide x[3]
         gap2 = wide_fused(-x[c], x[c], gap2);
     }
 #else
-    wide whole[3], rest[3];
+    wide high[3], low[3];
+    const int32_t of_low = (1 << RING_LOW_BITS) - 1;
     for (int c = 0; c < 3; c++) {
-        whole[c] = __builtin_convertvector(turned[c] >> RING_STEP_BITS, wide);
-        rest[c] =
-            __builtin_convertvector(turned[c] & ((1 << RING_STEP_BITS) - 1), wide) * wide_all(1 / (real)(1 << RING_STEP_BITS));
-        x[c] = whole[c] + rest[c];
-        gap2 = wide_fused(-whole[c], whole[c], gap2);
+        high[c] = __builtin_convertvector(turned[c] & ~of_low, wide);
+        low[c] = __builtin_convertvector(turned[c] & of_low, wide);
+        x[c] = high[c] + low[c];
+        gap2 = wide_fused(-high[c], high[c], gap2);
     }
-    for (int c = 0; c < 3; c++) gap2 = wide_fused(-(whole[c] + x[c]), rest[c], gap2);
+    for (int c = 0; c < 3; c++) gap2 = wide_fused(-(high[c] + x[c]), low[c], gap2);
 #endif
     return gap2;
 }

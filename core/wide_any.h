@@ -11,6 +11,8 @@ typedef int32_t wide_mask __attribute__((vector_size(WIDE_BYTES)));
 
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return (wide_mask)(a > b); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)((m & (wide_mask)a) | (~m & (wide_mask)b)); }
+/* -a where m is. */
+WIDE_INLINE wide wide_negate(wide_mask m, wide a) { return (wide)((wide_mask)a ^ (m & (wide_mask)wide_all((real)-0.0))); }
 WIDE_INLINE wide wide_greater(wide a, wide b) { return wide_select(wide_exceeds(a, b), a, b); }
 WIDE_INLINE wide wide_lesser(wide a, wide b) { return wide_select(wide_exceeds(b, a), a, b); }
 WIDE_INLINE wide wide_rint(wide x)
@@ -91,5 +93,8 @@ WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 #pragma GCC unroll 8
     for (int k = 0; k < LANES; k++) rows[k] = (row8){ f[0][k], f[1][k], f[2][k], 0, q[0][k], q[1][k], q[2][k], 0 };
 }
+
+/* Where wide_store_rows puts the row of lane k. */
+WIDE_INLINE int wide_row_slot(int k) { return k; }
 
 #endif

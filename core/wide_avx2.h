@@ -19,6 +19,9 @@ WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
     return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(above));
 }
 
+/* -a where m is. */
+WIDE_INLINE wide wide_negate(wide_mask m, wide a) { return (wide)_mm256_xor_ps((__m256)a, _mm256_and_ps(m, _mm256_set1_ps(-0.0f))); }
+
 /* 4 x 4 numbers within each half of a vector: to[c] has in half L what from[0..3] have at 4 L + c. */
 WIDE_INLINE void transpose_halves(const __m256 from[4], __m256 to[4])
 {
@@ -94,5 +97,8 @@ WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
         rows[4 + k] = (row8)_mm256_permute2f128_ps(a[k], b[k], 0x31);
     }
 }
+
+/* Where wide_store_rows puts the row of lane k. */
+WIDE_INLINE int wide_row_slot(int k) { return k; }
 
 #endif

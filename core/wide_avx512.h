@@ -8,6 +8,11 @@ WIDE_INLINE wide wide_greater(wide a, wide b) { return (wide)_mm512_max_ps((__m5
 WIDE_INLINE wide wide_lesser(wide a, wide b) { return (wide)_mm512_min_ps((__m512)a, (__m512)b); }
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GT_OQ); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a); }
+/* -a where m is. */
+WIDE_INLINE wide wide_negate(wide_mask m, wide a)
+{
+    return (wide)_mm512_mask_xor_ps((__m512)a, m, (__m512)a, _mm512_set1_ps(-0.0f));
+}
 
 /* 4 x 4 numbers within each quarter of a vector: to[c] has in quarter L what from[0..3] have at 4 L + c. */
 WIDE_INLINE void transpose_quarters(const __m512 from[4], __m512 to[4])
@@ -80,7 +85,7 @@ WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
     return _mm512_cmpgt_epi32_mask(_mm512_loadu_si512(index), _mm512_set1_epi32(i));
 }
 
-/* LANES rows of 8: f, 0, q, 0. */
+/* LANES rows of 8: f, 0, q, 0; two with one store. */
 WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 {
     const __m512 low[4] = { (__m512)f[0], (__m512)f[1], (__m512)f[2], _mm512_setzero_ps() };
@@ -89,14 +94,14 @@ WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
     __m512 a[4], b[4];
     transpose_quarters(low, a);
     transpose_quarters(high, b);
+    __m512d *pairs = (__m512d *)rows;
     for (int c = 0; c < 4; c++) {
-        const __m512d two = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), front, _mm512_castps_pd(b[c]));
-        const __m512d four = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), back, _mm512_castps_pd(b[c]));
-        rows[c] = (row8)_mm512_castpd512_pd256(two);
-        rows[4 + c] = (row8)_mm512_extractf64x4_pd(two, 1);
-        rows[8 + c] = (row8)_mm512_castpd512_pd256(four);
-        rows[12 + c] = (row8)_mm512_extractf64x4_pd(four, 1);
+        pairs[c] = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), front, _mm512_castps_pd(b[c]));
+        pairs[4 + c] = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), back, _mm512_castps_pd(b[c]));
     }
 }
+
+/* Where wide_store_rows puts the row of lane k. */
+WIDE_INLINE int wide_row_slot(int k) { return (k & ~7) | (k & 3) << 1 | (k >> 2 & 1); }
 
 #endif

@@ -84,12 +84,11 @@ static void ask(questions *q, size_t p, dice *d, const dem_drum_definition *defi
     q->pair[2 * p + 1] = (int32_t)(2 * p + 1);
 }
 
-/* Where two spheres touch first: the square of that distance is a number of contact arithmetic, in steps of the ring. */
+/* Where two spheres touch first: the square of that distance is a number of contact arithmetic, in units of the ring. */
 static double touching_distance(const spheres *s, double radii)
 {
-    const double step = spheres_ring_step(s);
-    const real reach = (real)radii * (real)(1 / step), reach2 = reach * reach;
-    const double distance = sqrt((double)reach2) * step;
+    const real reach = (real)radii * (real)s->ring_units, reach2 = reach * reach;
+    const double distance = sqrt((double)reach2) / s->ring_units;
     CHECK_NEAR(distance, radii, 2 * ROUNDING * radii);
     return distance;
 }
