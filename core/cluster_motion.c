@@ -91,9 +91,9 @@ static void collect(const leap_frog *leap, spheres *s, const cluster_body *body,
     m->force = m->torque = (vector4){ 0 };
     for (size_t k = 0; k < shape->sphere_count; k++) {
         row8 *load = &s->load[(size_t)body->first_sphere + k];
-        const vector4 f = vector4_low(load), r = leap->scale_now * along_space(m->before, shape->place[k]);
+        const vector4 f = row8_force(load), r = leap->scale_now * along_space(m->before, shape->place[k]);
         m->force += f;
-        m->torque += vector4_high(load);
+        m->torque += row8_torque(load);
         m->torque += cross_product(r, f);
         *load = (row8){ 0 };
     }

@@ -170,7 +170,7 @@ static void find_loads(block_loads *restrict to, const neighbor_list *list, size
 static void add_to_loads(const contact_block *restrict block, const block_loads *to, bool ends_differ, row8 *loads,
                          const int32_t *coming)
 {
-    static const row8 on_second = { -1, -1, -1, 0, 1, 1, 1, 0 };
+    static const row8 on_second = { -1, -1, -1, 1, 1, 1, 0, 0 };
     const contact_row *restrict row = block->row, *restrict second_row = ends_differ ? block->second_row : block->row;
     char *restrict load = (char *)loads;
     for (int begin = 0; begin < BLOCK; begin += LANES) {

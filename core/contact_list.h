@@ -11,7 +11,7 @@
 #include "dem_types.h"
 #include "wide.h"
 
-/* What a contact gives: f on the first (N), 0, moment about a centre (N m), 0. The second has -f, and the same moment
+/* What a contact gives: f on the first (N), moment about a centre (N m), 0, 0. The second has -f, and the same moment
  * where radii are all the same and nothing resists rolling: then one row serves both ends, else each has one of its own. */
 typedef row8 contact_row;
 

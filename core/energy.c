@@ -6,7 +6,7 @@ double energy_torque_of_walls(const contact_list *walls, const spheres *s)
     for (size_t k = 0; k < walls->count; k++) {
         const double *x = sphere_place(s, (size_t)walls->first[k]);
         const contact_row row = walls->row[k];
-        torque += x[0] * (double)row[1] - x[1] * (double)row[0] + (double)row[6];
+        torque += x[0] * (double)row[1] - x[1] * (double)row[0] + (double)row[5];
     }
     return torque;
 }
@@ -16,7 +16,7 @@ double energy_torque_of_loads(const spheres *s)
     double torque = 0.0;
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = sphere_place(s, i);
-        const vector4 force = vector4_low(&s->load[i]), moment = vector4_high(&s->load[i]);
+        const vector4 force = row8_force(&s->load[i]), moment = row8_torque(&s->load[i]);
         torque += x[0] * force[1] - x[1] * force[0] + moment[2];
     }
     return torque;
@@ -26,7 +26,7 @@ double energy_contact_power(const spheres *s, const row8 *load)
 {
     double power = 0.0;
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const vector4 force = vector4_low(&load[i]), moment = vector4_high(&load[i]);
+        const vector4 force = row8_force(&load[i]), moment = row8_torque(&load[i]);
         const vector4 part = force * s->velocity[i] + moment * s->angular_velocity[i];
         power += part[0] + part[1] + part[2];
     }

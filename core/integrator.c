@@ -25,8 +25,8 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
         }
         const vector4 per_mass = dt * vector4_from(&inverse_mass[species[i]]),
                       per_inertia = dt * vector4_from(&inverse_inertia[species[i]]);
-        const vector4 v = vector4_fused(per_mass, vector4_low(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));
-        const vector4 omega = vector4_fused(per_inertia, vector4_high(&load[i]), keep * spin[i]);
+        const vector4 v = vector4_fused(per_mass, row8_force(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));
+        const vector4 omega = vector4_fused(per_inertia, row8_torque(&load[i]), keep * spin[i]);
         const vector4 astray = v - vector4_of(&picked_velocity[i]);
         load[i] = (row8){ 0 };
         velocity[i] = v;

@@ -31,7 +31,7 @@ typedef double wide_double __attribute__((vector_size(WIDE_BYTES)));
 typedef float wide_floats __attribute__((vector_size(LANES * sizeof(float))));
 typedef int32_t wide_ints __attribute__((vector_size(LANES * sizeof(int32_t))));
 typedef uint32_t wide_counts __attribute__((vector_size(LANES * sizeof(uint32_t))));
-typedef real row8 __attribute__((vector_size(8 * sizeof(real)))); /* force, 0, torque, 0 of one body */
+typedef real row8 __attribute__((vector_size(8 * sizeof(real)))); /* force, torque of one body, 0, 0 */
 
 typedef real half_row __attribute__((vector_size(4 * sizeof(real))));
 typedef on_ring ring_row __attribute__((vector_size(4 * sizeof(on_ring))));
@@ -157,8 +157,16 @@ WIDE_INLINE double wide_largest_lane(wide x)
 /* ---- one sphere's vectors ---- */
 
 #if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
-WIDE_INLINE vector4 vector4_low(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row)); }
-WIDE_INLINE vector4 vector4_high(const row8 *row) { return (vector4)_mm256_cvtps_pd(_mm_load_ps((const float *)row + 4)); }
+WIDE_INLINE vector4 vector4_of_three(const float *x) /* there may be anything behind them */
+{
+#if WIDE_BYTES == 64
+    return (vector4)_mm256_maskz_cvtps_pd(7, _mm_loadu_ps(x));
+#else
+    return (vector4)_mm256_blend_pd(_mm256_cvtps_pd(_mm_loadu_ps(x)), _mm256_setzero_pd(), 8);
+#endif
+}
+WIDE_INLINE vector4 row8_force(const row8 *row) { return vector4_of_three((const float *)row); }
+WIDE_INLINE vector4 row8_torque(const row8 *row) { return vector4_of_three((const float *)row + 3); }
 WIDE_INLINE vector4 vector4_of(const half_row *x) { return (vector4)_mm256_cvtps_pd((__m128)*x); }
 WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row)_mm256_cvtpd_ps((__m256d)x); }
 WIDE_INLINE vector4 vector4_rint(vector4 x)
@@ -166,8 +174,8 @@ WIDE_INLINE vector4 vector4_rint(vector4 x)
     return (vector4)_mm256_round_pd((__m256d)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
 #else
-WIDE_INLINE vector4 vector4_low(const row8 *row) { return (vector4){ (double)(*row)[0], (double)(*row)[1], (double)(*row)[2] }; }
-WIDE_INLINE vector4 vector4_high(const row8 *row) { return (vector4){ (double)(*row)[4], (double)(*row)[5], (double)(*row)[6] }; }
+WIDE_INLINE vector4 row8_force(const row8 *row) { return (vector4){ (double)(*row)[0], (double)(*row)[1], (double)(*row)[2] }; }
+WIDE_INLINE vector4 row8_torque(const row8 *row) { return (vector4){ (double)(*row)[3], (double)(*row)[4], (double)(*row)[5] }; }
 WIDE_INLINE vector4 vector4_of(const half_row *x) { return (vector4){ (double)(*x)[0], (double)(*x)[1], (double)(*x)[2] }; }
 WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row){ (real)x[0], (real)x[1], (real)x[2], (real)x[3] }; }
 WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint(x[1]), rint(x[2]), rint(x[3]) }; }

@@ -87,11 +87,11 @@ WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_
     for (int c = 0; c < 3; c++) out[c] = wide_load(spin[c]);
 }
 
-/* LANES rows of 8: f, 0, q, 0. */
+/* LANES rows of 8: f, q, 0, 0. */
 WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 {
 #pragma GCC unroll 8
-    for (int k = 0; k < LANES; k++) rows[k] = (row8){ f[0][k], f[1][k], f[2][k], 0, q[0][k], q[1][k], q[2][k], 0 };
+    for (int k = 0; k < LANES; k++) rows[k] = (row8){ f[0][k], f[1][k], f[2][k], q[0][k], q[1][k], q[2][k], 0, 0 };
 }
 
 /* Where wide_store_rows puts the row of lane k. */

@@ -84,17 +84,19 @@ WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_
     for (int c = 0; c < 3; c++) out[c] = (wide)to[c];
 }
 
-/* LANES rows of 8: f, 0, q, 0. */
+/* LANES rows of 8: f, q, 0, 0. */
 WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 {
-    const __m256 low[4] = { (__m256)f[0], (__m256)f[1], (__m256)f[2], _mm256_setzero_ps() };
-    const __m256 high[4] = { (__m256)q[0], (__m256)q[1], (__m256)q[2], _mm256_setzero_ps() };
-    __m256 a[4], b[4];
+    const __m256 low[4] = { (__m256)f[0], (__m256)f[1], (__m256)f[2], (__m256)q[0] };
+    const __m256d zero = _mm256_setzero_pd(), of_01 = _mm256_castps_pd(_mm256_unpacklo_ps((__m256)q[1], (__m256)q[2])),
+                  of_23 = _mm256_castps_pd(_mm256_unpackhi_ps((__m256)q[1], (__m256)q[2]));
+    const __m256d b[4] = { _mm256_unpacklo_pd(of_01, zero), _mm256_unpackhi_pd(of_01, zero), _mm256_unpacklo_pd(of_23, zero),
+                           _mm256_unpackhi_pd(of_23, zero) };
+    __m256 a[4];
     transpose_halves(low, a);
-    transpose_halves(high, b);
     for (int k = 0; k < 4; k++) {
-        rows[k] = (row8)_mm256_permute2f128_ps(a[k], b[k], 0x20);
-        rows[4 + k] = (row8)_mm256_permute2f128_ps(a[k], b[k], 0x31);
+        rows[k] = (row8)_mm256_permute2f128_ps(a[k], _mm256_castpd_ps(b[k]), 0x20);
+        rows[4 + k] = (row8)_mm256_permute2f128_ps(a[k], _mm256_castpd_ps(b[k]), 0x31);
     }
 }
 

@@ -85,19 +85,22 @@ WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
     return _mm512_cmpgt_epi32_mask(_mm512_loadu_si512(index), _mm512_set1_epi32(i));
 }
 
-/* LANES rows of 8: f, 0, q, 0; two with one store. */
+/* LANES rows of 8: f, q, 0, 0; two with one store. */
 WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 {
-    const __m512 low[4] = { (__m512)f[0], (__m512)f[1], (__m512)f[2], _mm512_setzero_ps() };
-    const __m512 high[4] = { (__m512)q[0], (__m512)q[1], (__m512)q[2], _mm512_setzero_ps() };
-    const __m512i front = _mm512_setr_epi64(0, 1, 8, 9, 2, 3, 10, 11), back = _mm512_setr_epi64(4, 5, 12, 13, 6, 7, 14, 15);
-    __m512 a[4], b[4];
-    transpose_quarters(low, a);
-    transpose_quarters(high, b);
+    enum { NUMBERS = 0x77 }; /* of the pairs that two rows are */
+    const __m512 from[4] = { (__m512)f[0], (__m512)f[1], (__m512)f[2], (__m512)q[0] };
+    const __m512d rest[2] = { _mm512_castps_pd(_mm512_unpacklo_ps((__m512)q[1], (__m512)q[2])),
+                              _mm512_castps_pd(_mm512_unpackhi_ps((__m512)q[1], (__m512)q[2])) };
+    const __m512i front[2] = { _mm512_setr_epi64(0, 1, 8, 0, 2, 3, 10, 0), _mm512_setr_epi64(0, 1, 9, 0, 2, 3, 11, 0) };
+    const __m512i back[2] = { _mm512_setr_epi64(4, 5, 12, 0, 6, 7, 14, 0), _mm512_setr_epi64(4, 5, 13, 0, 6, 7, 15, 0) };
+    __m512 to[4];
     __m512d *pairs = (__m512d *)rows;
+    transpose_quarters(from, to);
     for (int c = 0; c < 4; c++) {
-        pairs[c] = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), front, _mm512_castps_pd(b[c]));
-        pairs[4 + c] = _mm512_permutex2var_pd(_mm512_castps_pd(a[c]), back, _mm512_castps_pd(b[c]));
+        const __m512d start = _mm512_castps_pd(to[c]);
+        pairs[c] = _mm512_maskz_permutex2var_pd(NUMBERS, start, front[c % 2], rest[c / 2]);
+        pairs[4 + c] = _mm512_maskz_permutex2var_pd(NUMBERS, start, back[c % 2], rest[c / 2]);
     }
 }
 
