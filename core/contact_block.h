@@ -28,7 +28,8 @@ typedef struct contact_block {
     real s_p[BLOCK];               /* m, displacement along h */
     real spin[3][BLOCK];           /* rad/s, first less second; this and the next where contacts resist rolling */
     real moment[3][BLOCK];         /* N m, of rolling friction on the first */
-    contact_row row[BLOCK];        /* what the contacts give their first ends, and their second ones but for the force's sign */
+    /* as wide_store_rows leaves them: what the contacts give their first ends, and their second ones but for the force's sign */
+    contact_row row[BLOCK];
     contact_row second_row[BLOCK]; /* the latter where ends differ */
 } __attribute__((aligned(ALIGNMENT))) contact_block;
 
@@ -41,8 +42,8 @@ WIDE_INLINE void store_vector(real to[3][BLOCK], int k, const wide x[3])
  * rows, and the list's histories from `start` on. largest: m, the largest overlaps so far. */
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
                           bool is_wall, double dt, wide *largest);
-/* The law of a block's contacts, whose geometry is in the block: sets f_n and force, updates the list's histories
- * from `start`. dt: s. */
+/* The law of a block's contacts, whose geometry is in the block: sets f_n and friction (Walton & Braun's is what its
+ * history remembers, else force), updates the list's histories from `start`. dt: s. */
 void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact);
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
                                   bool is_wall, double dt);

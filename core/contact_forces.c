@@ -29,10 +29,10 @@ WIDE_INLINE void gather(contact_block *restrict block, const spheres *s, const i
     }
 }
 
-/* Of spheres that are all alike. */
+/* Of spheres that are all alike: their radius as rows have it, which other parts may be writing by now. */
 static void set_reach(contact_block *block, const spheres *s)
 {
-    const wide radii = wide_all(2 * s->row[0].radius), reach = radii * wide_all((real)s->ring_units);
+    const wide radii = wide_all(2 * (real)(s->scale * (double)s->full_radius[0])), reach = radii * wide_all((real)s->ring_units);
     for (int k = 0; k < BLOCK; k += LANES) {
         wide_store(block->reach + k, reach);
         wide_store(block->radii + k, radii);

@@ -50,8 +50,8 @@ dem_status contact_list_init(contact_list *list, bool has_rolling, contact_const
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);
-/* Fill the slots from count up to the next whole block with a pair whose result nobody reads: it has no radius, so there
- * may be NaN in it. */
+/* Fill the slots from count up to the next whole block with a pair whose result nobody reads: it may have no radius, so
+ * there may be NaN in it. */
 void contact_list_pad(contact_list *list, int32_t first, int32_t second);
 void contact_list_forget(contact_list *list, size_t slot);
 contact_history contact_list_history(const contact_list *list, size_t slot);

@@ -3,7 +3,7 @@
 #include "leap_frog.h"
 
 /* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
- * its spin advances as its velocity does. Returns the largest of each component of (v - picked_velocity)^2. */
+ * its spin advances as its velocity does. Returns the largest of each component of v - picked_velocity, by size. */
 vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
@@ -37,7 +37,7 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
         largest = vector4_greater_size(largest, astray);
         farthest = vector4_greater_size(farthest, x);
     }
-    if (!(farthest[2] <= leap.inside)) /* few steps of few spheres: a comparison costs less than wrapping them all */
+    if (farthest[2] > leap.inside) /* few steps of few spheres: a comparison costs less than wrapping them all */
         for (size_t i = from; i < to; i++) place[i] = sphere_move(&leap, &row[i], place[i], velocity[i], spin[i]);
     return largest;
 }

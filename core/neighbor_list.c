@@ -431,11 +431,11 @@ static void describe_all_pairs(contact_list *pairs, const spheres *s, const dem_
     }
 }
 
-/* Parts that take equally long: a contact costs some 5.5 ns, a sphere's step 3.5 (core/NUMERICS.md, "Speed"). A sphere is a
+/* Parts that take equally long: a contact costs some 5.4 ns, a sphere's step 2.9 (core/NUMERICS.md, "Speed"). A sphere is a
  * part's own where its contacts as first begin in it. */
 static void parts_begin(neighbor_list *list, size_t n, int parts)
 {
-    static const double OF_BLOCK = 5.5 * BLOCK, OF_SPHERE = 3.5;
+    static const double OF_BLOCK = 5.4 * BLOCK, OF_SPHERE = 2.9;
     const contact_list *pairs = &list->pairs;
     const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
     const double all = OF_BLOCK * (double)blocks + OF_SPHERE * (double)n;
