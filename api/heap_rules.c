@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "dem_rules.h"
+#include "drum_process.h"
 #include "heap_process.h"
 #include "standing_rules.h"
 

@@ -9,25 +9,25 @@
  * block's values stay in the first-level cache between passes. The passes are short so that the processor works on
  * several batches at a time: in one long pass, each batch waits for the chain of its own roots and quotients. */
 typedef struct contact_block {
-    real n[3][BLOCK];              /* displacement between centres, in a unit u; then unit normal, first to second */
-    real distance2[BLOCK];         /* u2; to the wall: from the axis */
-    real gap2[BLOCK];              /* m u: square of the distance at first touch less distance2 (wall: the reverse) */
-    real reach[BLOCK];             /* u: distance at first touch; this and the next are set once where spheres are alike */
-    real radii[BLOCK];             /* m, of both together; a wall has none */
-    real v[3][BLOCK];              /* m/s: second less first */
-    real r_omega[3][BLOCK];        /* m/s: sum of radius times spin */
-    real omega[3][BLOCK];          /* rad/s: sum of spins */
-    real overlap[BLOCK];           /* m, negative: apart */
-    real closing[BLOCK];           /* m/s, rate of the overlap */
-    real ds[3][BLOCK];             /* m, tangential displacement of this step */
-    real f_n[BLOCK];               /* N, normal force */
-    real force[3][BLOCK];          /* N, friction force on the first, of laws that do not remember it */
-    real h[3][BLOCK];              /* direction of the stored friction force, turned into the tangent plane */
-    real mu_n[BLOCK];              /* N, limit of friction */
-    real stored[BLOCK];            /* N, magnitude of the stored friction force; then what it becomes along h */
-    real s_p[BLOCK];               /* m, displacement along h */
-    real spin[3][BLOCK];           /* rad/s, first less second; this and the next where contacts resist rolling */
-    real moment[3][BLOCK];         /* N m, of rolling friction on the first */
+    real n[3][BLOCK];       /* displacement between centres, in a unit u; then unit normal, first to second */
+    real distance2[BLOCK];  /* u2; to the wall: from the axis */
+    real gap2[BLOCK];       /* m u: square of the distance at first touch less distance2 (wall: the reverse) */
+    real reach[BLOCK];      /* u: distance at first touch; this and the next are set once where spheres are alike */
+    real radii[BLOCK];      /* m, of both together; a wall has none */
+    real v[3][BLOCK];       /* m/s: second less first */
+    real r_omega[3][BLOCK]; /* m/s: sum of radius times spin */
+    real omega[3][BLOCK];   /* rad/s: sum of spins */
+    real overlap[BLOCK];    /* m, negative: apart */
+    real closing[BLOCK];    /* m/s, rate of the overlap */
+    real ds[3][BLOCK];      /* m, tangential displacement of this step */
+    real f_n[BLOCK];        /* N, normal force */
+    real force[3][BLOCK];   /* N, friction force on the first, of laws that do not remember it */
+    real h[3][BLOCK];       /* direction of the stored friction force, turned into the tangent plane */
+    real mu_n[BLOCK];       /* N, limit of friction */
+    real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
+    real s_p[BLOCK];        /* m, displacement along h */
+    real spin[3][BLOCK];    /* rad/s, first less second; this and the next where contacts resist rolling */
+    real moment[3][BLOCK];  /* N m, of rolling friction on the first */
     /* as wide_store_rows leaves them: what the contacts give their first ends, and their second ones but for the force's sign */
     contact_row row[BLOCK];
     contact_row second_row[BLOCK]; /* the latter where ends differ */

@@ -20,7 +20,10 @@ WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
 }
 
 /* -a where m is. */
-WIDE_INLINE wide wide_negate(wide_mask m, wide a) { return (wide)_mm256_xor_ps((__m256)a, _mm256_and_ps(m, _mm256_set1_ps(-0.0f))); }
+WIDE_INLINE wide wide_negate(wide_mask m, wide a)
+{
+    return (wide)_mm256_xor_ps((__m256)a, _mm256_and_ps(m, _mm256_set1_ps(-0.0f)));
+}
 
 /* 4 x 4 numbers within each half of a vector: to[c] has in half L what from[0..3] have at 4 L + c. */
 WIDE_INLINE void transpose_halves(const __m256 from[4], __m256 to[4])
