@@ -18,8 +18,8 @@
 #define SECONDS_AFTER_LIFTING 3.0
 /* Over that of a drum as wide as the bed is high; from overlaps at frictions from 0 to 1. */
 #define FALL_IN_TUBE 1.2
-/* For the estimate, from nine heaps of 270 to 1350 spheres, tetrahedra and cubes: slope of the heap, how long (s) it takes to
- * come to rest, and what a sphere-step costs beside one in a drum, where fewer touch a wall. */
+/* For the estimate: slope of the heap; how long (s) it takes to come to rest, and what a sphere-step costs beside one in a
+ * drum, where fewer touch a wall: from nine heaps of 268 to 1350 particles, spheres, tetrahedra and cubes. */
 #define SLOPE_EXPECTED 0.45
 #define REST_EXPECTED 0.3
 #define REST_OF_CLUSTERS_EXPECTED 0.7
