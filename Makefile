@@ -87,7 +87,8 @@ $(BUILD)/variant: FORCE
 FORCE:
 $(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(DEM) $(BUILD)/variant
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE -Iinclude -Iapi $< $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -ljansson -lm -o $@
+	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi $< $(BUILD)/libapi.a $(DEM) \
+	  $(LDFLAGS) -fopenmp -ljansson -lm -o $@
 # Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
 $(BUILD)/tests/unit/%: tests/unit/%.c $(DEM) $(BUILD)/libapi.a $(DAEMON_PARTS) $(BUILD)/variant
 	@mkdir -p $(@D)

@@ -12,6 +12,7 @@
 #include "dem.h"
 #include "dem_rules.h"
 #include "job_spec.h"
+#include "scene_state.h"
 
 static inline double now(void)
 {
@@ -141,8 +142,15 @@ static inline void bed_number(dem_state_array *array, size_t count)
     array->rows = count;
 }
 
-/* A scene of `copies` times this bed of spheres, one behind the other, with so many threads. They lie in memory copy after
- * copy, each in the order that the core had sorted it into. */
+/* The next step sorts particles in memory, as it does every some thousand steps: copies lie one behind the other as yet. */
+static inline void bed_sort(dem_state *state)
+{
+    int64_t *counter = bed_array(state, "counters")->data;
+    counter[STATE_ROTATION_START] = counter[STATE_STEP];
+    counter[STATE_STEPS_BEFORE] = 0;
+}
+
+/* A scene of `copies` times this bed of spheres, one behind the other, with so many threads. */
 static inline dem_scene *bed_repeat(const dem_scene *scene, const dem_drum_definition *drum, size_t copies, int threads)
 {
     dem_state state;
@@ -165,6 +173,7 @@ static inline dem_scene *bed_repeat(const dem_scene *scene, const dem_drum_defin
         bed_number(bed_array(&state, "particle"), n * copies);
         free(position);
     }
+    bed_sort(&state);
     dem_scene *repeated = bed_create(&large);
     const dem_status status = dem_scene_restore(repeated, &state);
     if (status != DEM_OK) give_up("a repeated bed can't be restored", dem_status_text(status));

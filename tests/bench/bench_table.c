@@ -100,8 +100,8 @@ static void prepare(bench_case *c)
     bed *b = bed_of(c);
     make_bed(b);
     c->scene = c->copies == 1 && c->threads == 1 ? b->scene : bed_repeat(b->scene, &b->drum, c->copies, c->threads);
-    const double spheres = (double)dem_scene_sphere_count(c->scene), begin = now();
-    const int64_t first = (int64_t)(2e6 / spheres) + 20;
+    const double count = (double)dem_scene_sphere_count(c->scene), begin = now();
+    const int64_t first = (int64_t)(2e6 / count) + 20;
     bed_advance(c->scene, first); /* warms up, too */
     c->steps = (int64_t)(WINDOW_SECONDS * (double)first / (now() - begin)) + 1;
     if (c->steps < 24) c->steps = 24; /* a pick of the inner list at least */
@@ -147,12 +147,12 @@ static void forget_resident_most(void)
 static void print_case(bench_case *c)
 {
     const bed *b = bed_of(c);
-    const double spheres = (double)dem_scene_sphere_count(c->scene);
+    const double count = (double)dem_scene_sphere_count(c->scene);
     qsort(c->speed, ROUNDS, sizeof c->speed[0], ascending);
     printf("{\"case\": \"%s\", \"spheres\": %.0f, \"threads\": %d, \"time_step\": %.4g, \"pairs_a_sphere\": %.3g, "
            "\"sphere_steps_per_second\": {\"minimum\": %.5g, \"median\": %.5g, \"maximum\": %.5g}, "
            "\"bed\": {\"settling_seconds\": %.3g, \"settling_steps\": %lld}, \"resident_bytes\": %.0f}\n",
-           c->name, spheres, c->threads, b->drum.time_step, touching_a_sphere(c->scene), c->speed[0], c->speed[ROUNDS / 2],
+           c->name, count, c->threads, b->drum.time_step, touching_a_sphere(c->scene), c->speed[0], c->speed[ROUNDS / 2],
            c->speed[ROUNDS - 1], b->settling_wall, (long long)dem_scene_rotation_start(b->scene), resident_most());
 }
 
