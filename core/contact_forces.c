@@ -143,26 +143,20 @@ typedef struct block_loads {
 
 static uint32_t load_offset(size_t load) { return (uint32_t)(load * sizeof(row8)); }
 
-/* Of pairs start..start+BLOCK-1, which are a part's. later: the first of list->later_end that is not before them; then the
- * first behind them. */
-static void find_loads(block_loads *restrict to, const neighbor_list *list, size_t start, const spheres *s, int part, size_t *later)
+/* Of the spheres begin..end-1 of a block's contacts; what the others get is for nobody, who has several loads, so that sums
+ * need not wait for each other. all: there are no others. */
+static void find_loads(block_loads *restrict to, const int32_t *restrict first, const int32_t *restrict second, size_t begin,
+                       size_t end, size_t nobody, bool all)
 {
-    const int32_t *restrict first = list->pairs.first + start, *restrict second = list->pairs.second + start;
-    const size_t mobile = s->mobile_count;
+    const uint32_t none = load_offset(nobody), start = (uint32_t)begin, count = (uint32_t)(end - begin);
     for (int k = 0; k < BLOCK; k++) {
         to->first[k] = load_offset((uint32_t)first[k]);
         to->second[k] = load_offset((uint32_t)second[k]);
     }
-    if (s->lining_count || start + BLOCK > list->pairs.count) {
-        const uint32_t end = load_offset(mobile), nobody = load_offset(mobile + (size_t)part);
-        for (int k = 0; k < BLOCK; k++) { /* lining and padding */
-            to->first[k] = to->first[k] < end ? to->first[k] : nobody;
-            to->second[k] = to->second[k] < end ? to->second[k] : nobody;
-        }
-    }
-    for (; *later < list->later_count && list->later_end[*later] < 2 * (start + BLOCK); ++*later) {
-        const size_t end = list->later_end[*later] - 2 * start;
-        (end % 2 ? to->second : to->first)[end / 2] = load_offset(mobile + MOST_PARTS + *later);
+    for (int k = 0; !all && k < BLOCK; k++) {
+        const uint32_t there = none + load_offset((size_t)k % LOADS_A_PART);
+        to->first[k] = (uint32_t)first[k] - start < count ? to->first[k] : there;
+        to->second[k] = (uint32_t)second[k] - start < count ? to->second[k] : there;
     }
 }
 
@@ -185,6 +179,13 @@ static void add_to_loads(const contact_block *restrict block, const block_loads 
     }
 }
 
+/* Each in a line of memory of its own. */
+typedef struct part_result {
+    _Alignas(ALIGNMENT) uint64_t ticks; /* of the processor */
+    double largest;                     /* m, overlaps */
+    vector4 strayed;
+} part_result;
+
 typedef struct pair_work {
     neighbor_list *list;
     spheres *spheres;
@@ -192,18 +193,19 @@ typedef struct pair_work {
     const dem_contact_parameters *contact;
     double dt;
     const leap_frog *leap;
-    /* of each part */
-    double largest[MOST_PARTS]; /* m, overlaps */
-    vector4 strayed[MOST_PARTS];
+    int copies_turn;
+    part_result part[MOST_PARTS];
 } pair_work;
 
 /* How far one part has come. */
 typedef struct part_turn {
     const pair_work *work;
-    size_t complete; /* the first sphere that has not all its forces yet */
-    size_t shared;   /* the next of list->shared */
-    size_t walls;    /* the first contact with a wall whose row is the part's to make yet */
-    size_t walls_end;
+    int part;
+    size_t complete;  /* the first sphere of its own that has not all its forces yet */
+    size_t walls;     /* the first contact of its own with a wall that has no row yet; */
+    size_t walls_end; /* there are none from here on */
+    size_t shared;    /* the next of its own whose row others know by a copy */
+    contact_block *block;
     wide largest; /* m, overlaps */
     vector4 strayed;
 } part_turn;
@@ -214,121 +216,81 @@ WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, s
     for (size_t k = list->wall_start[from]; k < list->wall_start[to]; k++) s->load[list->walls.first[k]] += list->walls.row[k];
 }
 
-/* The spheres from..to-1 have all their forces from others. */
-WIDE_INLINE void spheres_complete(part_turn *turn, size_t from, size_t to)
+/* The part's own up to `to` have all their forces from others. */
+WIDE_INLINE void spheres_complete(part_turn *turn, size_t to)
 {
     const pair_work *const work = turn->work;
     neighbor_list *const list = work->list;
     spheres *const s = work->spheres;
+    while (turn->walls < turn->walls_end && turn->walls < list->wall_start[to]) {
+        const size_t next = turn->walls / BLOCK * BLOCK + BLOCK, end = next < turn->walls_end ? next : turn->walls_end;
+        contact_forces_with_some_walls(list, turn->walls, end, s, work->walls, work->contact, work->dt, &turn->largest);
+        turn->walls = end;
+    }
+    const size_t from = turn->complete, last = to < s->single_count ? to : s->single_count;
     add_walls(list, s, from, to);
-    const size_t last = to < s->single_count ? to : s->single_count;
-    if (work->leap && from < last)
-        turn->strayed = vector4_greater_size(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
+    turn->complete = to;
+    if (!work->leap || from >= last) return;
+    turn->strayed = vector4_greater_size(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
+    contact_parts_copy_rows(&list->parts, s, 1 - work->copies_turn, list->parts.shared_begin[turn->part + 1], last, &turn->shared);
 }
 
-/* The part's own up to `to`, but those that wait for other parts. */
-WIDE_INLINE void own_spheres_complete(part_turn *turn, size_t to)
+/* One block, to the loads of the part's own spheres. rows: NULL: all are. coming: as above. */
+WIDE_INLINE void block_forces(part_turn *turn, contact_list *pairs, size_t b, const block_rows *rows, const int32_t *coming)
 {
     const pair_work *const work = turn->work;
-    neighbor_list *const list = work->list;
-    for (; turn->walls < turn->walls_end && turn->walls < list->wall_start[to]; turn->walls += BLOCK)
-        contact_forces_with_walls_of_block(list, turn->walls, work->spheres, work->walls, work->contact, work->dt, &turn->largest);
-    for (; turn->shared < list->shared_count && (size_t)list->shared[turn->shared] < to; turn->shared++) {
-        const size_t waiting = (size_t)list->shared[turn->shared];
-        if (turn->complete < waiting) spheres_complete(turn, turn->complete, waiting);
-        turn->complete = waiting + 1;
-    }
-    if (turn->complete < to) spheres_complete(turn, turn->complete, to);
-    turn->complete = to;
+    const contact_parts *const parts = &work->list->parts;
+    spheres *const s = work->spheres;
+    contact_block *const block = turn->block;
+    const int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
+    const int32_t *const first_row = rows ? rows->first[work->copies_turn] : first;
+    const int32_t *const second_row = rows ? rows->second[work->copies_turn] : second;
+    const bool all_mobile = s->lining_count == 0 && (b + 1) * BLOCK <= pairs->count;
+    block_loads loads;
+    gather_spheres(block, s, first_row, second_row, coming, pairs->constants == CONSTANTS_OF_ALL);
+    if (pairs->has_rolling) gather_spins(block, s, first_row, second_row);
+    contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &turn->largest);
+    find_loads(&loads, first, second, parts->sphere[turn->part], parts->sphere[turn->part + 1], loads_of_nobody(s, turn->part),
+               !rows && all_mobile);
+    add_to_loads(block, &loads, pairs->ends_differ, s->load, coming);
 }
 
-/* The blocks of contacts with walls that are one part's alone. */
-static void part_walls(const neighbor_list *list, int part, size_t *from, size_t *to)
-{
-    const size_t end = list->wall_start[list->part_begins[part + 1]];
-    *from = round_up_to_block(list->wall_start[list->part_begins[part]]);
-    *to = part + 1 < list->parts ? end / BLOCK * BLOCK : end;
-}
-
-/* Those that several parts have a share in, before any of them begins. */
-static double walls_of_several(const pair_work *work)
-{
-    wide largest = wide_all(0);
-    const neighbor_list *const list = work->list;
-    for (size_t part = 1, done = 0; part < (size_t)list->parts; part++) {
-        const size_t from = list->wall_start[list->part_begins[part]], start = from / BLOCK * BLOCK;
-        if (from == start || start + BLOCK <= done) continue;
-        contact_forces_with_walls_of_block(work->list, start, work->spheres, work->walls, work->contact, work->dt, &largest);
-        done = start + BLOCK;
-    }
-    return wide_largest_lane(largest);
-}
-
-/* One part's blocks. A sphere is first in contacts with those behind it in memory alone: behind its last one as first, it
- * has all its forces, and no other contact reads its row in this step. */
+/* One part's blocks, after the copies of what earlier parts have. A sphere is first in contacts with those behind it in memory
+ * alone: behind its last one as first, it has all its forces, and no other contact reads its row in this step. */
 static void part_forces(pair_work *work, int part)
 {
     neighbor_list *const list = work->list;
-    spheres *const s = work->spheres;
-    contact_list *const pairs = &list->pairs;
-    const size_t end = list->part_blocks[part + 1], own_end = list->part_begins[part + 1];
-    part_turn turn = { .work = work, .complete = list->part_begins[part], .shared = list->part_shared[part] };
-    if (work->walls) part_walls(list, part, &turn.walls, &turn.walls_end);
-    size_t later = list->part_later[part];
-    const bool alike = pairs->constants == CONSTANTS_OF_ALL;
+    contact_part *const own = &list->parts.part[part];
+    const size_t begin = list->parts.sphere[part], own_end = list->parts.sphere[part + 1], end = list->parts.block[part + 1];
     contact_block block;
-    if (alike) set_reach(&block, s);
-    for (size_t b = list->part_blocks[part]; b < end; b++) {
-        const int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
-        const int32_t *const coming = s->are_many && b + 1 < end ? second + BLOCK : NULL;
-        block_loads loads;
-        gather_spheres(&block, s, first, second, coming, alike);
-        if (pairs->has_rolling) gather_spins(&block, s, first, second);
-        contact_block_forces(pairs, b * BLOCK, &block, work->contact, false, work->dt, &turn.largest);
-        find_loads(&loads, list, b * BLOCK, s, part, &later);
-        add_to_loads(&block, &loads, pairs->ends_differ, s->load, coming);
-        if (b + 1 == end) break;
-        const size_t next = (size_t)first[BLOCK];
-        if (next > turn.complete) own_spheres_complete(&turn, next);
+    part_turn turn = { .work = work, .part = part, .complete = begin, .shared = list->parts.shared_begin[part], .block = &block };
+    if (work->walls) {
+        turn.walls = list->wall_start[begin];
+        turn.walls_end = list->wall_start[own_end];
     }
-    own_spheres_complete(&turn, own_end);
-    work->largest[part] = wide_largest_lane(turn.largest);
-    work->strayed[part] = turn.strayed;
-}
-
-/* What several parts gave to one sphere, in the order of the list as if there were but one part; then its step. */
-static void part_finish(pair_work *work, int part)
-{
-    const neighbor_list *const list = work->list;
-    spheres *const s = work->spheres;
-    const size_t from = list->part_begins[part], to = list->part_begins[part + 1];
-    row8 *const later = s->load + s->mobile_count + MOST_PARTS;
-    for (size_t k = 0; k < list->later_count; k++) {
-        const size_t i = (size_t)list->later[k];
-        if (i < from || i >= to) continue;
-        s->load[i] += later[k];
-        later[k] = (row8){ 0 };
+    if (list->pairs.constants == CONSTANTS_OF_ALL) set_reach(&block, work->spheres);
+    for (size_t b = 0; b * BLOCK < own->copies.count; b++)
+        block_forces(&turn, &own->copies, b, &own->rows[own->across_count + b], NULL);
+    size_t across = 0; /* blocks passed */
+    for (size_t b = list->parts.block[part]; b < end; b++) {
+        const int32_t *const next = list->pairs.first + (b + 1) * BLOCK;
+        const bool is_across = across < own->across_count && own->across[across] == b, is_last = b + 1 == end;
+        const int32_t *const coming = work->spheres->are_many && !is_last ? list->pairs.second + (b + 1) * BLOCK : NULL;
+        block_forces(&turn, &list->pairs, b, is_across ? &own->rows[across++] : NULL, coming);
+        if (!is_last && (size_t)*next > turn.complete) spheres_complete(&turn, (size_t)*next);
     }
-    part_turn turn = { .work = work, .strayed = work->strayed[part] };
-    for (size_t k = list->part_shared[part], next; k < list->part_shared[part + 1]; k = next) {
-        next = k + 1;
-        while (next < list->part_shared[part + 1] && list->shared[next] == list->shared[next - 1] + 1) next++;
-        const size_t i = (size_t)list->shared[k];
-        spheres_complete(&turn, i, i + (next - k));
-    }
-    work->strayed[part] = turn.strayed;
+    if (turn.complete < own_end) spheres_complete(&turn, own_end);
+    work->part[part].largest = wide_largest_lane(turn.largest);
+    work->part[part].strayed = turn.strayed;
 }
 
 static void pairs_of_part(void *context, int part, int parts)
 {
     (void)parts;
-    part_forces(context, part);
-}
-
-static void rest_of_part(void *context, int part, int parts)
-{
-    (void)parts;
-    part_finish(context, part);
+    pair_work *const work = context;
+    const uint64_t begin = __builtin_ia32_rdtsc();
+    part_forces(work, part);
+    work->part[part].ticks = __builtin_ia32_rdtsc() - begin;
 }
 
 double contact_forces_between_spheres(neighbor_list *list, spheres *s, const container *walls,
@@ -336,13 +298,16 @@ double contact_forces_between_spheres(neighbor_list *list, spheres *s, const con
 {
     pair_work work;
     work.list = list, work.spheres = s, work.walls = walls, work.contact = contact, work.dt = dt, work.leap = leap;
-    double largest = walls ? walls_of_several(&work) : 0.0;
-    team_run(list->parts, pairs_of_part, &work);
-    if (list->shared_count) team_run(list->parts, rest_of_part, &work);
+    work.copies_turn = s->copies_turn;
+    contact_parts_hand_out(&list->parts, s);
+    team_run(list->parts.count, pairs_of_part, &work);
+    if (leap) s->copies_turn = 1 - s->copies_turn;
+    double largest = 0.0;
     *strayed = (vector4){ 0 };
-    for (int part = 0; part < list->parts; part++) {
-        largest = fmax(largest, work.largest[part]);
-        *strayed = vector4_greater_size(*strayed, work.strayed[part]);
+    for (int part = 0; part < list->parts.count; part++) {
+        contact_parts_took(&list->parts, part, work.part[part].ticks);
+        largest = fmax(largest, work.part[part].largest);
+        *strayed = vector4_greater_size(*strayed, work.part[part].strayed);
     }
     return largest;
 }

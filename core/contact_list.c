@@ -117,6 +117,28 @@ void contact_list_set_history(contact_list *list, size_t k, const contact_histor
     for (int c = 0; list->has_rolling && c < 3; c++) list->roll[c][k] = history->roll[c];
 }
 
+void contact_list_copy(contact_list *to, size_t slot, const contact_list *from, size_t k)
+{
+    const contact_history history = contact_list_history(from, k);
+    contact_list_set_history(to, slot, &history);
+    to->first[slot] = from->first[k];
+    to->second[slot] = from->second[k];
+    if (from->constants != CONSTANTS_OF_EACH) return;
+    to->friction[slot] = from->friction[k];
+    to->first_radius[slot] = from->first_radius[k];
+    to->mass[slot] = from->mass[k];
+    if (from->has_rolling) to->rolling_friction[slot] = from->rolling_friction[k];
+}
+
+void contact_list_copy_constants(contact_list *to, const contact_list *from)
+{
+    if (from->constants != CONSTANTS_OF_ALL) return;
+    memcpy(to->friction, from->friction, BLOCK * sizeof *to->friction);
+    memcpy(to->first_radius, from->first_radius, BLOCK * sizeof *to->first_radius);
+    memcpy(to->mass, from->mass, BLOCK * sizeof *to->mass);
+    if (from->has_rolling) memcpy(to->rolling_friction, from->rolling_friction, BLOCK * sizeof *to->rolling_friction);
+}
+
 int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS])
 {
     real *const all[CONTACT_NUMBERS] = { list->t[0],    list->t[1],    list->t[2],    list->t_star,

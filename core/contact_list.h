@@ -56,6 +56,9 @@ void contact_list_pad(contact_list *list, int32_t first, int32_t second);
 void contact_list_forget(contact_list *list, size_t slot);
 contact_history contact_list_history(const contact_list *list, size_t slot);
 void contact_list_set_history(contact_list *list, size_t slot, const contact_history *history);
+/* Who, what they remember and the constants of each; of all: the latter once for the whole list. Both have room for it. */
+void contact_list_copy(contact_list *to, size_t slot, const contact_list *from, size_t k);
+void contact_list_copy_constants(contact_list *to, const contact_list *from);
 /* The arrays of what slots remember; returns how many they are. */
 enum { CONTACT_NUMBERS = 8 };
 int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS]);

@@ -118,12 +118,13 @@ void container_set_friction(container *c, const dem_drum_definition *definition,
 static bool turn_drum(container *c, double rate, double time)
 {
     const bool changes = rate != c->rotation_rate;
-    c->rotation_rate = rate;
     c->angle = c->angle_before + rate * time;
+    for (int k = 0; changes && k < c->wall_count; k++) c->wall[k].rotation_rate = rate;
+    c->rotation_rate = rate;
+    if (c->bar_count == 0) return changes;
     const double cosine = cos(c->angle), sine = sin(c->angle);
-    for (int k = 0; k < c->wall_count; k++) {
+    for (int k = c->first_bar; k < c->first_bar + c->bar_count; k++) {
         container_wall *w = &c->wall[k];
-        w->rotation_rate = rate;
         w->middle[0] = cosine * w->place[0] - sine * w->place[1];
         w->middle[1] = sine * w->place[0] + cosine * w->place[1];
     }

@@ -1,16 +1,5 @@
 #include "energy.h"
 
-double energy_torque_of_walls(const contact_list *walls, const spheres *s)
-{
-    double torque = 0.0;
-    for (size_t k = 0; k < walls->count; k++) {
-        const double *x = sphere_place(s, (size_t)walls->first[k]);
-        const contact_row row = walls->row[k];
-        torque += x[0] * (double)row[1] - x[1] * (double)row[0] + (double)row[5];
-    }
-    return torque;
-}
-
 double energy_torque_of_loads(const spheres *s)
 {
     double torque = 0.0;

@@ -21,9 +21,7 @@ typedef struct energy_audit {
     double wall_work;    /* J, done by the drum: its torque times what it turned */
 } energy_audit;
 
-/* N m about the axis, of the drum on the bed; positive turns counter-clockwise. At the places of the last forces. */
-double energy_torque_of_walls(const contact_list *walls, const spheres *spheres);
-/* The same with a lining's, from the loads: contacts between spheres exchange momentum at one point, so their moments about
+/* N m about the axis, of a drum with its lining on the bed, from the loads; positive turns counter-clockwise: contacts between spheres exchange momentum at one point, so their moments about
  * the axis cancel in the sum over all mobile spheres. */
 double energy_torque_of_loads(const spheres *spheres);
 /* W, of the contacts' forces `load` on the particles, with the velocities of now. */

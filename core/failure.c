@@ -42,15 +42,46 @@ static bound bound_broken(const dem_scene *scene, const double x[3])
     return (bound){ 0, 0, NULL };
 }
 
+typedef struct places_work {
+    const dem_scene *scene;
+    size_t wrong[MOST_PARTS]; /* of each part: the first sphere that is somewhere else; the first of the next part: none */
+} places_work;
+
+static void check_places_of_part(void *context, int part, int parts)
+{
+    places_work *const work = context;
+    const dem_scene *const scene = work->scene;
+    const spheres *const s = &scene->spheres;
+    const contact_parts *const own = &scene->neighbors.parts;
+    const container *const c = &scene->drum;
+    /* in a drum without ends most spheres are soon looked at */
+    const double inside2 =
+        c->wall_count == 1 && c->wall[0].kind == WALL_CYLINDER && c->period > 0 ? 0.999999 * c->radius * c->radius : 0;
+    const size_t end = contact_parts_begin(own, s->mobile_count, part + 1, parts);
+    size_t i = contact_parts_begin(own, s->mobile_count, part, parts);
+    for (; i < end; i++) {
+        const double *const x = sphere_place(s, i);
+        const vector4 v = s->velocity[i];
+        const bool is_slow = fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6;
+        if (is_slow && x[0] * x[0] + x[1] * x[1] < inside2 && fabs(x[2]) <= c->length) continue;
+        if (is_slow && !bound_broken(scene, x).quantity) continue;
+        if (!particle_is_lost(scene, particle_of_sphere(s, i))) break;
+    }
+    work->wrong[part] = i;
+}
+
 dem_status failure_check_places(dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
-    for (size_t i = 0; i < s->mobile_count; i++) {
+    const int parts = team_parts(scene->definition.threads);
+    places_work work = { .scene = scene };
+    team_run(parts, check_places_of_part, &work);
+    for (int part = 0; part < parts; part++) {
+        const size_t i = work.wrong[part];
+        if (i == contact_parts_begin(&scene->neighbors.parts, s->mobile_count, part + 1, parts)) continue;
         const double *x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
         bound broken = bound_broken(scene, x);
-        if (!broken.quantity && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
-        if (particle_is_lost(scene, particle_of_sphere(s, i))) continue;
         if (!broken.quantity) broken = (bound){ sqrt(x[0] * x[0] + x[1] * x[1]), scene->drum.radius, "distance from the axis" };
         const bool escaped =
             isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]) && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);

@@ -42,19 +42,22 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
     return largest;
 }
 
-leap_frog integrator_leap(const spheres *s, const container *drum, const body_forces *body, double dt)
+void integrator_leap(leap_frog *leap, const spheres *s, const container *drum, const body_forces *body, double dt)
 {
     const double g_dt = body->gravity * dt, *up = drum->up;
-    return (leap_frog){ .gravity_dt = { up[0] * g_dt, up[1] * g_dt, up[2] * g_dt },
-                        .period = { 0.0, 0.0, drum->period },
-                        .inverse_period = { 0.0, 0.0, drum->inverse_period },
-                        .inside = drum->period > 0 ? 0.499999 * drum->period : INFINITY,
-                        .ring_units = s->ring_units,
-                        .dt = dt,
-                        .keep = 1.0 - body->drag * dt,
-                        .scale_now = s->scale,
-                        .scale_next = body->scale,
-                        .corrector_passes = s->clusters.corrector_passes };
+    leap_frog now;
+    memset(&now, 0, sizeof now); /* what lies between the numbers, too */
+    now.gravity_dt = (vector4){ up[0] * g_dt, up[1] * g_dt, up[2] * g_dt };
+    now.period = (vector4){ 0.0, 0.0, drum->period };
+    now.inverse_period = (vector4){ 0.0, 0.0, drum->inverse_period };
+    now.inside = drum->period > 0 ? 0.499999 * drum->period : INFINITY;
+    now.ring_units = s->ring_units;
+    now.dt = dt;
+    now.keep = 1.0 - body->drag * dt;
+    now.scale_now = s->scale;
+    now.scale_next = body->scale;
+    now.corrector_passes = s->clusters.corrector_passes;
+    if (memcmp(leap, &now, sizeof now) != 0) memcpy(leap, &now, sizeof now);
 }
 
 typedef struct motion_work {
@@ -83,6 +86,7 @@ double integrator_advance(spheres *s, const half_row *picked_velocity, const lea
     const int parts = team_parts(threads);
     motion_work work = { .spheres = s, .picked_velocity = picked_velocity, .leap = leap, .moved = moved };
     if (s->single_count - moved + s->clusters.count > 0) {
+        s->copies_hold = false;
         team_run(parts, motion_of_part, &work);
         for (int part = 0; part < parts; part++) so_far = vector4_greater_size(so_far, work.largest[part]);
     }

@@ -11,7 +11,8 @@ typedef struct body_forces {
     double scale;   /* share of full size that clusters have after the step */
 } body_forces;
 
-leap_frog integrator_leap(const spheres *spheres, const container *container, const body_forces *body, double dt);
+/* What the next step does to all; written where it differs alone, since all threads read it. */
+void integrator_leap(leap_frog *leap, const spheres *spheres, const container *container, const body_forces *body, double dt);
 /* One step for all particles, under their spheres' loads, but for the first `moved` single spheres, which have taken theirs;
  * so_far: what spheres_advance returned of those. Returns a bound on |v - picked_velocity| of every sphere, m/s: from the
  * largest of each component. */

@@ -24,7 +24,7 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
     list->wall_start = array_create(n + 1, sizeof *list->wall_start);
-    list->most_spheres = n;
+    contact_parts_init(&list->parts, n);
     bool enough = list->start && list->built_at && list->picked_velocity && list->wall_start;
     contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
     const contact_constants constants[] = { alike ? CONSTANTS_OF_ALL : CONSTANTS_OF_EACH, CONSTANTS_OF_EACH };
@@ -48,10 +48,8 @@ void neighbor_list_clear(neighbor_list *list)
     free(list->picked_velocity);
     free(list->wall_start);
     free(list->wall_rows);
-    free(list->shared);
-    free(list->is_shared);
-    free(list->later);
-    free(list->later_end);
+    free(list->wall_torques);
+    contact_parts_clear(&list->parts);
     cell_grid_clear(&list->grid);
     contact_list_clear(&list->pairs);
     contact_list_clear(&list->pairs_before);
@@ -132,6 +130,11 @@ static dem_status append_neighbors(pair_part *part, const spheres *s, const cell
     return DEM_OK;
 }
 
+static size_t begin_of_part(const neighbor_list *list, const spheres *s, int part, int parts)
+{
+    return contact_parts_begin(&list->parts, s->mobile_count, part, parts);
+}
+
 typedef struct outer_work {
     neighbor_list *list;
     const spheres *spheres;
@@ -141,15 +144,16 @@ typedef struct outer_work {
 /* Each part of the spheres lists its neighbors into memory of its own, so that threads need not wait for each other. */
 static dem_status outer_part(neighbor_list *list, const spheres *s, int which, int parts)
 {
-    const size_t from = part_start(s->mobile_count, which, parts), to = part_start(s->mobile_count, which + 1, parts);
-    list->part[which].count = 0;
-    if (parts == 1 && part_reserve(&list->part[0], list->pair_count) != DEM_OK) return DEM_NO_MEMORY; /* as many as last time */
-    for (size_t i = from; i < to; i++) {
-        const dem_status status = append_neighbors(&list->part[which], s, &list->grid, i, list->skin, &list->start[i + 1]);
-        if (status != DEM_OK) return status;
+    const size_t from = begin_of_part(list, s, which, parts), to = begin_of_part(list, s, which + 1, parts);
+    pair_part own = list->part[which]; /* which lies in memory beside others' */
+    own.count = 0;
+    dem_status status = parts == 1 ? part_reserve(&own, list->pair_count) : DEM_OK; /* as many as last time */
+    for (size_t i = from; i < to && status == DEM_OK; i++) {
+        status = append_neighbors(&own, s, &list->grid, i, list->skin, &list->start[i + 1]);
         memcpy(&list->built_at[i], s->row[i].place, sizeof list->built_at[i]);
     }
-    return DEM_OK;
+    list->part[which] = own;
+    return status;
 }
 
 static void outer_of_part(void *context, int part, int parts)
@@ -180,46 +184,52 @@ static dem_status outer_reserve(neighbor_list *list, size_t count)
     return DEM_OK;
 }
 
-/* The parts' neighbors one after the other; of one part alone, its own memory. */
-static dem_status outer_join(neighbor_list *list, int parts, size_t count)
+/* Room for the parts' neighbors one after the other; of one part alone, its own memory. */
+static dem_status second_reserve(neighbor_list *list, int parts)
 {
-    list->pair_count = count;
-    if (parts == 1 || count > list->second_capacity) {
-        free(list->second);
-        list->second_capacity = parts == 1 ? list->part[0].capacity : round_up_to_block(count + count / 16);
-        list->second = parts == 1 ? list->part[0].second : array_create(list->second_capacity, sizeof *list->second);
-        if (parts == 1) list->part[0] = (pair_part){ 0 };
-        if (list->second_capacity > 0 && !list->second) {
-            list->second_capacity = 0;
-            return DEM_NO_MEMORY;
-        }
+    if (parts > 1 && list->pair_count <= list->second_capacity) return DEM_OK;
+    free(list->second);
+    list->second_capacity = parts == 1 ? list->part[0].capacity : round_up_to_block(list->pair_count + list->pair_count / 16);
+    list->second = parts == 1 ? list->part[0].second : array_create(list->second_capacity, sizeof *list->second);
+    if (parts == 1) list->part[0] = (pair_part){ .count = list->part[0].count };
+    if (list->second || list->second_capacity == 0) return DEM_OK;
+    list->second_capacity = 0;
+    return DEM_NO_MEMORY;
+}
+
+static void outer_join(void *context, int part, int parts)
+{
+    const outer_work *const work = context;
+    neighbor_list *const list = work->list;
+    const spheres *const s = work->spheres;
+    size_t at = 0;
+    for (int p = 0; p < part; p++) at += list->part[p].count;
+    if (list->part[part].second && list->part[part].count)
+        memcpy(list->second + at, list->part[part].second, list->part[part].count * sizeof *list->second);
+    const size_t to = begin_of_part(list, s, part + 1, parts);
+    for (size_t i = begin_of_part(list, s, part, parts); i < to; i++) {
+        const size_t end = at + list->start[i + 1];
+        for (; at < end; at++) list->first[at] = (int32_t)i;
+        list->start[i + 1] = (uint32_t)end;
     }
-    for (int32_t p = 0, *to = list->second; parts > 1 && p < parts; to += list->part[p++].count)
-        if (list->part[p].count) memcpy(to, list->part[p].second, list->part[p].count * sizeof *to);
-    return DEM_OK;
 }
 
 static dem_status outer_build(neighbor_list *list, const spheres *s, const container *drum, int threads)
 {
     list->outer_valid = false;
-    const size_t n = s->mobile_count;
     const int parts = team_parts(threads);
     outer_work work = { .list = list, .spheres = s };
     if (cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, list->skin) != DEM_OK) return DEM_NO_MEMORY;
     team_run(parts, outer_of_part, &work);
-    size_t count = 0;
+    list->pair_count = 0;
     for (int p = 0; p < parts; p++) {
         if (work.status[p] != DEM_OK) return work.status[p];
-        count += list->part[p].count;
+        list->pair_count += list->part[p].count;
     }
-    if (outer_reserve(list, count) != DEM_OK || outer_join(list, parts, count) != DEM_OK) return DEM_NO_MEMORY;
+    if (outer_reserve(list, list->pair_count) != DEM_OK || second_reserve(list, parts) != DEM_OK) return DEM_NO_MEMORY;
     list->start[0] = 0;
-    for (size_t i = 0; i < n; i++) {
-        const size_t end = list->start[i + 1] + list->start[i];
-        for (size_t k = list->start[i]; k < end; k++) list->first[k] = (int32_t)i;
-        list->start[i + 1] = end;
-    }
-    for (size_t k = count; k < round_up_to_block(count); k++) {
+    team_run(parts, outer_join, &work);
+    for (size_t k = list->pair_count; k < round_up_to_block(list->pair_count); k++) {
         list->first[k] = sphere_of_zeros(s);
         list->second[k] = sphere_far_away(s);
     }
@@ -246,8 +256,9 @@ static void outlook_of_part(void *context, int part, int parts)
 {
     outlook_work *const work = context;
     const spheres *const s = work->spheres;
+    const size_t to = begin_of_part(work->list, s, part + 1, parts);
     double displacement2 = 0.0, speed2 = 0.0;
-    for (size_t i = part_start(s->mobile_count, part, parts); i < part_start(s->mobile_count, part + 1, parts); i++) {
+    for (size_t i = begin_of_part(work->list, s, part, parts); i < to; i++) {
         const vector4 v = s->velocity[i];
         double moved2 = 0.0;
         for (int c = 0; c < 3; c++) {
@@ -312,11 +323,18 @@ typedef struct pick_work {
     const dem_contact_parameters *contact;
     wall_outlook ahead;
     bool same_outer; /* as at the pick before */
-    /* how many pairs each part has in reach, and had at the pick before; then how many the parts before it have, had */
-    size_t now[MOST_PARTS + 1], was[MOST_PARTS + 1];
+    /* how many pairs each part has in reach, and had at the pick before, and contacts with walls; then how many the parts
+     * before it have, had */
+    size_t now[MOST_PARTS + 1], was[MOST_PARTS + 1], walls[MOST_PARTS + 1];
 } pick_work;
 
-static size_t groups_of(const neighbor_list *list) { return (list->pair_count + LANES - 1) / LANES; }
+/* The first vector of pairs of a part's. */
+static size_t begin_of_groups(const pick_work *work, int part, int parts)
+{
+    const neighbor_list *const list = work->list;
+    return part < parts ? list->start[begin_of_part(list, work->spheres, part, parts)] / LANES
+                        : (list->pair_count + LANES - 1) / LANES;
+}
 
 static void mark_in_reach(void *context, int part, int parts)
 {
@@ -325,15 +343,19 @@ static void mark_in_reach(void *context, int part, int parts)
     const spheres *const s = work->spheres;
     const real unit = (real)(1 / s->ring_units), duration = (real)work->ahead.duration;
     size_t now = 0, was = 0;
-    for (size_t g = part_start(groups_of(list), part, parts); g < part_start(groups_of(list), part + 1, parts); g++) {
+    const size_t end = begin_of_groups(work, part + 1, parts);
+    for (size_t g = begin_of_groups(work, part, parts); g < end; g++) {
         list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, duration);
         now += (size_t)__builtin_popcount(list->in_reach[g]);
         if (work->same_outer) was += (size_t)__builtin_popcount(list->was_in_reach[g]);
     }
     work->now[part] = now;
     work->was[part] = was;
-    const size_t from = part_start(s->mobile_count, part, parts), to = part_start(s->mobile_count, part + 1, parts);
+    const size_t from = begin_of_part(list, s, part, parts), to = begin_of_part(list, s, part + 1, parts);
     wall_reach_count(s, work->drum, work->ahead, from, to, list->wall_start + 1);
+    uint32_t walls = 0;
+    for (size_t i = from; i < to; i++) list->wall_start[i + 1] = walls += list->wall_start[i + 1];
+    work->walls[part] = walls;
     for (size_t i = from; i < to; i++) memcpy(&list->picked_velocity[i], s->row[i].v, sizeof *list->picked_velocity);
 }
 
@@ -349,54 +371,25 @@ static size_t starts_of_parts(size_t *count, int parts)
     return sum;
 }
 
-static void starts_from_counts(uint32_t *start, size_t n)
-{
-    start[0] = 0;
-    for (size_t i = 0; i < n; i++) start[i + 1] += start[i];
-}
-
 static dem_status wall_rows_reserve(neighbor_list *list)
 {
     const size_t needed = round_up_to_block(list->walls.count);
     if (needed > list->wall_row_capacity) {
         contact_row *rows = array_create(needed + needed / 4, sizeof *rows);
-        if (!rows) return DEM_NO_MEMORY;
+        double *torques = array_create(needed + needed / 4, sizeof *torques);
+        if (!rows || !torques) {
+            free(rows);
+            free(torques);
+            return DEM_NO_MEMORY;
+        }
         free(list->wall_rows);
+        free(list->wall_torques);
         list->wall_rows = rows;
+        list->wall_torques = torques;
         list->wall_row_capacity = needed + needed / 4;
     }
     list->walls.row = list->wall_rows;
     return DEM_OK;
-}
-
-/* A part's pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells
- * what its pairs remember. */
-static void pick_pairs(void *context, int part, int parts)
-{
-    const pick_work *const work = context;
-    neighbor_list *const list = work->list;
-    real *to[CONTACT_NUMBERS], *from[CONTACT_NUMBERS];
-    const int numbers = work->same_outer ? contact_list_memory(&list->pairs, to) : 0;
-    contact_list_memory(&list->pairs_before, from);
-    size_t at = work->now[part], old = work->was[part];
-    /* Vectors are written whole, also where only the first lanes count: the last ones, which reach into the next part, aside. */
-    real aside[CONTACT_NUMBERS][LANES];
-    int32_t first_aside[LANES], second_aside[LANES];
-    for (size_t g = part_start(groups_of(list), part, parts); g < part_start(groups_of(list), part + 1, parts); g++) {
-        const uint32_t now = list->in_reach[g], was = list->was_in_reach[g];
-        const size_t count = (size_t)__builtin_popcount(now);
-        const bool is_aside = part + 1 < parts && at + LANES > work->now[part + 1];
-        for (int m = 0; m < numbers; m++) wide_carry(is_aside ? aside[m] : to[m] + at, now, from[m] + old, was);
-        wide_compress(is_aside ? second_aside : list->pairs.second + at, now, list->second + g * LANES);
-        wide_compress(is_aside ? first_aside : list->pairs.first + at, now, list->first + g * LANES);
-        for (int m = 0; is_aside && m < numbers; m++) memcpy(to[m] + at, aside[m], count * sizeof *to[m]);
-        if (is_aside) {
-            memcpy(list->pairs.second + at, second_aside, count * sizeof *second_aside);
-            memcpy(list->pairs.first + at, first_aside, count * sizeof *first_aside);
-        }
-        at += count;
-        old += (size_t)__builtin_popcount(was);
-    }
 }
 
 /* What does not change in a step, of each pair from..to-1. */
@@ -431,164 +424,70 @@ static void describe_all_pairs(contact_list *pairs, const spheres *s, const dem_
     }
 }
 
-/* Parts that take equally long: a contact costs some 5.4 ns, a sphere's step 2.9 (core/NUMERICS.md, "Speed"). A sphere is a
- * part's own where its contacts as first begin in it. */
-static void parts_begin(neighbor_list *list, size_t n, int parts)
+/* A part's pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells
+ * what its pairs remember. */
+static void pick_pairs(const pick_work *work, int part, int parts)
 {
-    static const double OF_BLOCK = 5.4 * BLOCK, OF_SPHERE = 2.9;
-    const contact_list *pairs = &list->pairs;
-    const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
-    const double all = OF_BLOCK * (double)blocks + OF_SPHERE * (double)n;
-    list->parts = parts;
-    size_t b = 0;
-    for (int p = 0; p < parts; p++) {
-        while (b < blocks && OF_BLOCK * (double)b + OF_SPHERE * pairs->first[b * BLOCK] < all * p / parts) b++;
-        const size_t k = b * BLOCK;
-        const bool goes_on = k > 0 && b < blocks && pairs->first[k - 1] == pairs->first[k];
-        list->part_blocks[p] = b;
-        list->part_begins[p] = p == 0 ? 0 : b < blocks ? (size_t)pairs->first[k] + goes_on : n;
-    }
-    list->part_blocks[parts] = blocks;
-    list->part_begins[parts] = n;
-}
-
-static dem_status shared_reserve(neighbor_list *list)
-{
-    if (!list->shared) list->shared = array_create(list->most_spheres, sizeof *list->shared);
-    if (!list->is_shared) list->is_shared = array_create(list->most_spheres, sizeof *list->is_shared);
-    return list->shared && list->is_shared ? DEM_OK : DEM_NO_MEMORY;
-}
-
-static dem_status later_reserve(neighbor_list *list, size_t count)
-{
-    if (count <= list->later_capacity) return DEM_OK;
-    int32_t *later = array_create(count + count / 4, sizeof *later);
-    uint32_t *later_end = array_create(count + count / 4, sizeof *later_end);
-    if (!later || !later_end) {
-        free(later);
-        free(later_end);
-        return DEM_NO_MEMORY;
-    }
-    free(list->later);
-    free(list->later_end);
-    list->later = later;
-    list->later_end = later_end;
-    list->later_capacity = count + count / 4;
-    return DEM_OK;
-}
-
-typedef struct share_work {
-    neighbor_list *list;
-    size_t spheres;
-    /* of each part: its own spheres that are shared, and ends of its pairs that such have; then those of the parts before it */
-    size_t shared[MOST_PARTS + 1], ends[MOST_PARTS + 1];
-} share_work;
-
-static size_t end_of_part(const neighbor_list *list, int part)
-{
-    const size_t end = list->part_blocks[part + 1] * BLOCK;
-    return end < list->pairs.count ? end : list->pairs.count;
-}
-
-static void shared_clear(void *context, int part, int parts)
-{
-    const share_work *const work = context;
-    const size_t from = part_start(work->spheres, part, parts);
-    memset(work->list->is_shared + from, 0, part_start(work->spheres, part + 1, parts) - from);
-}
-
-/* Whom a part's pairs have that is another part's own: contacts' second spheres lie behind the first. */
-static void shared_mark(void *context, int part, int parts)
-{
-    (void)parts;
-    const share_work *const work = context;
     neighbor_list *const list = work->list;
-    const size_t begin = list->part_begins[part], end = list->part_begins[part + 1];
-    for (size_t k = list->part_blocks[part] * BLOCK; k < end_of_part(list, part); k++) {
-        const size_t i = (size_t)list->pairs.first[k], j = (size_t)list->pairs.second[k];
-        /* several parts may mark one and the same */
-        if (i < begin) __atomic_store_n(&list->is_shared[i], 1, __ATOMIC_RELAXED);
-        if (j < work->spheres && j >= end) __atomic_store_n(&list->is_shared[j], 1, __ATOMIC_RELAXED);
-    }
-}
-
-static void shared_find(void *context, int part, int parts)
-{
-    (void)parts;
-    share_work *const work = context;
-    neighbor_list *const list = work->list;
-    size_t next = list->part_begins[part], ends = 0;
-    for (size_t i = list->part_begins[part]; i < list->part_begins[part + 1]; i++)
-        if (list->is_shared[i]) list->shared[next++] = (int32_t)i;
-    for (size_t k = list->part_blocks[part] * BLOCK; k < end_of_part(list, part); k++) {
-        const size_t j = (size_t)list->pairs.second[k];
-        ends += list->is_shared[list->pairs.first[k]] + (j < work->spheres ? list->is_shared[j] : 0u);
-    }
-    work->shared[part] = next - list->part_begins[part];
-    work->ends[part] = ends;
-}
-
-static void later_fill(void *context, int part, int parts)
-{
-    (void)parts;
-    const share_work *const work = context;
-    neighbor_list *const list = work->list;
-    size_t at = list->part_later[part];
-    for (size_t k = list->part_blocks[part] * BLOCK; k < end_of_part(list, part); k++)
-        for (size_t end = 2 * k; end < 2 * k + 2; end++) {
-            const int32_t i = end % 2 ? list->pairs.second[k] : list->pairs.first[k];
-            if ((size_t)i >= work->spheres || !list->is_shared[i]) continue;
-            list->later[at] = i;
-            list->later_end[at++] = (uint32_t)end;
+    real *to[CONTACT_NUMBERS], *from[CONTACT_NUMBERS];
+    const int numbers = work->same_outer ? contact_list_memory(&list->pairs, to) : 0;
+    contact_list_memory(&list->pairs_before, from);
+    size_t at = work->now[part], old = work->was[part];
+    /* Vectors are written whole, also where only the first lanes count: the last ones, which reach into the next part, aside. */
+    real aside[CONTACT_NUMBERS][LANES];
+    int32_t first_aside[LANES], second_aside[LANES];
+    const size_t end = begin_of_groups(work, part + 1, parts);
+    for (size_t g = begin_of_groups(work, part, parts); g < end; g++) {
+        const uint32_t now = list->in_reach[g], was = list->was_in_reach[g];
+        const size_t count = (size_t)__builtin_popcount(now);
+        const bool is_aside = part + 1 < parts && at + LANES > work->now[part + 1];
+        for (int m = 0; m < numbers; m++) wide_carry(is_aside ? aside[m] : to[m] + at, now, from[m] + old, was);
+        wide_compress(is_aside ? second_aside : list->pairs.second + at, now, list->second + g * LANES);
+        wide_compress(is_aside ? first_aside : list->pairs.first + at, now, list->first + g * LANES);
+        for (int m = 0; is_aside && m < numbers; m++) memcpy(to[m] + at, aside[m], count * sizeof *to[m]);
+        if (is_aside) {
+            memcpy(list->pairs.second + at, second_aside, count * sizeof *second_aside);
+            memcpy(list->pairs.first + at, first_aside, count * sizeof *first_aside);
         }
-}
-
-static dem_status parts_share(neighbor_list *list, spheres *s, int threads)
-{
-    const size_t n = s->mobile_count, behind = n + MOST_PARTS;
-    parts_begin(list, n, team_parts(threads));
-    const int parts = list->parts;
-    share_work work = { .list = list, .spheres = n };
-    if (parts > 1) {
-        if (shared_reserve(list) != DEM_OK) return DEM_NO_MEMORY;
-        team_run(parts, shared_clear, &work);
-        team_run(parts, shared_mark, &work);
-        team_run(parts, shared_find, &work);
+        at += count;
+        old += (size_t)__builtin_popcount(was);
     }
-    list->shared_count = starts_of_parts(work.shared, parts);
-    list->later_count = starts_of_parts(work.ends, parts);
-    memcpy(list->part_shared, work.shared, sizeof list->part_shared);
-    memcpy(list->part_later, work.ends, sizeof list->part_later);
-    if (later_reserve(list, list->later_count) != DEM_OK || spheres_reserve_loads(s, behind + list->later_count) != DEM_OK)
-        return DEM_NO_MEMORY;
-    if (parts == 1) return DEM_OK;
-    for (int p = 0; p < parts; p++) /* each part found its own where its spheres begin: one after the other now */
-        memmove(list->shared + list->part_shared[p], list->shared + list->part_begins[p],
-                (list->part_shared[p + 1] - list->part_shared[p]) * sizeof *list->shared);
-    team_run(parts, later_fill, &work);
-    return DEM_OK;
 }
 
-/* What the contacts of the lists at hand need, of a part. */
-static void complete_contacts(void *context, int part, int parts)
+/* A part's contacts with walls. */
+static void fill_walls(const pick_work *work, int part, int parts)
+{
+    neighbor_list *const list = work->list;
+    const spheres *const s = work->spheres;
+    const size_t from = begin_of_part(list, s, part, parts), to = begin_of_part(list, s, part + 1, parts);
+    const uint32_t before = (uint32_t)work->walls[part];
+    for (size_t i = from, slot = before; i < to; i++) {
+        const size_t end = list->wall_start[i + 1] += before;
+        if (slot < end) wall_reach_fill(&list->walls, slot, end, s, work->drum, work->ahead, i);
+        slot = end;
+    }
+    contact_list_carry(&list->walls, &list->walls_before, work->walls[part], work->walls[part + 1]);
+}
+
+/* The lists at hand, of a part. */
+static void make_contacts(void *context, int part, int parts)
 {
     const pick_work *const work = context;
     neighbor_list *const list = work->list;
-    const size_t count = list->pairs.count, first = part_start(count, part, parts), end = part_start(count, part + 1, parts);
-    if (list->pairs.constants == CONSTANTS_OF_EACH) describe_pairs(&list->pairs, work->spheres, work->contact, first, end);
+    const spheres *const s = work->spheres;
+    const size_t first = work->now[part], end = work->now[part + 1];
+    pick_pairs(work, part, parts);
+    if (list->pairs.constants == CONSTANTS_OF_EACH) describe_pairs(&list->pairs, s, work->contact, first, end);
     if (!work->same_outer) contact_list_carry(&list->pairs, &list->pairs_before, first, end);
-    const uint32_t *start = list->wall_start;
-    const size_t n = work->spheres->mobile_count, from = part_start(n, part, parts), to = part_start(n, part + 1, parts);
-    for (size_t i = from; i < to; i++)
-        if (start[i] < start[i + 1])
-            wall_reach_fill(&list->walls, start[i], start[i + 1], work->spheres, work->drum, work->ahead, i);
-    contact_list_carry(&list->walls, &list->walls_before, start[from], start[to]);
+    fill_walls(work, part, parts);
+    if (part + 1 < parts) return;
+    contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s));
+    contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
 }
 
 static dem_status inner_pick(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
                              double duration, int threads)
 {
-    const size_t n = s->mobile_count;
     const int parts = team_parts(threads);
     pick_work work = { .list = list, .spheres = s, .drum = drum, .contact = contact, .ahead = { duration, list->margin } };
     work.same_outer = list->picked_of == list->outer_builds;
@@ -600,29 +499,26 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     team_run(parts, mark_in_reach, &work);
     const size_t count = starts_of_parts(work.now, parts);
     starts_of_parts(work.was, parts);
-    starts_from_counts(list->wall_start, n);
+    const size_t wall_count = starts_of_parts(work.walls, parts);
+    list->wall_start[0] = 0;
     /* whole vectors are read and written, also at the end */
-    if (contact_list_reserve(&list->pairs, count + LANES) != DEM_OK
-        || contact_list_reserve(&list->walls, list->wall_start[n]) != DEM_OK) {
+    if (contact_list_reserve(&list->pairs, count + LANES) != DEM_OK || contact_list_reserve(&list->walls, wall_count) != DEM_OK) {
         contact_list_swap(&list->pairs, &list->pairs_before); /* what contacts remember is there */
         contact_list_swap(&list->walls, &list->walls_before);
         return DEM_NO_MEMORY;
     }
     list->pairs.count = count;
-    list->walls.count = list->wall_start[n];
-    team_run(parts, pick_pairs, &work);
-    team_run(parts, complete_contacts, &work);
+    list->walls.count = wall_count;
+    team_run(parts, make_contacts, &work);
     if (list->pairs.constants == CONSTANTS_OF_ALL) describe_all_pairs(&list->pairs, s, contact);
     list->picked_of = list->outer_builds;
-    contact_list_pad(&list->pairs, sphere_of_zeros(s), sphere_far_away(s));
-    contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
     list->strayed = s->lining_count ? 0.5 * drum->rotation_rate * drum->rotation_rate * drum->radius * duration * duration : 0.0;
     list->steps_since_pick = 0;
     list->inner_valid = true;
     list->inner_picks++;
     const dem_status status = wall_rows_reserve(list);
-    return status == DEM_OK ? parts_share(list, s, threads) : status;
+    return status == DEM_OK ? contact_parts_deal(&list->parts, &list->pairs, list->wall_start, s, threads) : status;
 }
 
 /* What spheres would stray in a whole horizon if they go on as since the last pick, and a fifth more: a wider margin lists

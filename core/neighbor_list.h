@@ -8,9 +8,8 @@
 #define NEIGHBOR_LIST_H
 
 #include "cell_grid.h"
-#include "contact_list.h"
+#include "contact_parts.h"
 #include "container.h"
-#include "team.h"
 
 enum { HORIZON = 16 }; /* steps between two picks of the inner list, at most */
 
@@ -34,8 +33,7 @@ typedef struct neighbor_list {
     /* inner */
     double margin; /* m: how far a sphere may stray from its straight path before the next pick */
     double least_margin, most_margin;
-    double strayed; /* m: bound on how far any sphere has, since the pick */
-    int steps_since_pick, safe_steps;
+    int safe_steps;
     double turned_at_build; /* rad: the drum's angle when the outer list was made */
     bool inner_valid;
     half_row *picked_velocity; /* (mobile) m/s at the pick */
@@ -43,26 +41,14 @@ typedef struct neighbor_list {
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
     uint32_t *wall_start;             /* (mobile + 1) where each sphere's begin in `walls` */
     contact_row *wall_rows;           /* of the walls' contacts */
+    double *wall_torques;             /* N m about the axis, of each on its sphere (contact_forces_with_walls) */
     size_t wall_row_capacity;
-    /* Blocks of pairs are dealt out to as many parts as there are threads, and each part sums the forces on its own spheres.
-     * Of a sphere that has contacts in several, each force has a load of its own; these are summed afterwards. Loads: of
-     * the mobile spheres, then one for each part's forces on others (which nobody reads), then `later`. */
-    int parts;
-    size_t part_blocks[MOST_PARTS + 1]; /* the first block of each part */
-    size_t part_begins[MOST_PARTS + 1]; /* the first sphere of each part's own */
-    size_t part_shared[MOST_PARTS + 1]; /* the first of them in `shared` */
-    int32_t *shared;                    /* (mobile) spheres with contacts in several parts, ascending; NULL before there are */
-    uint8_t *is_shared;                 /* (mobile) likewise */
-    size_t most_spheres;                /* mobile ones that there will ever be */
-    size_t shared_count;
-    size_t part_later[MOST_PARTS + 1]; /* the first of its pairs' ends in `later` */
-    /* (later_count) whose the loads behind the others are, in the order of the list, and which end of which pair they get:
-     * twice the pair, 1 more for the second end */
-    int32_t *later;
-    uint32_t *later_end;
-    size_t later_count, later_capacity;
+    contact_parts parts; /* of the pairs */
     int64_t outer_builds, inner_picks;
     int64_t picked_of; /* outer_builds at the last pick */
+    /* written in each step, apart from what all threads read */
+    _Alignas(ALIGNMENT) double strayed; /* m: bound on how far any sphere has, since the pick */
+    int steps_since_pick;
 } neighbor_list;
 
 /* has_rolling: contacts resist rolling. */

@@ -26,6 +26,7 @@ struct dem_scene {
     dem_drum_definition definition;
     dem_contact_parameters contact; /* those of the present phase: friction waits until spheres have grown */
     container drum;
+    leap_frog leap; /* of the present step */
     spheres spheres;
     neighbor_list neighbors;
     filling filling;

@@ -191,6 +191,7 @@ static void restore_spheres(dem_scene *scene, const double *position, const doub
         sphere_set(s, i, (vector4){ x[0], x[1], x[2] }, (vector4){ v[0], v[1], v[2] }, (vector4){ w[0], w[1], w[2] });
         s->fallen_time[i] = (float)fallen[i];
     }
+    memset(s->load, 0, s->load_count * sizeof *s->load);
 }
 
 static void restore_clusters(clusters *c, const double *numbers)

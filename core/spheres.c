@@ -35,11 +35,14 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->lining_count = lining_count;
     s->are_many = n >= MANY;
     const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
-    s->row = array_create(all + 2, sizeof *s->row);
+    s->row_count = s->first_copy = all + 2;
+    s->row = array_create(s->row_count, sizeof *s->row);
     s->place = array_create(all + 2, sizeof *s->place);
     s->id = array_create(n, sizeof *s->id);
     s->species = array_create(n, sizeof *s->species);
     s->full_radius = array_create(all, sizeof *s->full_radius);
+    s->load_count = n + LOADS_OF_NOBODY;
+    s->load = array_create(s->load_count, sizeof *s->load);
     s->velocity = array_create(n, sizeof *s->velocity);
     s->angular_velocity = array_create(n, sizeof *s->angular_velocity);
     s->inverse_mass = array_create(definition->species_count, sizeof *s->inverse_mass);
@@ -48,8 +51,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->surface_track = array_create(n, sizeof *s->surface_track);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
     if (status != DEM_OK || !s->row || !s->place || !s->id || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity
-        || spheres_reserve_loads(s, n) != DEM_OK || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->surface_track
-        || !s->lining_place) {
+        || !s->load || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->surface_track || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }
@@ -97,22 +99,23 @@ void spheres_pad(spheres *s)
     sphere_row_store(&s->row[sphere_far_away(s)], half_way_round, nothing, nothing);
 }
 
-dem_status spheres_reserve_loads(spheres *s, size_t count)
+dem_status spheres_reserve_copies(spheres *s, size_t count)
 {
-    if (count > s->load_count) {
-        row8 *load = array_create(count + count / 8, sizeof *load);
-        if (!load) return DEM_NO_MEMORY;
-        free(s->load);
-        s->load = load;
-        s->load_count = count + count / 8;
-    }
-    memset(s->load, 0, s->load_count * sizeof *s->load);
+    if (s->first_copy + count <= s->row_count) return DEM_OK;
+    const size_t rows = s->first_copy + count + count / 4;
+    sphere_row *row = array_create(rows, sizeof *row);
+    if (!row) return DEM_NO_MEMORY;
+    memcpy(row, s->row, s->first_copy * sizeof *row);
+    free(s->row);
+    s->row = row;
+    s->row_count = rows;
     return DEM_OK;
 }
 
 void spheres_set_scale(spheres *s, double scale)
 {
     s->scale = scale;
+    s->copies_hold = false;
     for (size_t i = 0; i < s->mobile_count; i++) {
         sphere_row *row = &s->row[i];
         row->radius = (real)(scale * (double)s->full_radius[i]);

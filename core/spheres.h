@@ -6,6 +6,7 @@
 #define SPHERES_H
 
 #include "cluster.h"
+#include "team.h"
 
 /* What a contact reads of a sphere: one cache line in single precision, in quarters. wide.h reads rows by this order. */
 typedef struct sphere_row {
@@ -38,9 +39,10 @@ typedef struct surface_track {
 
 typedef struct spheres {
     size_t mobile_count, lining_count;
-    size_t single_count;       /* of the mobile: particles by themselves */
-    clusters clusters;         /* the bodies that the other mobile spheres make up */
-    sphere_row *row;           /* (mobile + lining + 2) */
+    size_t single_count; /* of the mobile: particles by themselves */
+    clusters clusters;   /* the bodies that the other mobile spheres make up */
+    sphere_row *row;     /* (row_count) of mobile and lining and two; from first_copy on, of some again (contact_parts.h) */
+    size_t row_count, first_copy;
     vector4 *place;            /* (mobile + lining + 2) m, z within one period */
     double ring_units;         /* 1/m: of a row's place */
     int32_t *id;               /* (mobile) which sphere of the definition's it is, wherever it is in memory */
@@ -50,7 +52,7 @@ typedef struct spheres {
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
     row8 *load;                /* (load_count) force N, torque N m about the centre, 0, 0: contacts only.
                                                  * Zeros but between the forces and the motion. Behind those of the
-                                                 * mobile ones are more, which serve the sums or nobody (neighbor_list.h) */
+                                                 * mobile ones are some that nobody reads */
     size_t load_count;
     double *inverse_mass;                       /* (species) 1/kg, of a particle */
     double *inverse_inertia;                    /* (species) 1/(kg m2), of those that are spheres by themselves */
@@ -61,6 +63,9 @@ typedef struct spheres {
     double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */
     bool are_many;                              /* for the cache: it pays to send for what comes next */
     double scale;                               /* share of full size that the mobile spheres have now */
+    /* written in each step, apart from what all threads read */
+    _Alignas(ALIGNMENT) int copies_turn; /* 0, 1: which of the two copies of a row is read next */
+    bool copies_hold;                    /* it is that of the rows of now */
 } spheres;
 
 dem_status spheres_init(spheres *spheres, const dem_drum_definition *definition, size_t lining_count);
@@ -72,6 +77,7 @@ static inline void sphere_set(spheres *s, size_t i, vector4 x, vector4 v, vector
 {
     s->place[i] = x;
     if (i < s->mobile_count) {
+        s->copies_hold = false;
         s->velocity[i] = v;
         s->angular_velocity[i] = omega;
     }
@@ -124,8 +130,11 @@ size_t species_particles(const dem_drum_definition *definition, size_t species);
 /* Before any place is set: rows tell places apart modulo a length, the period along z (m; 0: none) or a whole part of it or
  * some diameters. */
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
-/* Room for as many loads, all zeros. */
-dem_status spheres_reserve_loads(spheres *spheres, size_t count);
+/* The first of a part's loads for what concerns nobody: no two parts write to one line of memory. */
+enum { LOADS_A_PART = 8, LOADS_OF_NOBODY = LOADS_A_PART * (MOST_PARTS + 1) };
+static inline size_t loads_of_nobody(const spheres *s, int part) { return s->load_count - LOADS_A_PART * (size_t)(part + 1); }
+/* Room for as many rows behind the others. */
+dem_status spheres_reserve_copies(spheres *spheres, size_t count);
 void spheres_pad(spheres *spheres); /* the last two rows, also after a change of the counts */
 /* Radii of the mobile spheres at `scale` of their full size, in the rows. */
 void spheres_set_scale(spheres *spheres, double scale);

@@ -45,8 +45,7 @@ static void look_at_torque(dem_scene *scene, bool has_loads)
 {
     const bool is_due = torque_is_due(scene), is_lined = scene->spheres.lining_count > 0;
     if (is_lined != has_loads || (!is_due && !(scene->audit.is_on && scene->phase == DEM_PHASE_ROTATING))) return;
-    const double torque =
-        is_lined ? energy_torque_of_loads(&scene->spheres) : energy_torque_of_walls(&scene->neighbors.walls, &scene->spheres);
+    const double torque = is_lined ? energy_torque_of_loads(&scene->spheres) : wall_torque(&scene->neighbors);
     if (scene->audit.is_on) scene->audit.wall_work += scene->definition.time_step * scene->drum.rotation_rate * torque;
     if (!is_due) return;
     scene->torque.sum += torque;
@@ -161,12 +160,12 @@ dem_status scene_step(dem_scene *scene)
     dem_status status = sorting_look(scene) == DEM_OK ? step_neighbors(scene) : failure_of_memory(scene);
     if (status != DEM_OK) return status;
     const body_forces body = forces_of_phase(scene);
-    const leap_frog leap = integrator_leap(&scene->spheres, &scene->drum, &body, dt);
+    integrator_leap(&scene->leap, &scene->spheres, &scene->drum, &body, dt);
     const bool looks = scene->profile || scene->audit.is_on || (torque_is_due(scene) && scene->spheres.lining_count > 0);
     vector4 so_far = { 0 };
-    status = step_contacts(scene, looks ? NULL : &leap, &so_far);
+    status = step_contacts(scene, looks ? NULL : &scene->leap, &so_far);
     if (status != DEM_OK) return status;
-    const double deviation = step_motion(scene, &leap, looks ? 0 : scene->spheres.single_count, so_far);
+    const double deviation = step_motion(scene, &scene->leap, looks ? 0 : scene->spheres.single_count, so_far);
     neighbor_list_step_done(&scene->neighbors, deviation, dt);
     lost_hold(scene);
     scene->step_count++;

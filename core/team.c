@@ -11,13 +11,17 @@ typedef struct turn {
     _Alignas(CACHE_LINE) atomic_uint_fast64_t count;
 } turn;
 
-typedef struct team {
-    int members, spins;
-    /* the work at hand; NULL: there will be no more */
+typedef struct work_given {
+    _Alignas(CACHE_LINE) atomic_uint_fast64_t count; /* how many pieces there have been */
+    /* the one at hand, in the line of memory that all look at; NULL: there will be no more */
     team_work *work;
     void *context;
     int parts;
-    turn given;              /* how many pieces of work there have been */
+} work_given;
+
+typedef struct team {
+    int members, spins;
+    work_given given;
     turn done[MOST_MEMBERS]; /* how many of these each member has done its parts of */
 } team;
 
@@ -25,9 +29,9 @@ typedef struct team {
 static _Thread_local team *led;
 
 /* Others come within a microsecond or two while they have a processor each; else somebody needs this one. */
-static void wait_for(const turn *t, uint_fast64_t count, int spins)
+static void wait_for(const atomic_uint_fast64_t *turns, uint_fast64_t count, int spins)
 {
-    while (atomic_load_explicit(&t->count, memory_order_acquire) < count) {
+    while (atomic_load_explicit(turns, memory_order_acquire) < count) {
         if (spins-- > 0) __builtin_ia32_pause();
         else sched_yield();
     }
@@ -35,14 +39,14 @@ static void wait_for(const turn *t, uint_fast64_t count, int spins)
 
 static void take_parts(const team *t, int member)
 {
-    for (int part = member; part < t->parts; part += t->members) t->work(t->context, part, t->parts);
+    for (int part = member; part < t->given.parts; part += t->members) t->given.work(t->given.context, part, t->given.parts);
 }
 
 static void follow(team *t, int member)
 {
     for (uint_fast64_t count = 1;; count++) {
-        wait_for(&t->given, count, t->spins);
-        if (!t->work) return;
+        wait_for(&t->given.count, count, t->spins);
+        if (!t->given.work) return;
         take_parts(t, member);
         atomic_store_explicit(&t->done[member].count, count, memory_order_release);
     }
@@ -51,9 +55,9 @@ static void follow(team *t, int member)
 /* Returns how many pieces of work there have been. */
 static uint_fast64_t give(team *t, int parts, team_work *work, void *context)
 {
-    t->work = work;
-    t->context = context;
-    t->parts = parts;
+    t->given.work = work;
+    t->given.context = context;
+    t->given.parts = parts;
     const uint_fast64_t count = atomic_load_explicit(&t->given.count, memory_order_relaxed) + 1;
     atomic_store_explicit(&t->given.count, count, memory_order_release);
     return count;
@@ -68,7 +72,7 @@ void team_run(int parts, team_work *work, void *context)
     }
     const uint_fast64_t count = give(t, parts, work, context);
     take_parts(t, 0);
-    for (int member = 1; member < t->members; member++) wait_for(&t->done[member], count, t->spins);
+    for (int member = 1; member < t->members; member++) wait_for(&t->done[member].count, count, t->spins);
 }
 
 dem_status team_gather(int threads, dem_status (*lead)(void *context), void *context)

@@ -75,17 +75,82 @@ static void gather(contact_block *restrict block, const contact_list *walls, siz
     }
 }
 
-void contact_forces_with_walls_of_block(neighbor_list *list, size_t start, const spheres *s, const container *c,
-                                        const dem_contact_parameters *contact, double dt, wide *largest)
+/* The contacts from start on, a block of a list. */
+static void block_of_walls(contact_list *walls, size_t start, const spheres *s, const container *c,
+                           const dem_contact_parameters *contact, double dt, wide *largest)
 {
-    contact_list *const walls = &list->walls;
-    for (size_t k = start + BLOCK; s->are_many && k < start + 2 * BLOCK && k < walls->count; k++)
-        __builtin_prefetch(&s->place[walls->first[k]], 1); /* rows come with the pairs' */
     contact_block block;
     gather(&block, walls, start, s, c);
     if (walls->has_rolling) gather_spins(&block, walls, start, s, c);
     contact_block_forces(walls, start, &block, contact, true, dt, largest);
     for (int k = 0; k < BLOCK; k++) walls->row[start + (size_t)k] = block.row[(k & -LANES) | wide_row_slot(k & (LANES - 1))];
+}
+
+/* A list of one block, with some contacts of another at its front. */
+typedef struct contacts_aside {
+    int32_t first[BLOCK], second[BLOCK];
+    real memory[CONTACT_NUMBERS][BLOCK], constant[4][BLOCK];
+    contact_row row[BLOCK];
+    contact_list list;
+} __attribute__((aligned(ALIGNMENT))) contacts_aside;
+
+static void set_aside(contacts_aside *aside, const contact_list *walls, size_t from, size_t to)
+{
+    contact_list *const list = &aside->list;
+    memset(aside->memory, 0, sizeof aside->memory);
+    memset(aside->constant, 0, sizeof aside->constant);
+    *list = (contact_list){ .has_rolling = walls->has_rolling,
+                            .constants = CONSTANTS_OF_EACH,
+                            .count = to - from,
+                            .capacity = BLOCK,
+                            .first = aside->first,
+                            .second = aside->second,
+                            .t = { aside->memory[0], aside->memory[1], aside->memory[2] },
+                            .t_star = aside->memory[3],
+                            .alpha_0 = aside->memory[4],
+                            .roll = { aside->memory[5], aside->memory[6], aside->memory[7] },
+                            .constant_capacity = BLOCK,
+                            .friction = aside->constant[0],
+                            .first_radius = aside->constant[1],
+                            .mass = aside->constant[2],
+                            .rolling_friction = aside->constant[3],
+                            .ends_differ = walls->ends_differ,
+                            .row = aside->row };
+    const real *const constant[] = { walls->friction, walls->first_radius, walls->mass, walls->rolling_friction };
+    real *memory[CONTACT_NUMBERS];
+    const int numbers = contact_list_memory(walls, memory), constants = walls->has_rolling ? 4 : 3;
+    for (int m = 0; m < numbers; m++) memcpy(aside->memory[m], memory[m] + from, (to - from) * sizeof(real));
+    for (int m = 0; m < constants; m++) memcpy(aside->constant[m], constant[m] + from, (to - from) * sizeof(real));
+    for (size_t k = 0; k < BLOCK; k++) { /* behind its own nobody's, at a place that there is */
+        aside->first[k] = walls->first[k < to - from ? from + k : from];
+        aside->second[k] = walls->second[k < to - from ? from + k : from];
+    }
+}
+
+/* What they remember now, and their rows. */
+static void take_back(const contacts_aside *aside, contact_list *walls, size_t from)
+{
+    real *memory[CONTACT_NUMBERS];
+    const int numbers = contact_list_memory(walls, memory);
+    const size_t count = aside->list.count;
+    for (int m = 0; m < numbers; m++) memcpy(memory[m] + from, aside->memory[m], count * sizeof(real));
+    memcpy(walls->row + from, aside->row, count * sizeof *aside->row);
+}
+
+void contact_forces_with_some_walls(neighbor_list *list, size_t from, size_t to, const spheres *s, const container *c,
+                                    const dem_contact_parameters *contact, double dt, wide *largest)
+{
+    contact_list *const walls = &list->walls;
+    for (size_t k = from + BLOCK; s->are_many && k < from + 2 * BLOCK && k < walls->count; k++)
+        __builtin_prefetch(&s->place[walls->first[k]], 1); /* rows come with the pairs' */
+    if (from % BLOCK == 0 && (to == from + BLOCK || to == walls->count)) {
+        block_of_walls(walls, from, s, c, contact, dt, largest);
+        return;
+    }
+    contacts_aside aside;
+    set_aside(&aside, walls, from, to);
+    block_of_walls(&aside.list, 0, s, c, contact, dt, largest);
+    take_back(&aside, walls, from);
 }
 
 typedef struct wall_work {
@@ -103,11 +168,16 @@ static void walls_of_part(void *context, int part, int parts)
     (void)parts;
     wall_work *const work = context;
     neighbor_list *const list = work->list;
-    const size_t from = round_up_to_block(list->wall_start[list->part_begins[part]]);
-    const size_t to = round_up_to_block(list->wall_start[list->part_begins[part + 1]]);
+    const size_t from = round_up_to_block(list->wall_start[list->parts.sphere[part]]);
+    const size_t to = round_up_to_block(list->wall_start[list->parts.sphere[part + 1]]);
     wide largest = wide_all(0);
     for (size_t start = from; start < to; start += BLOCK)
-        contact_forces_with_walls_of_block(list, start, work->spheres, work->container, work->contact, work->dt, &largest);
+        block_of_walls(&list->walls, start, work->spheres, work->container, work->contact, work->dt, &largest);
+    for (size_t k = from; k < to && k < list->walls.count; k++) {
+        const double *x = sphere_place(work->spheres, (size_t)list->walls.first[k]);
+        const contact_row row = list->walls.row[k];
+        list->wall_torques[k] = x[0] * (double)row[1] - x[1] * (double)row[0] + (double)row[5];
+    }
     work->largest[part] = wide_largest_lane(largest);
 }
 
@@ -116,10 +186,17 @@ double contact_forces_with_walls(neighbor_list *list, const spheres *s, const co
 {
     wall_work work;
     work.list = list, work.spheres = s, work.container = c, work.contact = contact, work.dt = dt;
-    team_run(list->parts, walls_of_part, &work);
+    team_run(list->parts.count, walls_of_part, &work);
     double largest = 0.0;
-    for (int part = 0; part < list->parts; part++) largest = fmax(largest, work.largest[part]);
+    for (int part = 0; part < list->parts.count; part++) largest = fmax(largest, work.largest[part]);
     return largest;
+}
+
+double wall_torque(const neighbor_list *list)
+{
+    double torque = 0.0;
+    for (size_t k = 0; k < list->walls.count; k++) torque += list->wall_torques[k];
+    return torque;
 }
 
 wall_load wall_load_of(const contact_list *walls, size_t slot, const spheres *s, const container *c)

@@ -5,14 +5,18 @@
 
 #include "neighbor_list.h"
 
-/* At the positions of this step, each contact into its own row of the list of walls; updates what contacts remember. dt: s,
- * the step since the last call. Returns the largest overlap, m. */
+/* At the positions of this step, each contact into its own row of the list of walls, and its torque; updates what contacts
+ * remember. dt: s, the step since the last call. Returns the largest overlap, m. */
 double contact_forces_with_walls(neighbor_list *list, const spheres *spheres, const container *container,
                                  const dem_contact_parameters *contact, double dt);
 
-/* The same of the contacts from `start` on, a whole block. largest: m, the largest overlaps so far. */
-void contact_forces_with_walls_of_block(neighbor_list *list, size_t start, const spheres *spheres, const container *container,
-                                        const dem_contact_parameters *contact, double dt, wide *largest);
+/* N m about the axis, of all walls on the bed, as contact_forces_with_walls left it; positive turns counter-clockwise. */
+double wall_torque(const neighbor_list *list);
+
+/* contact_forces_with_walls, torques apart, of the contacts from..to-1, which are all in one block; nobody reads or writes others. largest: m, the largest
+ * overlaps so far. */
+void contact_forces_with_some_walls(neighbor_list *list, size_t from, size_t to, const spheres *spheres, const container *container,
+                                    const dem_contact_parameters *contact, double dt, wide *largest);
 
 /* What a contact does to the container. True only between contact_forces_with_walls and the move that follows: then
  * spheres and walls are still where the forces were computed. */

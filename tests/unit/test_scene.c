@@ -94,6 +94,49 @@ static void a_run_gives_the_same_bits_for_any_number_of_threads(void **unused)
     dem_scene_free(bed);
 }
 
+/* A large sphere, first in memory, among small ones that press on it from all sides, more than a block of contacts has: where
+ * parts are many, some begin and end within these and have contacts but no sphere. */
+static dem_scene *besieged_sphere(int threads)
+{
+    enum { SMALL = 300, ALL = 1 + SMALL };
+    dem_drum_definition d = hand_definition(ALL);
+    d.species[0].diameter = 0.04;
+    first_sphere_differs(&d, (dem_species){ .diameter = 0.004, .density = 2500 });
+    d.threads = threads;
+    double position[ALL][3] = { { 0.05 } }, velocity[ALL][3] = { { 0 } }, spin[ALL][3] = { { 0, 0, 3 } };
+    for (int k = 1; k < ALL; k++) {
+        const double z = (2 * k - 1.0) / SMALL - 1, turn = 2.399963229728653 * k, rho = sqrt(1 - z * z); /* golden angle */
+        const double n[3] = { rho * cos(turn), rho * sin(turn), z };
+        for (int c = 0; c < 3; c++) {
+            position[k][c] = position[0][c] + 0.02199 * n[c];
+            velocity[k][c] = -0.02 * n[c];
+        }
+        spin[k][k % 3] = 5;
+    }
+    dem_scene *scene = weightless_scene(&d);
+    place_by_hand(
+        scene,
+        &(placement){ .phase = DEM_PHASE_ROTATING, .position = &position[0][0], .velocity = &velocity[0][0], .spin = &spin[0][0] });
+    return scene;
+}
+
+static void parts_smaller_than_one_spheres_contacts_give_the_same_bits(void **unused)
+{
+    (void)unused;
+    dem_scene *one = besieged_sphere(1);
+    size_t of_the_large = 0;
+    for (size_t k = 0; k < one->neighbors.pairs.count; k++) of_the_large += one->neighbors.pairs.first[k] == 0;
+    assert_true(of_the_large > 2 * BLOCK);
+    run(one, 200);
+    for (int threads = 2; threads <= 64; threads *= 2) {
+        dem_scene *several = besieged_sphere(threads);
+        run(several, 200);
+        if (!are_equal(one, several)) fail_msg("%d threads differ from one", threads);
+        dem_scene_free(several);
+    }
+    dem_scene_free(one);
+}
+
 /* ---- save and restore ---- */
 
 /* A new scene that goes on from where `scene` is. */
@@ -400,6 +443,7 @@ int main(int count, char **arguments)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_run_gives_the_same_bits_for_any_division_into_calls),
         cmocka_unit_test(a_run_gives_the_same_bits_for_any_number_of_threads),
+        cmocka_unit_test(parts_smaller_than_one_spheres_contacts_give_the_same_bits),
         cmocka_unit_test(a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit),
         cmocka_unit_test(what_measuring_noted_of_the_particles_is_saved_too),
         cmocka_unit_test(a_run_saved_at_the_very_change_of_phase_goes_on_bit_for_bit),
