@@ -212,31 +212,32 @@ static void find_rows(const deal_work *work, int part, const contact_list *list,
     }
 }
 
-/* Of each of the contacts that earlier parts have and this has a sphere in. */
-static void copy_contacts(const deal_work *work, int part, contact_list *to)
+/* Of each of the contacts that earlier parts have and this has a sphere in; to: NULL: they are counted alone. Returns how many. */
+static size_t copy_contacts(const deal_work *work, int part, contact_list *to)
 {
     const contact_list *const pairs = work->pairs;
-    to->count = 0;
+    size_t count = 0;
     for (int before = 0; before < part; before++) {
         const contact_part *const other = &work->parts->part[before];
         for (size_t c = 0; c < other->across_count; c++) {
             const size_t block = other->across[c];
-            for (size_t k = block * BLOCK; k < end_of_block(pairs, block); k++)
-                if (is_own(work->parts, part, pairs->first[k]) || is_own(work->parts, part, pairs->second[k]))
-                    contact_list_copy(to, to->count++, pairs, k);
+            for (size_t k = block * BLOCK; k < end_of_block(pairs, block); k++) {
+                if (!is_own(work->parts, part, pairs->first[k]) && !is_own(work->parts, part, pairs->second[k])) continue;
+                if (to) contact_list_copy(to, count, pairs, k);
+                count++;
+            }
         }
     }
+    return count;
 }
 
 static dem_status make_copies(const deal_work *work, int part)
 {
     contact_part *const own = &work->parts->part[part];
     const spheres *const s = work->spheres;
-    size_t most = 0;
-    for (int before = 0; before < part; before++) most += BLOCK * work->parts->part[before].across_count;
-    if (contact_list_reserve(&own->copies, most) != DEM_OK) return DEM_NO_MEMORY;
-    copy_contacts(work, part, &own->copies);
-    const size_t blocks = round_up_to_block(own->copies.count) / BLOCK;
+    const size_t count = copy_contacts(work, part, NULL), blocks = round_up_to_block(count) / BLOCK;
+    if (contact_list_reserve(&own->copies, count) != DEM_OK) return DEM_NO_MEMORY;
+    own->copies.count = copy_contacts(work, part, &own->copies);
     if (rows_reserve(own, own->across_count + blocks) != DEM_OK) return DEM_NO_MEMORY;
     for (size_t c = 0; c < own->across_count; c++) find_rows(work, part, work->pairs, own->across[c], &own->rows[c]);
     contact_list_pad(&own->copies, sphere_of_zeros(s), sphere_far_away(s));

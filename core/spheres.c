@@ -41,7 +41,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->id = array_create(n, sizeof *s->id);
     s->species = array_create(n, sizeof *s->species);
     s->full_radius = array_create(all, sizeof *s->full_radius);
-    s->load_count = n + LOADS_OF_NOBODY;
+    s->load_count = n + n % 2 + LOADS_OF_NOBODY; /* two to a line */
     s->load = array_create(s->load_count, sizeof *s->load);
     s->velocity = array_create(n, sizeof *s->velocity);
     s->angular_velocity = array_create(n, sizeof *s->angular_velocity);
