@@ -305,7 +305,7 @@ double contact_forces_between_spheres(neighbor_list *list, spheres *s, const con
     double largest = 0.0;
     *strayed = (vector4){ 0 };
     for (int part = 0; part < list->parts.count; part++) {
-        contact_parts_took(&list->parts, part, work.part[part].ticks);
+        list->parts.part[part].took += (double)work.part[part].ticks;
         largest = fmax(largest, work.part[part].largest);
         *strayed = vector4_greater_size(*strayed, work.part[part].strayed);
     }

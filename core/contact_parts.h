@@ -23,7 +23,7 @@ typedef struct contact_part {
     contact_list copies; /* of contacts that earlier parts have and remember */
     block_rows *rows;    /* (rows_capacity) of the blocks across, then of the copies' */
     size_t rows_capacity;
-    double took;  /* processor's ticks, in all steps since the last deal */
+    double took;  /* processor's ticks, in all steps since the last deal; who runs the parts adds it */
     double later; /* ns by which it begins later than with an even share of the expected time: what parts took decides */
 } contact_part;
 
@@ -45,8 +45,6 @@ void contact_parts_clear(contact_parts *parts);
  * DEM_NO_MEMORY. */
 dem_status contact_parts_deal(contact_parts *parts, const contact_list *pairs, const uint32_t *wall_start, spheres *spheres,
                               int threads);
-/* What the parts took, of one step. */
-static inline void contact_parts_took(contact_parts *parts, int part, uint64_t ticks) { parts->part[part].took += (double)ticks; }
 /* Where each part begins of work on n spheres: with its own, as last dealt out, so that they stay in its core's cache. */
 static inline size_t contact_parts_begin(const contact_parts *parts, size_t n, int part, int count)
 {

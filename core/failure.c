@@ -21,22 +21,25 @@ typedef struct bound {
     const char *quantity;
 } bound;
 
-static bound bound_broken(const dem_scene *scene, const double x[3])
+/* Inline: every sphere is looked at, at each pick. */
+WIDE_INLINE bound bound_broken(const dem_scene *scene, const double x[3])
 {
     const container *c = &scene->drum;
-    const double rho = sqrt(x[0] * x[0] + x[1] * x[1]);
+    const double rho2 = x[0] * x[0] + x[1] * x[1];
     /* Written so that a NaN fails each of them. */
-    if (c->kind != DEM_TUBE_ON_PLATE && !(rho < c->radius)) return (bound){ rho, c->radius, "distance from the axis" };
+    if (c->kind != DEM_TUBE_ON_PLATE && !(rho2 < c->radius * c->radius))
+        return (bound){ sqrt(rho2), c->radius, "distance from the axis" };
     if (c->period > 0 && !(fabs(x[2]) <= c->length)) return (bound){ fabs(x[2]), c->length, "distance along the axis" };
-    if (!(rho <= 1e9) || !(fabs(x[2]) <= 1e9)) return (bound){ rho, 1e9, "distance from the axis" };
+    if (!(rho2 <= 1e18) || !(fabs(x[2]) <= 1e9)) return (bound){ sqrt(rho2), 1e9, "distance from the axis" };
     for (int k = 0; k < c->wall_count; k++) {
         const container_wall *w = &c->wall[k];
         if (w->kind == WALL_PLANE && !(wall_seen_from(w, x).distance > 0))
             return (bound){ wall_seen_from(w, x).distance, 0,
                             c->kind == DEM_DRUM ? "distance before the end wall" : "height above the floor" };
         /* what left the plate falls beside it */
-        if (w->kind == WALL_DISC && rho < w->radius && !(x[2] > w->low)) return (bound){ x[2], w->low, "height above the plate" };
-        if (w->kind == WALL_BAR && rho > c->bars_from && !(wall_seen_from(w, x).distance > 0))
+        if (w->kind == WALL_DISC && rho2 < w->radius * w->radius && !(x[2] > w->low))
+            return (bound){ x[2], w->low, "height above the plate" };
+        if (w->kind == WALL_BAR && rho2 > c->bars_from * c->bars_from && !(wall_seen_from(w, x).distance > 0))
             return (bound){ wall_seen_from(w, x).distance, 0, "distance before a lifter" };
     }
     return (bound){ 0, 0, NULL };
@@ -53,18 +56,11 @@ static void check_places_of_part(void *context, int part, int parts)
     const dem_scene *const scene = work->scene;
     const spheres *const s = &scene->spheres;
     const contact_parts *const own = &scene->neighbors.parts;
-    const container *const c = &scene->drum;
-    /* in a drum without ends most spheres are soon looked at */
-    const double inside2 =
-        c->wall_count == 1 && c->wall[0].kind == WALL_CYLINDER && c->period > 0 ? 0.999999 * c->radius * c->radius : 0;
     const size_t end = contact_parts_begin(own, s->mobile_count, part + 1, parts);
     size_t i = contact_parts_begin(own, s->mobile_count, part, parts);
     for (; i < end; i++) {
-        const double *const x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
-        const bool is_slow = fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6;
-        if (is_slow && x[0] * x[0] + x[1] * x[1] < inside2 && fabs(x[2]) <= c->length) continue;
-        if (is_slow && !bound_broken(scene, x).quantity) continue;
+        if (!bound_broken(scene, sphere_place(s, i)).quantity && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
         if (!particle_is_lost(scene, particle_of_sphere(s, i))) break;
     }
     work->wrong[part] = i;
