@@ -18,14 +18,14 @@ typedef struct contact_block {
     real r_omega[3][BLOCK]; /* m/s: sum of radius times spin */
     real omega[3][BLOCK];   /* rad/s: sum of spins */
     real overlap[BLOCK];    /* m, negative: apart */
-    real closing[BLOCK];    /* m/s, rate of the overlap */
-    real ds[3][BLOCK];      /* m, tangential displacement of this step */
+    real closing[BLOCK];    /* m/s, rate of the overlap, for the damped laws */
+    real ds[3][BLOCK];      /* m, tangential displacement of this step; N: times K_T0, for Walton & Braun's law */
     real f_n[BLOCK];        /* N, normal force */
     real force[3][BLOCK];   /* N, friction force on the first, of laws that do not remember it */
     real h[3][BLOCK];       /* direction of the stored friction force, turned into the tangent plane */
     real mu_n[BLOCK];       /* N, limit of friction */
     real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
-    real s_p[BLOCK];        /* m, displacement along h */
+    real s_p[BLOCK];        /* of ds along h */
     real spin[3][BLOCK];    /* rad/s, first less second; this and the next where contacts resist rolling */
     real moment[3][BLOCK];  /* N m, of rolling friction on the first */
     /* as wide_store_rows leaves them: what the contacts give their first ends, and their second ones but for the force's sign */

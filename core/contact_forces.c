@@ -18,7 +18,7 @@ WIDE_INLINE void gather(contact_block *restrict block, const spheres *s, const i
         wide x[3];
         const wide reach = alike ? all_reach : pairs.radii * to_units, gap2 = wide_ring_gap2(pairs.turned, reach, x);
         store_vector(block->n, k, x);
-        wide_store(block->distance2 + k, wide_dot(x, x));
+        wide_store(block->distance2 + k, reach * reach - gap2);
         wide_store(block->gap2 + k, gap2 * to_metres);
         store_vector(block->v, k, pairs.v);
         store_vector(block->r_omega, k, pairs.r_omega);
@@ -79,19 +79,19 @@ WIDE_INLINE wide cross(const wide a[3], const wide b[3], int c)
     return wide_fused(a[d], b[e], -(a[e] * b[d]));
 }
 
-/* ds = (v_r - (v_r.n) n) dt, v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n, r = R - overlap/2. */
-static void displacements(contact_block *restrict block, real time_step)
+/* ds = (v_r - (v_r.n) n) factor, v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n, r = R - overlap/2. */
+static void displacements(contact_block *restrict block, double factor, bool is_damped)
 {
-    const wide dt = wide_all(time_step), half = wide_all((real)0.5);
+    const wide times = wide_all((real)factor), half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide less = -half * wide_load(block->overlap + k);
         wide s[3], v_r[3];
         for (int c = 0; c < 3; c++) s[c] = wide_fused(less, wide_load(block->omega[c] + k), wide_load(block->r_omega[c] + k));
         for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
-        const wide v_n = -wide_dot(v_r, n);
-        wide_store(block->closing + k, v_n);
-        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_fused(v_n, n[c], v_r[c]) * dt);
+        const wide closing = -wide_dot(v_r, n);
+        if (is_damped) wide_store(block->closing + k, closing);
+        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_fused(closing, n[c], v_r[c]) * times);
     }
 }
 
@@ -124,14 +124,15 @@ WIDE_INLINE void make_rows(contact_block *restrict block, const real *const forc
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
                           bool is_wall, double dt, wide *largest)
 {
+    const bool is_damped = contact->law != DEM_WALTON_BRAUN;
     *largest = normals(block, *largest);
-    displacements(block, (real)dt);
-    if (contact->law == DEM_WALTON_BRAUN) contact_block_walton_braun(block, list, start, contact);
+    displacements(block, is_damped ? dt : contact->stiffness * contact->tangential_stiffness_ratio * dt, is_damped);
+    if (!is_damped) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
     const real *first_radius = list->first_radius + constants_of(list, start);
     const real *force[3];
-    for (int c = 0; c < 3; c++) force[c] = contact->law == DEM_WALTON_BRAUN ? list->t[c] + start : block->force[c];
+    for (int c = 0; c < 3; c++) force[c] = is_damped ? block->force[c] : list->t[c] + start;
     if (list->has_rolling) make_rows(block, force, first_radius, true, list->ends_differ);
     else make_rows(block, force, first_radius, false, list->ends_differ);
 }

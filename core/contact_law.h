@@ -75,23 +75,20 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
 
     const real stored = lesser(magnitude, mu_n);
     const real tau = mu_n > TINY_FORCE ? stored / mu_n : 0; /* t of the formulas: |T| as a share of its limit */
-    const real s_p = dot(ds, h);
+    const real push[3] = { k_t0 * ds[0], k_t0 * ds[1], k_t0 * ds[2] }; /* N, at the spring's stiffest */
+    const real s_p = dot(push, h);
 
     /* Loading softens towards slip; after a turning point at t* the spring starts stiff again. */
-    const real sign = s_p >= 0 ? 1 : -1;
+    const real sign = (real)copysign(1, (double)s_p);
     const real turning = lesser(sign * *t_star, sign * tau);
     const real left = greater(1 - sign * tau, SLIP_FLOOR), left_at_turn = greater(1 - turning, SLIP_FLOOR);
     /* (a/b)^(1/3) = a (a a b)^(-1/3) */
-    const real k_t = k_t0 * (left * inverse_cube_root(left * left * left_at_turn));
-    const real s = fused(k_t, s_p, stored);
-    const real star = sign * turning;
-
-    const real along = fused(-k_t0, s_p, s);
-    for (int c = 0; c < 3; c++) t[c] = fused(along, h[c], k_t0 * ds[c]);
-    const real size2 = dot(t, t);
-    const real scale = size2 > mu_n * mu_n ? mu_n * inverse_root(size2) : 1;
+    const real share = left * inverse_cube_root(left * left * left_at_turn); /* K_T/K_T0 */
+    const real s = fused(share, s_p, stored), along = s - s_p;
+    for (int c = 0; c < 3; c++) t[c] = fused(along, h[c], push[c]);
+    const real scale = lesser(mu_n * inverse_root(dot(t, t)), 1);
     for (int c = 0; c < 3; c++) t[c] *= scale;
-    *t_star = mu_n > TINY_FORCE ? (s < 0 ? -star : star) : 0;
+    *t_star = mu_n > TINY_FORCE ? sign * (real)copysign(1, (double)s) * turning : 0;
 }
 
 /* What the two damped laws differ in, at one overlap. */

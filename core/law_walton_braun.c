@@ -53,33 +53,31 @@ static void turn_friction(contact_block *restrict block, const real *restrict t_
     }
 }
 
-static void friction_stiffness(contact_block *restrict block, real *restrict t_star, real stiffness)
+static void friction_stiffness(contact_block *restrict block, real *restrict t_star)
 {
-    const wide zero = wide_all(0), one = wide_all(1), floor = wide_all(SLIP_FLOOR), k_t0 = wide_all(stiffness);
+    const wide zero = wide_all(0), one = wide_all(1), floor = wide_all(SLIP_FLOOR);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide mu_n = wide_load(block->mu_n + k), stored = wide_load(block->stored + k), s_p = wide_load(block->s_p + k);
-        const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE)), back = wide_exceeds(zero, s_p);
-        const wide tau = wide_negate(back, wide_select(pressed, stored / mu_n, zero));
-        const wide turning = wide_lesser(wide_negate(back, wide_load(t_star + k)), tau);
+        const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE));
+        const wide tau = wide_times_sign(wide_select(pressed, stored / mu_n, zero), s_p);
+        const wide turning = wide_lesser(wide_times_sign(wide_load(t_star + k), s_p), tau);
         const wide left = wide_greater(one - tau, floor), left_at_turn = wide_greater(one - turning, floor);
-        const wide k_t = k_t0 * (left * wide_inverse_cube_root(left * left * left_at_turn));
-        const wide s = wide_fused(k_t, s_p, stored), star = wide_negate(back, turning);
+        const wide share = left * wide_inverse_cube_root(left * left * left_at_turn);
+        const wide s = wide_fused(share, s_p, stored);
         wide_store(block->stored + k, s);
-        wide_store(t_star + k, wide_select(pressed, wide_negate(wide_exceeds(zero, s), star), zero));
+        wide_store(t_star + k, wide_select(pressed, wide_times_sign(wide_times_sign(turning, s_p), s), zero));
     }
 }
 
-static void friction_forces(contact_block *restrict block, real *restrict t_x, real *restrict t_y, real *restrict t_z,
-                            real stiffness)
+static void friction_forces(contact_block *restrict block, real *restrict t_x, real *restrict t_y, real *restrict t_z)
 {
-    const wide one = wide_all(1), k_t0 = wide_all(stiffness);
+    const wide one = wide_all(1);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide s = wide_load(block->stored + k), s_p = wide_load(block->s_p + k), mu_n = wide_load(block->mu_n + k);
-        const wide along = wide_fused(-k_t0, s_p, s);
+        const wide along = s - s_p;
         wide f[3];
-        for (int c = 0; c < 3; c++) f[c] = wide_fused(along, wide_load(block->h[c] + k), k_t0 * wide_load(block->ds[c] + k));
-        const wide size2 = wide_dot(f, f);
-        const wide scale = wide_select(wide_exceeds(size2, mu_n * mu_n), mu_n * wide_inverse_root(size2), one);
+        for (int c = 0; c < 3; c++) f[c] = wide_fused(along, wide_load(block->h[c] + k), wide_load(block->ds[c] + k));
+        const wide scale = wide_lesser(mu_n * wide_inverse_root(wide_dot(f, f)), one);
         for (int c = 0; c < 3; c++) f[c] = f[c] * scale;
         wide_store(t_x + k, f[0]);
         wide_store(t_y + k, f[1]);
@@ -90,12 +88,11 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
 void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact)
 {
     const double k_1 = contact->stiffness, k_2 = k_1 / (contact->restitution * contact->restitution);
-    const real k_t0 = (real)(k_1 * contact->tangential_stiffness_ratio);
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
     if (contact->unloading_slope > 0)
         normal_forces_of_slope(block, list->alpha_0 + start, (real)k_1, (real)contact->unloading_slope);
     else normal_forces(block, list->alpha_0 + start, (real)k_1, (real)k_2);
     turn_friction(block, t_x, t_y, t_z, list->friction + constants_of(list, start));
-    friction_stiffness(block, list->t_star + start, k_t0);
-    friction_forces(block, t_x, t_y, t_z, k_t0);
+    friction_stiffness(block, list->t_star + start);
+    friction_forces(block, t_x, t_y, t_z);
 }

@@ -261,20 +261,24 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
 /* 1/sqrt(x) and x^(-1/3) for x > 0, as real.h has them for one. */
 WIDE_INLINE wide wide_inverse_root(wide x)
 {
+    const real term[] = INVERSE_ROOT_TERMS;
     wide y = wide_inverse_root_guess(x);
-    y *= wide_all(INVERSE_ROOT_FACTOR) * wide_fused(-(x * y), y, wide_all(INVERSE_ROOT_OFFSET));
     for (int k = 0; k < INVERSE_ROOT_STEPS; k++) {
         const wide e = wide_fused(-(x * y), y, wide_all(1));
-        y = wide_fused(y * e, wide_fused(wide_all((real)0.375), e, wide_all((real)0.5)), y);
+        const wide high = wide_fused(wide_fused(wide_all(term[3]), e, wide_all(term[2])), e, wide_all(term[1]));
+        y = wide_fused(y * e, wide_fused(high, e, wide_all(term[0])), y);
     }
     return y;
 }
 
 WIDE_INLINE wide wide_inverse_cube_root(wide x)
 {
-    const wide third = wide_all((real)(-1.0 / 3.0)) * x;
+    const real term[] = INVERSE_CUBE_ROOT_TERMS;
     wide y = wide_inverse_cube_root_guess(x);
-    for (int k = 0; k < INVERSE_CUBE_ROOT_STEPS; k++) y *= wide_fused(third * y, y * y, wide_all((real)(4.0 / 3.0)));
+    for (int k = 0; k < INVERSE_CUBE_ROOT_STEPS; k++) {
+        const wide e = wide_fused(-(x * y), y * y, wide_all(1));
+        y = wide_fused(y * e, wide_fused(wide_fused(wide_all(term[2]), e, wide_all(term[1])), e, wide_all(term[0])), y);
+    }
     return y;
 }
 

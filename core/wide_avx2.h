@@ -19,10 +19,10 @@ WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)
     return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(above));
 }
 
-/* -a where m is. */
-WIDE_INLINE wide wide_negate(wide_mask m, wide a)
+/* -a where the sign of s is negative. */
+WIDE_INLINE wide wide_times_sign(wide a, wide s)
 {
-    return (wide)_mm256_xor_ps((__m256)a, _mm256_and_ps(m, _mm256_set1_ps(-0.0f)));
+    return (wide)_mm256_xor_ps((__m256)a, _mm256_and_ps((__m256)s, _mm256_set1_ps(-0.0f)));
 }
 
 /* 4 x 4 numbers within each half of a vector: to[c] has in half L what from[0..3] have at 4 L + c. */

@@ -8,10 +8,12 @@ WIDE_INLINE wide wide_greater(wide a, wide b) { return (wide)_mm512_max_ps((__m5
 WIDE_INLINE wide wide_lesser(wide a, wide b) { return (wide)_mm512_min_ps((__m512)a, (__m512)b); }
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GT_OQ); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a); }
-/* -a where m is. */
-WIDE_INLINE wide wide_negate(wide_mask m, wide a)
+/* -a where the sign of s is negative. */
+WIDE_INLINE wide wide_times_sign(wide a, wide s)
 {
-    return (wide)_mm512_mask_xor_ps((__m512)a, m, (__m512)a, _mm512_set1_ps(-0.0f));
+    enum { A_XOR_B_AND_C = 0x78 };
+    return (wide)_mm512_castsi512_ps(_mm512_ternarylogic_epi32(_mm512_castps_si512((__m512)a), _mm512_castps_si512((__m512)s),
+                                                               _mm512_set1_epi32(INT32_MIN), A_XOR_B_AND_C));
 }
 
 /* 4 x 4 numbers within each quarter of a vector: to[c] has in quarter L what from[0..3] have at 4 L + c. */
