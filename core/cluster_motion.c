@@ -153,7 +153,7 @@ static vector4 carry_spheres(const leap_frog *leap, spheres *s, const cluster_bo
         const vector4 astray = v - vector4_of(&picked_velocity[first + k]);
         s->velocity[first + k] = v;
         s->angular_velocity[first + k] = m->omega;
-        s->place[first + k] = sphere_move(leap, &s->row[first + k], place, v, m->omega);
+        s->place[first + k] = sphere_move(leap, &s->row[first + k], &s->rest[first + k], place, v, m->omega);
         largest = vector4_greater_size(largest, astray);
     }
     return largest;

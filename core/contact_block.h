@@ -15,7 +15,7 @@ typedef struct contact_block {
     real reach[BLOCK];      /* u: distance at first touch; this and the next are set once where spheres are alike */
     real radii[BLOCK];      /* m, of both together; a wall has none */
     real v[3][BLOCK];       /* m/s: second less first */
-    real r_omega[3][BLOCK]; /* m/s: sum of radius times spin */
+    real r_omega[3][BLOCK]; /* m/s: sum of radius times spin, where the two may have different radii */
     real omega[3][BLOCK];   /* rad/s: sum of spins */
     real overlap[BLOCK];    /* m, negative: apart */
     real closing[BLOCK];    /* m/s, rate of the overlap, for the damped laws */

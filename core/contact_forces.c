@@ -4,28 +4,64 @@
 #include "leap_frog.h"
 #include "wall_forces.h"
 
-/* alike: all spheres have one radius, and the block has its reach and radii. coming: the second ends of the next block,
- * whose rows are sent for; NULL: they are in the cache anyway. */
-WIDE_INLINE void gather(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
-                        const int32_t *restrict second, const int32_t *coming, bool alike)
+/* What all contacts of a block have, from the way between their ends in ring units. */
+WIDE_INLINE void store_geometry(contact_block *restrict block, int k, const wide_ring turned[3], wide reach, wide to_metres)
+{
+    wide x[3];
+    const wide gap2 = wide_ring_gap2(turned, reach, x);
+    store_vector(block->n, k, x);
+    wide_store(block->distance2 + k, reach * reach - gap2);
+    wide_store(block->gap2 + k, gap2 * to_metres);
+}
+
+WIDE_INLINE void send_for(const spheres *s, const int32_t *coming)
+{
+    for (int k = 0; k < LANES; k++) __builtin_prefetch(&s->row[coming[k]]);
+}
+
+/* Of spheres that are all alike: the block has their reach and radii. in_order: first ends ascend, before this one; 0: not so.
+ * coming: the second ends of the next block, whose rows are sent for; NULL: they are in the cache anyway. */
+static void gather_alike(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
+                         const int32_t *restrict second, size_t in_order, const int32_t *coming)
+{
+    const wide to_metres = wide_all((real)(1 / s->ring_units)), reach = wide_load(block->reach);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        if (coming) send_for(s, coming + k);
+        const wide_rows pairs = wide_rows_of_pairs(s->row, first + k, second + k);
+        store_geometry(block, k, pairs.place, reach, to_metres);
+        store_vector(block->v, k, pairs.v);
+        wide_store(block->omega[0] + k, pairs.omega[0]);
+        wide_store(block->omega[1] + k, pairs.omega[1]);
+    }
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide of_first = wide_spins_in_order(s->rest, first + k, in_order);
+        wide_store(block->omega[2] + k, of_first + wide_rests_load(s->rest, second + k).omega_z);
+    }
+}
+
+/* coming: as above. spins: also what rolling friction needs. */
+WIDE_INLINE void gather_any(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
+                            const int32_t *restrict second, const int32_t *coming, bool spins)
 {
     const wide to_units = wide_all((real)s->ring_units), to_metres = wide_all((real)(1 / s->ring_units));
-    const wide all_reach = alike ? wide_load(block->reach) : to_units;
     for (int k = 0; k < BLOCK; k += LANES) {
-        for (int j = k; coming && j < k + LANES; j++) __builtin_prefetch(&s->row[coming[j]]);
-        wide_pairs pairs;
-        wide_row_pairs(s->row, first + k, second + k, &pairs);
-        wide x[3];
-        const wide reach = alike ? all_reach : pairs.radii * to_units, gap2 = wide_ring_gap2(pairs.turned, reach, x);
-        store_vector(block->n, k, x);
-        wide_store(block->distance2 + k, reach * reach - gap2);
-        wide_store(block->gap2 + k, gap2 * to_metres);
-        store_vector(block->v, k, pairs.v);
-        store_vector(block->r_omega, k, pairs.r_omega);
-        store_vector(block->omega, k, pairs.omega);
-        if (alike) continue;
+        if (coming) send_for(s, coming + k);
+        const wide_rows row_i = wide_rows_load(s->row, first + k), row_j = wide_rows_load(s->row, second + k);
+        const wide_rests rest_i = wide_rests_load(s->rest, first + k), rest_j = wide_rests_load(s->rest, second + k);
+        const wide omega_i[3] = { row_i.omega[0], row_i.omega[1], rest_i.omega_z };
+        const wide omega_j[3] = { row_j.omega[0], row_j.omega[1], rest_j.omega_z };
+        const wide radii = rest_i.radius + rest_j.radius, reach = radii * to_units;
+        wide_ring turned[3];
+        for (int c = 0; c < 3; c++) {
+            turned[c] = wide_ring_difference(row_i.place[c], row_j.place[c]);
+            wide_store(block->v[c] + k, row_j.v[c] - row_i.v[c]);
+            wide_store(block->r_omega[c] + k, wide_fused(rest_i.radius, omega_i[c], rest_j.radius * omega_j[c]));
+            wide_store(block->omega[c] + k, omega_i[c] + omega_j[c]);
+            if (spins) wide_store(block->spin[c] + k, omega_i[c] - omega_j[c]);
+        }
+        store_geometry(block, k, turned, reach, to_metres);
         wide_store(block->reach + k, reach);
-        wide_store(block->radii + k, pairs.radii);
+        wide_store(block->radii + k, radii);
     }
 }
 
@@ -36,24 +72,6 @@ static void set_reach(contact_block *block, const spheres *s)
     for (int k = 0; k < BLOCK; k += LANES) {
         wide_store(block->reach + k, reach);
         wide_store(block->radii + k, radii);
-    }
-}
-
-static void gather_spheres(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
-                           const int32_t *restrict second, const int32_t *coming, bool alike)
-{
-    if (alike) gather(block, s, first, second, coming, true);
-    else gather(block, s, first, second, coming, false);
-}
-
-/* For rolling friction alone: the rows' sums don't tell. */
-static void gather_spins(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
-                         const int32_t *restrict second)
-{
-    for (int k = 0; k < BLOCK; k += LANES) {
-        wide spin[3];
-        wide_row_spins(s->row, first + k, second + k, spin);
-        store_vector(block->spin, k, spin);
     }
 }
 
@@ -79,16 +97,24 @@ WIDE_INLINE wide cross(const wide a[3], const wide b[3], int c)
     return wide_fused(a[d], b[e], -(a[e] * b[d]));
 }
 
-/* ds = (v_r - (v_r.n) n) factor, v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n, r = R - overlap/2. */
-static void displacements(contact_block *restrict block, double factor, bool is_damped)
+/* ds = (v_r - (v_r.n) n) factor, v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n, r = R - overlap/2. radius: R of both
+ * ends; NULL: they may differ. */
+WIDE_INLINE void displacements(contact_block *restrict block, const real *restrict radius, double factor, bool is_damped)
 {
     const wide times = wide_all((real)factor), half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
-        const wide less = -half * wide_load(block->overlap + k);
-        wide s[3], v_r[3];
-        for (int c = 0; c < 3; c++) s[c] = wide_fused(less, wide_load(block->omega[c] + k), wide_load(block->r_omega[c] + k));
-        for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
+        const wide overlap = wide_load(block->overlap + k);
+        const wide arm = radius ? wide_fused(-half, overlap, wide_load(radius + k)) : -half * overlap;
+        wide omega[3], v_r[3];
+        for (int c = 0; c < 3; c++) omega[c] = wide_load(block->omega[c] + k);
+        if (radius) {
+            for (int c = 0; c < 3; c++) v_r[c] = wide_fused(-arm, cross(omega, n, c), wide_load(block->v[c] + k));
+        } else {
+            wide s[3];
+            for (int c = 0; c < 3; c++) s[c] = wide_fused(arm, omega[c], wide_load(block->r_omega[c] + k));
+            for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
+        }
         const wide closing = -wide_dot(v_r, n);
         if (is_damped) wide_store(block->closing + k, closing);
         for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_fused(closing, n[c], v_r[c]) * times);
@@ -121,16 +147,21 @@ WIDE_INLINE void make_rows(contact_block *restrict block, const real *const forc
     }
 }
 
+/* Whether gather_alike is what serves. */
+static bool are_alike(const contact_list *pairs) { return pairs->constants == CONSTANTS_OF_ALL && !pairs->has_rolling; }
+
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
                           bool is_wall, double dt, wide *largest)
 {
     const bool is_damped = contact->law != DEM_WALTON_BRAUN;
+    const real *const first_radius = list->first_radius + constants_of(list, start);
     *largest = normals(block, *largest);
-    displacements(block, is_damped ? dt : contact->stiffness * contact->tangential_stiffness_ratio * dt, is_damped);
+    const double factor = is_damped ? dt : contact->stiffness * contact->tangential_stiffness_ratio * dt;
+    if (is_wall || are_alike(list)) displacements(block, first_radius, factor, is_damped);
+    else displacements(block, NULL, factor, is_damped);
     if (!is_damped) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
-    const real *first_radius = list->first_radius + constants_of(list, start);
     const real *force[3];
     for (int c = 0; c < 3; c++) force[c] = is_damped ? block->force[c] : list->t[c] + start;
     if (list->has_rolling) make_rows(block, force, first_radius, true, list->ends_differ);
@@ -248,8 +279,9 @@ WIDE_INLINE void block_forces(part_turn *turn, contact_list *pairs, size_t b, co
     const int32_t *const second_row = rows ? rows->second[work->copies_turn] : second;
     const bool all_mobile = s->lining_count == 0 && (b + 1) * BLOCK <= pairs->count;
     block_loads loads;
-    gather_spheres(block, s, first_row, second_row, coming, pairs->constants == CONSTANTS_OF_ALL);
-    if (pairs->has_rolling) gather_spins(block, s, first_row, second_row);
+    if (are_alike(pairs)) gather_alike(block, s, first_row, second_row, rows ? 0 : parts->sphere[turn->part + 1], coming);
+    else if (pairs->has_rolling) gather_any(block, s, first_row, second_row, coming, true);
+    else gather_any(block, s, first_row, second_row, coming, false);
     contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &turn->largest);
     find_loads(&loads, first, second, parts->sphere[turn->part], parts->sphere[turn->part + 1], loads_of_nobody(s, turn->part),
                !rows && all_mobile);
@@ -269,7 +301,7 @@ static void part_forces(pair_work *work, int part)
         turn.walls = list->wall_start[begin];
         turn.walls_end = list->wall_start[own_end];
     }
-    if (list->pairs.constants == CONSTANTS_OF_ALL) set_reach(&block, work->spheres);
+    if (are_alike(&list->pairs)) set_reach(&block, work->spheres);
     for (size_t b = 0; b * BLOCK < own->copies.count; b++)
         block_forces(&turn, &own->copies, b, &own->rows[own->across_count + b], NULL);
     size_t across = 0; /* blocks passed */

@@ -74,7 +74,7 @@ static inline void friction_increment(const real n[3], const real ds[3], real mu
     const real h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
 
     const real stored = lesser(magnitude, mu_n);
-    const real tau = mu_n > TINY_FORCE ? stored / mu_n : 0; /* t of the formulas: |T| as a share of its limit */
+    const real tau = mu_n > TINY_FORCE ? stored / mu_n : 0;            /* t of the formulas: |T| as a share of its limit */
     const real push[3] = { k_t0 * ds[0], k_t0 * ds[1], k_t0 * ds[2] }; /* N, at the spring's stiffest */
     const real s_p = dot(push, h);
 

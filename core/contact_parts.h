@@ -55,8 +55,11 @@ void contact_parts_hand_out(const contact_parts *parts, spheres *spheres);
 /* The copies of a turn of the spheres in `shared` from *next on that are before `to`; *next: the first of those left. */
 static inline void contact_parts_copy_rows(const contact_parts *parts, spheres *s, int turn, size_t end, size_t to, size_t *next)
 {
-    sphere_row *const copies = s->row + s->first_copy + (turn ? parts->shared_begin[parts->count] : 0);
-    for (; *next < end && (size_t)parts->shared[*next] < to; ++*next) copies[*next] = s->row[parts->shared[*next]];
+    const size_t copies = s->first_copy + (turn ? parts->shared_begin[parts->count] : 0);
+    for (; *next < end && (size_t)parts->shared[*next] < to; ++*next) {
+        s->row[copies + *next] = s->row[parts->shared[*next]];
+        s->rest[copies + *next] = s->rest[parts->shared[*next]];
+    }
 }
 
 #endif

@@ -190,8 +190,8 @@ void container_place_lining(const container *drum, const dem_drum_definition *de
         (*place)[0] = lining_radius(definition) * cos(angle);
         (*place)[1] = lining_radius(definition) * sin(angle);
         (*place)[2] = drum->length * (((double)(k % along) + 0.5) / (double)along - 0.5);
-        s->row[s->mobile_count + k].radius = (real)(0.5 * definition->lining.diameter);
-        s->full_radius[s->mobile_count + k] = s->row[s->mobile_count + k].radius;
+        s->rest[s->mobile_count + k].radius = (real)(0.5 * definition->lining.diameter);
+        s->full_radius[s->mobile_count + k] = s->rest[s->mobile_count + k].radius;
     }
     container_turn_lining(drum, s);
 }

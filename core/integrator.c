@@ -12,6 +12,7 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
     const int32_t *restrict species = s->species;
     vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity, *restrict place = s->place;
     sphere_row *restrict row = s->row;
+    sphere_rest *restrict rest = s->rest;
     row8 *restrict load = s->load;
     const vector4 keep = vector4_all(leap.keep), dt = vector4_all(leap.dt), units = vector4_all(leap.ring_units);
     const bool many = s->are_many;
@@ -33,12 +34,12 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
         spin[i] = omega;
         const vector4 x = vector4_fused(dt, v, place[i]);
         place[i] = x;
-        sphere_row_store(&row[i], x * units, v, omega);
+        sphere_row_store(&row[i], &rest[i], x * units, v, omega);
         largest = vector4_greater_size(largest, astray);
         farthest = vector4_greater_size(farthest, x);
     }
     if (farthest[2] > leap.inside) /* few steps of few spheres: a comparison costs less than wrapping them all */
-        for (size_t i = from; i < to; i++) place[i] = sphere_move(&leap, &row[i], place[i], velocity[i], spin[i]);
+        for (size_t i = from; i < to; i++) place[i] = sphere_move(&leap, &row[i], &rest[i], place[i], velocity[i], spin[i]);
     return largest;
 }
 

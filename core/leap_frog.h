@@ -16,11 +16,11 @@ typedef struct leap_frog {
 
 WIDE_INLINE vector4 vector4_all(double x) { return x - (vector4){ 0 }; }
 
-/* x within one period, and into the row. */
-WIDE_INLINE vector4 sphere_move(const leap_frog *leap, sphere_row *row, vector4 x, vector4 v, vector4 omega)
+/* x within one period, and into the row and the rest. */
+WIDE_INLINE vector4 sphere_move(const leap_frog *leap, sphere_row *row, sphere_rest *rest, vector4 x, vector4 v, vector4 omega)
 {
     x -= leap->period * vector4_rint(x * leap->inverse_period);
-    sphere_row_store(row, x * vector4_all(leap->ring_units), v, omega);
+    sphere_row_store(row, rest, x * vector4_all(leap->ring_units), v, omega);
     return x;
 }
 

@@ -304,14 +304,17 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
     enum { AHEAD = 4 * LANES };
     for (size_t k = pair + AHEAD; s->are_many && k < pair + AHEAD + LANES && k < list->pair_count; k++)
         __builtin_prefetch(&s->row[list->second[k]]);
-    wide_pairs p;
-    wide_row_pairs(s->row, list->first + pair, list->second + pair, &p);
+    const int32_t *const first = list->first + pair, *const second = list->second + pair;
+    const wide_rows p = wide_rows_of_pairs(s->row, first, second);
     wide x[3];
-    for (int c = 0; c < 3; c++) x[c] = __builtin_convertvector(p.turned[c], wide);
+    for (int c = 0; c < 3; c++) x[c] = __builtin_convertvector(p.place[c], wide);
     const wide distance2 = wide_dot(x, x), to_unit = wide_inverse_root(distance2), parting = wide_dot(p.v, x) * to_unit;
     const wide nearest = distance2 * to_unit * wide_all(unit) + wide_all(duration) * wide_lesser(parting, wide_all(0));
     /* at full size, also while they grow */
-    const wide radii = p.radii * wide_all((real)((1 + 4e-6) / s->scale));
+    const wide radii = list->pairs.constants == CONSTANTS_OF_ALL
+                           ? wide_all((real)((2 + 8e-6) * (double)s->full_radius[0]))
+                           : (wide_rests_load(s->rest, first).radius + wide_rests_load(s->rest, second).radius)
+                                 * wide_all((real)((1 + 4e-6) / s->scale));
     return wide_mask_bits(wide_exceeds(radii + wide_all((real)(2 * list->margin)), nearest));
 }
 
@@ -559,7 +562,7 @@ void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, c
     memset(contacts, 0, s->mobile_count * sizeof *contacts);
     for (size_t k = 0; k < list->pairs.count; k++) {
         const int32_t i = list->pairs.first[k], j = list->pairs.second[k];
-        const double radii = (double)s->row[i].radius + (double)s->row[j].radius;
+        const double radii = sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j);
         if (squared_distance(sphere_place(s, (size_t)i), sphere_place(s, (size_t)j), drum->period, drum->inverse_period)
             >= radii * radii)
             continue;
@@ -569,6 +572,6 @@ void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, c
     for (size_t k = 0; k < list->walls.count; k++) {
         const int32_t i = list->walls.first[k];
         const container_wall *w = &drum->wall[list->walls.second[k]];
-        contacts[id ? id[i] : i] += wall_seen_from(w, sphere_place(s, (size_t)i)).distance < (double)s->row[i].radius;
+        contacts[id ? id[i] : i] += wall_seen_from(w, sphere_place(s, (size_t)i)).distance < sphere_radius(s, (size_t)i);
     }
 }

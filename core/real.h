@@ -74,8 +74,14 @@ enum {
 };
 /* Whose largest error is least over the guess's e, of at most 0.0681 (0.102): 2.3e-8 (2.7e-6). From the constant on; the
  * series are 1/2, 3/8, 5/16, 35/128 and 1/3, 2/9, 14/81. */
-#define INVERSE_ROOT_TERMS { (real)0.49999836, (real)0.3749968, (real)0.31392676, (real)0.27517833 }
-#define INVERSE_CUBE_ROOT_TERMS { (real)0.33332763, (real)0.22347455, (real)0.17469921 }
+#define INVERSE_ROOT_TERMS                                                                                                         \
+    {                                                                                                                              \
+        (real)0.49999836, (real)0.3749968, (real)0.31392676, (real)0.27517833                                                      \
+    }
+#define INVERSE_CUBE_ROOT_TERMS                                                                                                    \
+    {                                                                                                                              \
+        (real)0.33332763, (real)0.22347455, (real)0.17469921                                                                       \
+    }
 
 typedef union float_bits {
     float f;

@@ -100,6 +100,7 @@ dem_status sorting_apply(spheres *s, const int32_t *order, int32_t *sphere_order
     for (size_t b = 0; b < s->clusters.count; b++) body_order[b] = order[singles + b] - (int32_t)singles;
     rearrange_clusters(s, body_order, sphere_order, scratch);
     rearrange(s->row, sizeof *s->row, sphere_order, n, scratch);
+    rearrange(s->rest, sizeof *s->rest, sphere_order, n, scratch);
     rearrange(s->place, sizeof *s->place, sphere_order, n, scratch);
     rearrange(s->id, sizeof *s->id, sphere_order, n, scratch);
     rearrange(s->species, sizeof *s->species, sphere_order, n, scratch);

@@ -37,6 +37,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->row_count = s->first_copy = all + 2;
     s->row = array_create(s->row_count, sizeof *s->row);
+    s->rest = array_create(s->row_count, sizeof *s->rest);
     s->place = array_create(all + 2, sizeof *s->place);
     s->id = array_create(n, sizeof *s->id);
     s->species = array_create(n, sizeof *s->species);
@@ -50,8 +51,9 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->fallen_time = array_create(n, sizeof *s->fallen_time);
     s->surface_track = array_create(n, sizeof *s->surface_track);
     s->lining_place = array_create(lining_count, sizeof *s->lining_place);
-    if (status != DEM_OK || !s->row || !s->place || !s->id || !s->species || !s->full_radius || !s->velocity || !s->angular_velocity
-        || !s->load || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->surface_track || !s->lining_place) {
+    if (status != DEM_OK || !s->row || !s->rest || !s->place || !s->id || !s->species || !s->full_radius || !s->velocity
+        || !s->angular_velocity || !s->load || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->surface_track
+        || !s->lining_place) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }
@@ -68,6 +70,7 @@ void spheres_clear(spheres *s)
 {
     clusters_clear(&s->clusters);
     free(s->row);
+    free(s->rest);
     free(s->place);
     free(s->id);
     free(s->species);
@@ -95,8 +98,9 @@ void spheres_set_period(spheres *s, const dem_drum_definition *definition, doubl
 void spheres_pad(spheres *s)
 {
     const vector4 nothing = { 0 }, half_way_round = { 0.49 * RING_UNITS };
-    sphere_row_store(&s->row[sphere_of_zeros(s)], nothing, nothing, nothing);
-    sphere_row_store(&s->row[sphere_far_away(s)], half_way_round, nothing, nothing);
+    const int32_t zeros = sphere_of_zeros(s), far = sphere_far_away(s);
+    sphere_row_store(&s->row[zeros], &s->rest[zeros], nothing, nothing, nothing);
+    sphere_row_store(&s->row[far], &s->rest[far], half_way_round, nothing, nothing);
 }
 
 dem_status spheres_reserve_copies(spheres *s, size_t count)
@@ -104,10 +108,18 @@ dem_status spheres_reserve_copies(spheres *s, size_t count)
     if (s->first_copy + count <= s->row_count) return DEM_OK;
     const size_t rows = s->first_copy + count + count / 4;
     sphere_row *row = array_create(rows, sizeof *row);
-    if (!row) return DEM_NO_MEMORY;
+    sphere_rest *rest = array_create(rows, sizeof *rest);
+    if (!row || !rest) {
+        free(row);
+        free(rest);
+        return DEM_NO_MEMORY;
+    }
     memcpy(row, s->row, s->first_copy * sizeof *row);
+    memcpy(rest, s->rest, s->first_copy * sizeof *rest);
     free(s->row);
+    free(s->rest);
     s->row = row;
+    s->rest = rest;
     s->row_count = rows;
     return DEM_OK;
 }
@@ -116,11 +128,7 @@ void spheres_set_scale(spheres *s, double scale)
 {
     s->scale = scale;
     s->copies_hold = false;
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        sphere_row *row = &s->row[i];
-        row->radius = (real)(scale * (double)s->full_radius[i]);
-        for (int c = 0; c < 3; c++) row->r_omega[c] = row->radius * row->omega[c];
-    }
+    for (size_t i = 0; i < s->mobile_count; i++) s->rest[i].radius = (real)(scale * (double)s->full_radius[i]);
 }
 
 double spheres_kinetic_energy(const spheres *s)

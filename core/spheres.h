@@ -8,27 +8,28 @@
 #include "cluster.h"
 #include "team.h"
 
-/* What a contact reads of a sphere: one cache line in single precision, in quarters. wide.h reads rows by this order. */
+/* What a contact reads of a sphere: half a cache line in single precision, and what does not fit into that. wide.h reads them
+ * by this order. */
 typedef struct sphere_row {
     on_ring place[3];
-    real radius; /* m, now (smaller while growing) */
-    real v[3];   /* m/s, half a step behind the place */
-    real unused_v;
-    real r_omega[3]; /* m/s: radius times spin */
-    real unused_r_omega;
-    real omega[3]; /* rad/s, half a step behind the place */
-    real unused_omega;
-} __attribute__((aligned(64))) sphere_row;
+    real omega_x; /* rad/s, half a step behind the place, as all motion */
+    real v[3];    /* m/s */
+    real omega_y; /* rad/s */
+} __attribute__((aligned(8 * sizeof(real)))) sphere_row;
+typedef struct sphere_rest {
+    real omega_z; /* rad/s */
+    real radius;  /* m, now (smaller while growing) */
+} sphere_rest;
 
 /* Place (in ring units), velocity and spin of a step; the radius stays. */
-static inline void sphere_row_store(sphere_row *row, vector4 place, vector4 v, vector4 omega)
+static inline void sphere_row_store(sphere_row *row, sphere_rest *rest, vector4 place, vector4 v, vector4 omega)
 {
-    const half_row radii = half_row_from(&row->radius);
-    const half_row w = half_row_of(omega), front = half_row_place(place, radii), v_row = half_row_of(v), r_omega = radii * w;
-    memcpy(row->place, &front, sizeof front); /* and the radius */
-    memcpy(row->v, &v_row, sizeof v_row);
-    memcpy(row->r_omega, &r_omega, sizeof r_omega);
-    memcpy(row->omega, &w, sizeof w);
+    const half_row w = half_row_of(omega), front = half_row_place(place, w[0]);
+    half_row back = half_row_of(v);
+    back[3] = w[1];
+    memcpy(row->place, &front, sizeof front);
+    memcpy(row->v, &back, sizeof back);
+    rest->omega_z = w[2];
 }
 
 /* Of a sphere that was at the bed's inner surface when the drum's present revolution began (measure_regime.c). */
@@ -42,6 +43,7 @@ typedef struct spheres {
     size_t single_count; /* of the mobile: particles by themselves */
     clusters clusters;   /* the bodies that the other mobile spheres make up */
     sphere_row *row;     /* (row_count) of mobile and lining and two; from first_copy on, of some again (contact_parts.h) */
+    sphere_rest *rest;   /* (row_count) */
     size_t row_count, first_copy;
     vector4 *place;            /* (mobile + lining + 2) m, z within one period */
     double ring_units;         /* 1/m: of a row's place */
@@ -81,7 +83,7 @@ static inline void sphere_set(spheres *s, size_t i, vector4 x, vector4 v, vector
         s->velocity[i] = v;
         s->angular_velocity[i] = omega;
     }
-    sphere_row_store(&s->row[i], x * s->ring_units, v, omega);
+    sphere_row_store(&s->row[i], &s->rest[i], x * s->ring_units, v, omega);
 }
 static inline void sphere_set_place(spheres *s, size_t i, const double x[3])
 {
@@ -92,7 +94,7 @@ static inline double sphere_inverse_mass(const spheres *s, size_t i) /* 1/kg, of
 {
     return s->inverse_mass[s->species[i]];
 }
-static inline double sphere_radius(const spheres *s, size_t i) { return (double)s->row[i].radius; } /* m, now */
+static inline double sphere_radius(const spheres *s, size_t i) { return (double)s->rest[i].radius; } /* m, now */
 static inline int32_t sphere_of_zeros(const spheres *s) { return (int32_t)(s->mobile_count + s->lining_count); }
 static inline int32_t sphere_far_away(const spheres *s) { return sphere_of_zeros(s) + 1; }
 /* Particles: spheres by themselves, then clusters. */

@@ -9,7 +9,8 @@ static void gather_cylinder(contact_block *restrict block, const spheres *s, con
     for (int k = 0; k < BLOCK; k++) {
         const double *x = sphere_place(s, (size_t)first[k]);
         const sphere_row *row = &s->row[first[k]];
-        const double rho2 = x[0] * x[0] + x[1] * x[1], room = radius - (double)row->radius;
+        const sphere_rest rest = s->rest[first[k]];
+        const double rho2 = x[0] * x[0] + x[1] * x[1], room = radius - (double)rest.radius;
         /* the wall's velocity at the place of the contact: omega x r, at the wall rather than at the centre */
         const real widen = (real)(rotation_rate * radius) * inverse_root((real)rho2);
         block->n[0][k] = (real)x[0];
@@ -17,15 +18,14 @@ static void gather_cylinder(contact_block *restrict block, const spheres *s, con
         block->n[2][k] = 0;
         block->distance2[k] = (real)rho2;
         block->gap2[k] = (real)(rho2 - room * room); /* overlap = rho - (R - r) */
-        block->reach[k] = (real)radius - row->radius;
-        block->radii[k] = row->radius;
+        block->reach[k] = (real)radius - rest.radius;
+        block->radii[k] = rest.radius;
         block->v[0][k] = -widen * (real)x[1] - row->v[0];
         block->v[1][k] = widen * (real)x[0] - row->v[1];
         block->v[2][k] = -row->v[2];
-        for (int c = 0; c < 3; c++) {
-            block->r_omega[c][k] = row->r_omega[c];
-            block->omega[c][k] = row->omega[c];
-        }
+        block->omega[0][k] = row->omega_x;
+        block->omega[1][k] = row->omega_y;
+        block->omega[2][k] = rest.omega_z;
     }
 }
 
@@ -46,19 +46,14 @@ static void gather_wall(contact_block *restrict block, int k, const spheres *s, 
         block->n[c][k] = (real)(size * sight.toward[c]);
         block->v[c][k] = (real)v[c] - (real)s->velocity[i][c];
         block->omega[c][k] = (real)s->angular_velocity[i][c];
-        block->r_omega[c][k] = (real)r * block->omega[c][k];
     }
 }
 
 /* For rolling friction alone: less the wall's own turning about z. */
-static void gather_spins(contact_block *restrict block, const contact_list *walls, size_t start, const spheres *s,
-                         const container *c)
+static void gather_spins(contact_block *restrict block, const contact_list *walls, size_t start, const container *c)
 {
-    for (int k = 0; k < BLOCK; k++) {
-        const sphere_row *row = &s->row[walls->first[start + (size_t)k]];
-        for (int a = 0; a < 3; a++) block->spin[a][k] = row->omega[a];
-        block->spin[2][k] -= (real)c->wall[walls->second[start + (size_t)k]].rotation_rate;
-    }
+    memcpy(block->spin, block->omega, sizeof block->spin);
+    for (int k = 0; k < BLOCK; k++) block->spin[2][k] -= (real)c->wall[walls->second[start + (size_t)k]].rotation_rate;
 }
 
 static void gather(contact_block *restrict block, const contact_list *walls, size_t start, const spheres *s, const container *c)
@@ -81,7 +76,7 @@ static void block_of_walls(contact_list *walls, size_t start, const spheres *s, 
 {
     contact_block block;
     gather(&block, walls, start, s, c);
-    if (walls->has_rolling) gather_spins(&block, walls, start, s, c);
+    if (walls->has_rolling) gather_spins(&block, walls, start, c);
     contact_block_forces(walls, start, &block, contact, true, dt, largest);
     for (int k = 0; k < BLOCK; k++) walls->row[start + (size_t)k] = block.row[(k & -LANES) | wide_row_slot(k & (LANES - 1))];
 }

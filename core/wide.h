@@ -55,14 +55,17 @@ typedef wide wide_ring; /* LANES times on_ring */
 typedef wide_ints wide_ring;
 #endif
 
-/* Of LANES pairs of spheres (spheres.h, sphere_row), second less first or the sum of both. */
-typedef struct wide_pairs {
-    wide_ring turned[3]; /* between centres, the way round that is shorter */
-    wide radii;          /* m, sum */
-    wide v[3];           /* m/s, difference */
-    wide r_omega[3];     /* m/s, sum */
-    wide omega[3];       /* rad/s, sum */
-} wide_pairs;
+/* What rows have (spheres.h, sphere_row), of LANES spheres, or of LANES pairs of them. */
+typedef struct wide_rows {
+    wide_ring place[3]; /* of pairs: from the first to the second, the way round that is shorter */
+    wide v[3];          /* m/s; second less first */
+    wide omega[2];      /* rad/s, about x and y; sum of both */
+} wide_rows;
+/* And what there is besides (sphere_rest), of LANES spheres. */
+typedef struct wide_rests {
+    wide omega_z; /* rad/s */
+    wide radius;  /* m */
+} wide_rests;
 
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
 #include "wide_avx512.h"
@@ -71,6 +74,50 @@ typedef struct wide_pairs {
 #else
 #include "wide_any.h"
 #endif
+
+/* LANES times ring_difference. */
+WIDE_INLINE wide_ring wide_ring_difference(wide_ring a, wide_ring b)
+{
+#ifdef DEM_DOUBLE
+    return b - a - wide_rint(b - a);
+#else
+    return (wide_ring)((wide_counts)b - (wide_counts)a);
+#endif
+}
+
+#if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
+WIDE_INLINE void rests_of_four(const void *rests, const int32_t *i, __m128 *omega_z, __m128 *radius)
+{
+    const double *pair = rests; /* of numbers, moved together */
+    const __m128 low = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pair + (uint32_t)i[0]), pair + (uint32_t)i[1]));
+    const __m128 high = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pair + (uint32_t)i[2]), pair + (uint32_t)i[3]));
+    *omega_z = _mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0));
+    *radius = _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1));
+}
+WIDE_INLINE wide_rests wide_rests_load(const void *rests, const int32_t *i)
+{
+    __m128 omega_z[LANES / 4], radius[LANES / 4];
+    for (int k = 0; k < LANES / 4; k++) rests_of_four(rests, i + 4 * k, &omega_z[k], &radius[k]);
+    return (wide_rests){ wide_from_quads(omega_z), wide_from_quads(radius) };
+}
+#endif
+
+/* omega_z of spheres that mostly are less than LANES from each other, and ascend. end: the first whose rest must not be read;
+ * 0: they don't. */
+WIDE_INLINE wide wide_spins_in_order(const void *rests, const int32_t *i, size_t end)
+{
+#if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
+    const uint32_t first = (uint32_t)i[0];
+    if ((uint32_t)i[LANES - 1] - first < LANES && first + LANES <= end) {
+        const float *from = (const float *)rests + 2 * (size_t)first;
+        const __m512i to = _mm512_slli_epi32(_mm512_sub_epi32(_mm512_loadu_si512(i), _mm512_set1_epi32(i[0])), 1);
+        return (wide)_mm512_permutex2var_ps(_mm512_loadu_ps(from), to, _mm512_loadu_ps(from + LANES));
+    }
+#else
+    (void)end;
+#endif
+    return wide_rests_load(rests, i).omega_z;
+}
 
 /* Those of LANES numbers whose bit is set, one after the other; room for LANES must be behind `to`. Returns how many. */
 WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from)
@@ -181,23 +228,16 @@ WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row){ (real)x[0], (re
 WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint(x[1]), rint(x[2]), rint(x[3]) }; }
 #endif
 
-/* The front of a sphere's row: its place (ring units), rounded to whole ones in single precision, and its radius. */
-WIDE_INLINE half_row half_row_place(vector4 place, half_row radii)
+/* A place (ring units), rounded to whole ones in single precision, and a number behind it. */
+WIDE_INLINE half_row half_row_place(vector4 place, real last)
 {
 #ifdef DEM_DOUBLE
-    return (half_row){ place[0], place[1], place[2], radii[3] };
+    return (half_row){ place[0], place[1], place[2], last };
 #else
     typedef int64_t long4 __attribute__((vector_size(32)));
-    const ring_row whole = __builtin_convertvector((long4)(place + RING_SHIFT), ring_row), last = { 0, 0, 0, -1 };
-    return (half_row)((whole & ~last) | ((ring_row)radii & last));
-#endif
-}
-WIDE_INLINE half_row half_row_from(const real *x)
-{
-#if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
-    return (half_row)_mm_broadcast_ss((const float *)x);
-#else
-    return (half_row){ *x, *x, *x, *x };
+    half_row row = (half_row) __builtin_convertvector((long4)(place + RING_SHIFT), ring_row);
+    row[3] = last;
+    return row;
 #endif
 }
 

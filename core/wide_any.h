@@ -53,38 +53,56 @@ WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
     for (int h = 0; h < HALVES; h++) to[h] = __builtin_convertvector(y.part[h], wide_double);
 }
 
-WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, wide_pairs *out)
+/* As spheres.h has them. */
+typedef struct any_row {
+    on_ring place[3];
+    real omega_x, v[3], omega_y;
+} __attribute__((aligned(8 * sizeof(real)))) any_row;
+
+WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
 {
-    typedef struct row {
-        on_ring place[3];
-        real radius, number[12];
-    } __attribute__((aligned(64))) row;
-    const row *all = rows;
-    *out = (wide_pairs){ 0 };
+    const any_row *all = rows;
+    wide_rows out = { 0 };
 #pragma GCC unroll 8
     for (int k = 0; k < LANES; k++) {
-        const row *row_a = &all[a[k]], *row_b = &all[b[k]];
-        out->radii[k] = row_b->radius + row_a->radius;
+        const any_row *row = &all[i[k]];
         for (int c = 0; c < 3; c++) {
-            out->turned[c][k] = ring_difference(row_a->place[c], row_b->place[c]);
-            out->v[c][k] = row_b->number[c] - row_a->number[c];
-            out->r_omega[c][k] = row_b->number[4 + c] + row_a->number[4 + c];
-            out->omega[c][k] = row_b->number[8 + c] + row_a->number[8 + c];
+            out.place[c][k] = row->place[c];
+            out.v[c][k] = row->v[c];
         }
+        out.omega[0][k] = row->omega_x;
+        out.omega[1][k] = row->omega_y;
     }
+    return out;
 }
 
-/* Of LANES pairs of spheres the first's spin less the second's, which the above leaves out. */
-WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_t *b, wide out[3])
+WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, const int32_t *b)
 {
-    enum { SPIN = 12, ROW = 16 };
-    const real *all = rows;
-    real spin[3][LANES] __attribute__((aligned(WIDE_BYTES)));
+    const any_row *all = rows;
+    wide_rows out = { 0 };
 #pragma GCC unroll 8
-    for (int k = 0; k < LANES; k++)
-        for (int c = 0; c < 3; c++)
-            spin[c][k] = all[ROW * (size_t)a[k] + SPIN + (size_t)c] - all[ROW * (size_t)b[k] + SPIN + (size_t)c];
-    for (int c = 0; c < 3; c++) out[c] = wide_load(spin[c]);
+    for (int k = 0; k < LANES; k++) {
+        const any_row *row_a = &all[a[k]], *row_b = &all[b[k]];
+        for (int c = 0; c < 3; c++) {
+            out.place[c][k] = ring_difference(row_a->place[c], row_b->place[c]);
+            out.v[c][k] = row_b->v[c] - row_a->v[c];
+        }
+        out.omega[0][k] = row_b->omega_x + row_a->omega_x;
+        out.omega[1][k] = row_b->omega_y + row_a->omega_y;
+    }
+    return out;
+}
+
+WIDE_INLINE wide_rests wide_rests_load(const void *rests, const int32_t *i)
+{
+    const real *all = rests;
+    real omega_z[LANES] __attribute__((aligned(WIDE_BYTES))), radius[LANES] __attribute__((aligned(WIDE_BYTES)));
+#pragma GCC unroll 8
+    for (int k = 0; k < LANES; k++) {
+        omega_z[k] = all[2 * (size_t)i[k]];
+        radius[k] = all[2 * (size_t)i[k] + 1];
+    }
+    return (wide_rests){ wide_load(omega_z), wide_load(radius) };
 }
 
 /* LANES rows of 8: f, q, 0, 0. */

@@ -38,53 +38,50 @@ WIDE_INLINE void transpose_halves(const __m256 from[4], __m256 to[4])
     to[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(high_01, high_23));
 }
 
-/* One quarter of two rows. */
-WIDE_INLINE __m256 row_quarters(const float *rows, int32_t i, int32_t j, int quarter)
+WIDE_INLINE wide wide_from_quads(const __m128 x[2]) { return (wide)_mm256_set_m128(x[1], x[0]); }
+
+/* One half of two rows. */
+WIDE_INLINE __m256 row_halves(const float *rows, int32_t i, int32_t j, int half)
 {
-    enum { ROW = 16 };
-    const __m128 low = _mm_load_ps(rows + ROW * (size_t)(uint32_t)i + 4 * quarter);
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), _mm_load_ps(rows + ROW * (size_t)(uint32_t)j + 4 * quarter), 1);
+    enum { ROW = 8 };
+    const __m128 low = _mm_load_ps(rows + ROW * (size_t)(uint32_t)i + 4 * half);
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), _mm_load_ps(rows + ROW * (size_t)(uint32_t)j + 4 * half), 1);
 }
 
-/* Places' differences as the integers they are, and the sum of the radii behind them. */
-WIDE_INLINE __m256 place_pair(__m256 a, __m256 b)
+/* LANES rows, of which vectors k have those of k and k + 4: front halves, then back halves. */
+WIDE_INLINE wide_rows rows_turned(const __m256 from[8])
+{
+    __m256 front[4], back[4];
+    transpose_halves(from, front);
+    transpose_halves(from + 4, back);
+    wide_rows out = { .omega = { (wide)front[3], (wide)back[3] } };
+    for (int c = 0; c < 3; c++) {
+        out.place[c] = (wide_ring)_mm256_castps_si256(front[c]);
+        out.v[c] = (wide)back[c];
+    }
+    return out;
+}
+
+WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
+{
+    __m256 halves[8];
+    for (int k = 0; k < 8; k++) halves[k] = row_halves(rows, i[k % 4], i[k % 4 + 4], k / 4);
+    return rows_turned(halves);
+}
+
+WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, const int32_t *b)
 {
     enum { PLACES = 0x77 }; /* whose bits, read as floats, might be denormal and slow */
-    const __m256 zero = _mm256_setzero_ps(),
-                 sum = _mm256_add_ps(_mm256_blend_ps(b, zero, PLACES), _mm256_blend_ps(a, zero, PLACES));
-    const __m256i turned = _mm256_sub_epi32(_mm256_castps_si256(b), _mm256_castps_si256(a));
-    return _mm256_blend_ps(sum, _mm256_castsi256_ps(turned), PLACES);
-}
-
-WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, wide_pairs *out)
-{
-    __m256 difference[4][4], t[4][4]; /* [quarter of the row][pairs k and k + 4; then column] */
-    for (int quarter = 0; quarter < 4; quarter++) {
-        for (int k = 0; k < 4; k++) {
-            const __m256 of_a = row_quarters(rows, a[k], a[k + 4], quarter), of_b = row_quarters(rows, b[k], b[k + 4], quarter);
-            difference[quarter][k] = quarter == 0   ? place_pair(of_a, of_b)
-                                     : quarter == 1 ? _mm256_sub_ps(of_b, of_a)
-                                                    : _mm256_add_ps(of_b, of_a);
-        }
-        transpose_halves(difference[quarter], t[quarter]);
+    const __m256 sign = _mm256_setr_ps(-1, -1, -1, 1, -1, -1, -1, 1), zero = _mm256_setzero_ps();
+    __m256 halves[8];
+    for (int k = 0; k < 4; k++) {
+        const __m256 front_a = row_halves(rows, a[k], a[k + 4], 0), front_b = row_halves(rows, b[k], b[k + 4], 0);
+        const __m256i turned = _mm256_sub_epi32(_mm256_castps_si256(front_b), _mm256_castps_si256(front_a));
+        const __m256 sum = _mm256_add_ps(_mm256_blend_ps(front_b, zero, PLACES), _mm256_blend_ps(front_a, zero, PLACES));
+        halves[k] = _mm256_blend_ps(sum, _mm256_castsi256_ps(turned), PLACES);
+        halves[4 + k] = _mm256_fmadd_ps(row_halves(rows, a[k], a[k + 4], 1), sign, row_halves(rows, b[k], b[k + 4], 1));
     }
-    for (int c = 0; c < 3; c++) {
-        out->turned[c] = (wide_ring)_mm256_castps_si256(t[0][c]);
-        out->v[c] = (wide)t[1][c];
-        out->r_omega[c] = (wide)t[2][c];
-        out->omega[c] = (wide)t[3][c];
-    }
-    out->radii = (wide)t[0][3];
-}
-
-/* Of LANES pairs of spheres the first's spin less the second's, which the above leaves out. */
-WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_t *b, wide out[3])
-{
-    __m256 pairs[4], to[4];
-    for (int k = 0; k < 4; k++)
-        pairs[k] = _mm256_sub_ps(row_quarters(rows, a[k], a[k + 4], 3), row_quarters(rows, b[k], b[k + 4], 3));
-    transpose_halves(pairs, to);
-    for (int c = 0; c < 3; c++) out[c] = (wide)to[c];
+    return rows_turned(halves);
 }
 
 /* LANES rows of 8: f, q, 0, 0. */

@@ -29,55 +29,61 @@ WIDE_INLINE void transpose_quarters(const __m512 from[4], __m512 to[4])
     to[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high_01, high_23));
 }
 
-/* b less a where sign has -1, b plus a where it has 1, the fixed-point places exactly: one row of one pair. */
-WIDE_INLINE __m512 row_pair(const void *rows, int32_t a, int32_t b, __m512 sign)
+WIDE_INLINE wide wide_from_quads(const __m128 x[4])
 {
-    enum { PLACE = 7, OTHERS = 0xfff8 }; /* lanes 0-2; bits of a place, read as a float, might be denormal and slow */
-    const __m512 *row = rows;
-    const __m512 row_a = row[(uint32_t)a], row_b = row[(uint32_t)b], sum = _mm512_maskz_fmadd_ps(OTHERS, row_a, sign, row_b);
-    return _mm512_castsi512_ps(
-        _mm512_mask_sub_epi32(_mm512_castps_si512(sum), PLACE, _mm512_castps_si512(row_b), _mm512_castps_si512(row_a)));
+    const __m512 low = _mm512_castps256_ps512(_mm256_set_m128(x[1], x[0]));
+    return (wide)_mm512_insertf32x8(low, _mm256_set_m128(x[3], x[2]), 1);
 }
 
-WIDE_INLINE void wide_row_pairs(const void *rows, const int32_t *a, const int32_t *b, wide_pairs *out)
+/* Rows i and j side by side. */
+WIDE_INLINE __m512 two_rows(const void *rows, int32_t i, int32_t j)
 {
-    const __m512 sign = _mm512_setr_ps(1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1, 1, 1, 1, 1);
-    __m512 t[4][4]; /* [rows 4g ... 4g+3][column 4L + c in quarter L] */
-    for (int g = 0; g < 4; g++) {
-        __m512 row[4];
-        for (int k = 0; k < 4; k++) row[k] = row_pair(rows, a[4 * g + k], b[4 * g + k], sign);
-        transpose_quarters(row, t[g]);
-    }
+    enum { SECOND = 0xff00 };
+    const __m256 *row = rows;
+    return _mm512_mask_broadcast_f32x8(_mm512_castps256_ps512(row[(uint32_t)i]), SECOND, row[(uint32_t)j]);
+}
+
+/* LANES rows, of which vectors k and 4 + k have rows k and 4 + k, 8 + k and 12 + k, turned. */
+WIDE_INLINE wide_rows rows_turned(const __m512 from[8])
+{
+    enum { EVEN_QUARTERS = 0x88, ODD_QUARTERS = 0xdd };
+    __m512 low[4], high[4], front[4], back[4];
+    transpose_quarters(from, low);
+    transpose_quarters(from + 4, high);
     for (int c = 0; c < 4; c++) {
-        const __m512 even_01 = _mm512_shuffle_f32x4(t[0][c], t[1][c], 0x88), even_23 = _mm512_shuffle_f32x4(t[2][c], t[3][c], 0x88);
-        const __m512 place = _mm512_shuffle_f32x4(even_01, even_23, 0x88);
-        if (c == 3) {
-            out->radii = (wide)place;
-            break;
-        }
-        const __m512 odd_01 = _mm512_shuffle_f32x4(t[0][c], t[1][c], 0xdd), odd_23 = _mm512_shuffle_f32x4(t[2][c], t[3][c], 0xdd);
-        out->turned[c] = (wide_ring)_mm512_castps_si512(place);
-        out->v[c] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0x88);
-        out->r_omega[c] = (wide)_mm512_shuffle_f32x4(even_01, even_23, 0xdd);
-        out->omega[c] = (wide)_mm512_shuffle_f32x4(odd_01, odd_23, 0xdd);
+        front[c] = _mm512_shuffle_f32x4(low[c], high[c], EVEN_QUARTERS);
+        back[c] = _mm512_shuffle_f32x4(low[c], high[c], ODD_QUARTERS);
     }
+    wide_rows out = { .omega = { (wide)front[3], (wide)back[3] } };
+    for (int c = 0; c < 3; c++) {
+        out.place[c] = (wide_ring)_mm512_castps_si512(front[c]);
+        out.v[c] = (wide)back[c];
+    }
+    return out;
 }
 
-/* Of LANES pairs of spheres the first's spin less the second's, which the above leaves out. */
-WIDE_INLINE void wide_row_spins(const void *rows, const int32_t *a, const int32_t *b, wide out[3])
+WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
 {
-    enum { SPIN = 12, ROW = 16 }; /* where in a row, and how long that is */
-    const float *all = rows;
-    __m512 pairs[4], to[4];
-    for (int k = 0; k < 4; k++) {
-        __m128 spin[4]; /* of pairs k, 4 + k, 8 + k, 12 + k */
-        for (int g = 0; g < 4; g++)
-            spin[g] = _mm_load_ps(all + ROW * (size_t)a[4 * g + k] + SPIN) - _mm_load_ps(all + ROW * (size_t)b[4 * g + k] + SPIN);
-        const __m512 two = _mm512_insertf32x4(_mm512_castps128_ps512(spin[0]), spin[1], 1);
-        pairs[k] = _mm512_insertf32x4(_mm512_insertf32x4(two, spin[2], 2), spin[3], 3);
+    __m512 two[8];
+    for (int k = 0; k < 8; k++) {
+        const int32_t *at = i + k / 4 * 8 + k % 4;
+        two[k] = two_rows(rows, at[0], at[4]);
     }
-    transpose_quarters(pairs, to);
-    for (int c = 0; c < 3; c++) out[c] = (wide)to[c];
+    return rows_turned(two);
+}
+
+WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, const int32_t *b)
+{
+    enum { PLACES = 0x0707, OTHERS = 0xf8f8 }; /* bits of a place, read as a float, might be denormal and slow */
+    const __m512 sign = _mm512_setr_ps(1, 1, 1, 1, -1, -1, -1, 1, 1, 1, 1, 1, -1, -1, -1, 1);
+    __m512 two[8];
+    for (int k = 0; k < 8; k++) {
+        const int at = k / 4 * 8 + k % 4;
+        const __m512 of_a = two_rows(rows, a[at], a[at + 4]), of_b = two_rows(rows, b[at], b[at + 4]);
+        const __m512i sum = _mm512_castps_si512(_mm512_maskz_fmadd_ps(OTHERS, of_a, sign, of_b));
+        two[k] = _mm512_castsi512_ps(_mm512_mask_sub_epi32(sum, PLACES, _mm512_castps_si512(of_b), _mm512_castps_si512(of_a)));
+    }
+    return rows_turned(two);
 }
 
 WIDE_INLINE wide wide_rint(wide x) { return (wide)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
