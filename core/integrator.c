@@ -3,8 +3,9 @@
 #include "leap_frog.h"
 
 /* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
- * its spin advances as its velocity does. Returns the largest of each component of v - picked_velocity, by size. */
-vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
+ * its spin advances as its velocity does. */
+WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to,
+                            bool of_one_species)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
     enum { AHEAD = 32 };         /* what is sent for is needed after a block of contacts or two */
@@ -24,8 +25,8 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
             __builtin_prefetch(&spin[i + AHEAD], 1);
             __builtin_prefetch(&picked_velocity[i + AHEAD]);
         }
-        const vector4 per_mass = dt * vector4_from(&inverse_mass[species[i]]),
-                      per_inertia = dt * vector4_from(&inverse_inertia[species[i]]);
+        const int32_t kind = of_one_species ? 0 : species[i];
+        const vector4 per_mass = dt * vector4_from(&inverse_mass[kind]), per_inertia = dt * vector4_from(&inverse_inertia[kind]);
         const vector4 v = vector4_fused(per_mass, row8_force(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));
         const vector4 omega = vector4_fused(per_inertia, row8_torque(&load[i]), keep * spin[i]);
         const vector4 astray = v - vector4_of(&picked_velocity[i]);
@@ -41,6 +42,12 @@ vector4 spheres_advance(const leap_frog *all, spheres *s, const half_row *picked
     if (farthest[2] > leap.inside) /* few steps of few spheres: a comparison costs less than wrapping them all */
         for (size_t i = from; i < to; i++) place[i] = sphere_move(&leap, &row[i], &rest[i], place[i], velocity[i], spin[i]);
     return largest;
+}
+
+vector4 spheres_advance(const leap_frog *leap, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
+{
+    return s->of_one_species ? advance(leap, s, picked_velocity, from, to, true)
+                             : advance(leap, s, picked_velocity, from, to, false);
 }
 
 void integrator_leap(leap_frog *leap, const spheres *s, const container *drum, const body_forces *body, double dt)

@@ -33,6 +33,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->mobile_count = n;
     s->single_count = singles;
     s->lining_count = lining_count;
+    s->of_one_species = definition->species_count == 1;
     s->are_many = n >= MANY;
     const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->row_count = s->first_copy = all + 2;

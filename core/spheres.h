@@ -24,9 +24,8 @@ typedef struct sphere_rest {
 /* Place (in ring units), velocity and spin of a step; the radius stays. */
 static inline void sphere_row_store(sphere_row *row, sphere_rest *rest, vector4 place, vector4 v, vector4 omega)
 {
-    const half_row w = half_row_of(omega), front = half_row_place(place, w[0]);
-    half_row back = half_row_of(v);
-    back[3] = w[1];
+    const half_row w = half_row_of(omega), front = __builtin_shufflevector(half_row_place(place), w, 0, 1, 2, 4),
+                   back = __builtin_shufflevector(half_row_of(v), w, 0, 1, 2, 5);
     memcpy(row->place, &front, sizeof front);
     memcpy(row->v, &back, sizeof back);
     rest->omega_z = w[2];
@@ -63,6 +62,7 @@ typedef struct spheres {
     vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */
     double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */
+    bool of_one_species;                        /* all of the mobile ones */
     bool are_many;                              /* for the cache: it pays to send for what comes next */
     double scale;                               /* share of full size that the mobile spheres have now */
     /* written in each step, apart from what all threads read */

@@ -228,16 +228,14 @@ WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row){ (real)x[0], (re
 WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint(x[1]), rint(x[2]), rint(x[3]) }; }
 #endif
 
-/* A place (ring units), rounded to whole ones in single precision, and a number behind it. */
-WIDE_INLINE half_row half_row_place(vector4 place, real last)
+/* A place (ring units), rounded to whole ones in single precision. */
+WIDE_INLINE half_row half_row_place(vector4 place)
 {
 #ifdef DEM_DOUBLE
-    return (half_row){ place[0], place[1], place[2], last };
+    return place;
 #else
     typedef int64_t long4 __attribute__((vector_size(32)));
-    half_row row = (half_row) __builtin_convertvector((long4)(place + RING_SHIFT), ring_row);
-    row[3] = last;
-    return row;
+    return (half_row) __builtin_convertvector((long4)(place + RING_SHIFT), ring_row);
 #endif
 }
 
