@@ -5,7 +5,7 @@
 #include "wall_reach.h"
 
 /* Shares of the smallest diameter, chosen by measurement: core/NUMERICS.md, "Neighbor lists". */
-static const double SKIN = 0.4, LEAST_MARGIN = 0.001, FIRST_MARGIN = 0.006, MOST_MARGIN = 0.02;
+static const double SKIN = 0.4, LEAST_MARGIN = 0.0001, FIRST_MARGIN = 0.006, MOST_MARGIN = 0.02;
 
 dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_rolling)
 {
@@ -241,11 +241,6 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
 
 /* ---- inner list ---- */
 
-typedef struct outlook {
-    double largest_displacement; /* m since the outer list was made */
-    double largest_speed;        /* m/s */
-} outlook;
-
 typedef struct outlook_work {
     const neighbor_list *list;
     const spheres *spheres;
@@ -286,6 +281,15 @@ static outlook outlook_measure(const neighbor_list *list, const spheres *s, cons
         out.largest_displacement = fmax(out.largest_displacement, fabs(drum->angle - list->turned_at_build) * drum->radius);
     }
     return out;
+}
+
+/* What has become of the last pick's: speeds add up to displacements, deviations to speeds. */
+static outlook outlook_since(const neighbor_list *list, double time_step)
+{
+    const outlook *before = &list->at_pick;
+    const double passed = list->steps_since_pick * time_step;
+    return (outlook){ before->largest_displacement + before->largest_speed * passed + list->strayed,
+                      before->largest_speed + list->deviation };
 }
 
 /* Steps for which every pair outside the outer list stays apart, at most HORIZON; 0: not even now. */
@@ -517,6 +521,7 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     list->picked_of = list->outer_builds;
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
     list->strayed = s->lining_count ? 0.5 * drum->rotation_rate * drum->rotation_rate * drum->radius * duration * duration : 0.0;
+    list->deviation = 0.0;
     list->steps_since_pick = 0;
     list->inner_valid = true;
     list->inner_picks++;
@@ -534,21 +539,26 @@ static void choose_margin(neighbor_list *list)
 }
 
 dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
-                                double time_step, int threads, bool *made_new)
+                                double time_step, int threads, bool *looked)
 {
-    const bool safe = list->inner_valid && list->steps_since_pick < list->safe_steps && list->strayed <= list->margin;
-    if (made_new) *made_new = !safe;
-    if (safe) return DEM_OK;
+    *looked = false;
+    if (list->inner_valid && list->steps_since_pick < list->safe_steps && list->strayed <= list->margin) return DEM_OK;
 
     choose_margin(list);
-    outlook now = outlook_measure(list, s, drum, threads);
-    int steps = list->outer_valid ? safe_steps(list, &now, time_step) : 0;
+    outlook now = outlook_since(list, time_step);
+    int steps = list->inner_valid ? safe_steps(list, &now, time_step) : 0;
+    if (steps < HORIZON) {
+        now = outlook_measure(list, s, drum, threads);
+        steps = list->outer_valid ? safe_steps(list, &now, time_step) : 0;
+        *looked = true;
+    }
     if (steps < HORIZON) {
         const dem_status status = outer_build(list, s, drum, threads);
         if (status != DEM_OK) return status;
         now.largest_displacement = 0.0;
         steps = safe_steps(list, &now, time_step);
     }
+    list->at_pick = now;
     /* Right after a build, the step at hand is safe whatever the speed. */
     list->safe_steps = steps > 1 ? steps : 1;
     const dem_status status = inner_pick(list, s, drum, contact, list->safe_steps * time_step, threads);

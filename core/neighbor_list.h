@@ -11,12 +11,18 @@
 #include "contact_parts.h"
 #include "container.h"
 
-enum { HORIZON = 16 }; /* steps between two picks of the inner list, at most */
+enum { HORIZON = 8 }; /* steps between two picks of the inner list, at most */
 
 typedef struct pair_part {
     size_t count, capacity;
     int32_t *second;
 } pair_part;
+
+/* Bounds of all spheres. */
+typedef struct outlook {
+    double largest_displacement; /* m since the outer list was made */
+    double largest_speed;        /* m/s */
+} outlook;
 
 typedef struct neighbor_list {
     /* outer */
@@ -34,6 +40,7 @@ typedef struct neighbor_list {
     double margin; /* m: how far a sphere may stray from its straight path before the next pick */
     double least_margin, most_margin;
     int safe_steps;
+    outlook at_pick;        /* as looked at then, or before and bounded from there */
     double turned_at_build; /* rad: the drum's angle when the outer list was made */
     bool inner_valid;
     half_row *picked_velocity; /* (mobile) m/s at the pick */
@@ -48,6 +55,7 @@ typedef struct neighbor_list {
     int64_t picked_of; /* outer_builds at the last pick */
     /* written in each step, apart from what all threads read */
     _Alignas(ALIGNMENT) double strayed; /* m: bound on how far any sphere has, since the pick */
+    double deviation;                   /* m/s: largest |v - v at the pick| after the last step */
     int steps_since_pick;
 } neighbor_list;
 
@@ -56,13 +64,15 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, bool 
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
- * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. made_new (may be NULL): whether anything was done. */
+ * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. looked: whether each sphere's place and velocity were looked at, as
+ * they are now and then, and always where one is no number. */
 dem_status neighbor_list_update(neighbor_list *list, spheres *spheres, const container *drum, const dem_contact_parameters *contact,
-                                double time_step, int threads, bool *made_new);
+                                double time_step, int threads, bool *looked);
 /* Tell the list of a finished step: the largest |v - v at the pick| of all spheres, m/s. */
 static inline void neighbor_list_step_done(neighbor_list *list, double largest_deviation, double time_step)
 {
     list->strayed += largest_deviation * time_step;
+    list->deviation = largest_deviation;
     list->steps_since_pick++;
 }
 

@@ -20,11 +20,11 @@
 
 dem_status scene_update_neighbors(dem_scene *scene)
 {
-    bool made_new;
+    bool looked;
     const dem_status status = neighbor_list_update(&scene->neighbors, &scene->spheres, &scene->drum, &scene->contact,
-                                                   scene->definition.time_step, scene->definition.threads, &made_new);
+                                                   scene->definition.time_step, scene->definition.threads, &looked);
     if (status != DEM_OK) return failure_of_memory(scene);
-    return made_new ? failure_check_places(scene) : DEM_OK;
+    return looked ? failure_check_places(scene) : DEM_OK;
 }
 
 static dem_status step_neighbors(dem_scene *scene)
