@@ -88,9 +88,10 @@ WIDE_INLINE wide_ring wide_ring_difference(wide_ring a, wide_ring b)
 #if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
 WIDE_INLINE void rests_of_four(const void *rests, const int32_t *i, __m128 *omega_z, __m128 *radius)
 {
-    const double *pair = rests; /* of numbers, moved together */
-    const __m128 low = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pair + (uint32_t)i[0]), pair + (uint32_t)i[1]));
-    const __m128 high = _mm_castpd_ps(_mm_loadh_pd(_mm_load_sd(pair + (uint32_t)i[2]), pair + (uint32_t)i[3]));
+    const __m64 *rest = rests; /* a type that may alias any */
+    const __m128 rest_0 = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(rest + (uint32_t)i[0]))),
+                 rest_2 = _mm_castsi128_ps(_mm_loadl_epi64((const __m128i *)(rest + (uint32_t)i[2])));
+    const __m128 low = _mm_loadh_pi(rest_0, rest + (uint32_t)i[1]), high = _mm_loadh_pi(rest_2, rest + (uint32_t)i[3]);
     *omega_z = _mm_shuffle_ps(low, high, _MM_SHUFFLE(2, 0, 2, 0));
     *radius = _mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1));
 }

@@ -57,7 +57,7 @@ WIDE_INLINE void wide_to_doubles(wide x, wide_double to[HALVES])
 typedef struct any_row {
     on_ring place[3];
     real omega_x, v[3], omega_y;
-} __attribute__((aligned(8 * sizeof(real)))) any_row;
+} __attribute__((aligned(8 * sizeof(real)), may_alias)) any_row;
 
 WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
 {
