@@ -115,9 +115,9 @@ WIDE_INLINE void displacements(contact_block *restrict block, const real *restri
             for (int c = 0; c < 3; c++) s[c] = wide_fused(arm, omega[c], wide_load(block->r_omega[c] + k));
             for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
         }
-        const wide closing = -wide_dot(v_r, n);
-        if (is_damped) wide_store(block->closing + k, closing);
-        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_fused(closing, n[c], v_r[c]) * times);
+        const wide parting = wide_dot(v_r, n);
+        if (is_damped) wide_store(block->closing + k, -parting);
+        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_less(v_r[c], parting, n[c]) * times);
     }
 }
 
@@ -131,11 +131,11 @@ WIDE_INLINE void make_rows(contact_block *restrict block, const real *const forc
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide t[3] = { wide_load(force[0] + k), wide_load(force[1] + k), wide_load(force[2] + k) };
-        const wide f_n = -wide_load(block->f_n + k), overlap = wide_load(block->overlap + k);
+        const wide f_n = wide_load(block->f_n + k), overlap = wide_load(block->overlap + k);
         const wide r_first = wide_load(first_radius + k), r_a = wide_fused(-half, overlap, r_first);
         wide f[3], q[3], moment[3];
         for (int c = 0; c < 3; c++) {
-            f[c] = wide_fused(f_n, n[c], t[c]);
+            f[c] = wide_less(t[c], f_n, n[c]);
             q[c] = cross(n, t, c);
             moment[c] = rolls ? wide_fused(r_a, q[c], wide_load(block->moment[c] + k)) : r_a * q[c];
         }

@@ -300,10 +300,11 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
     return (int)fmin(HORIZON, 1 + room / (now->largest_speed * time_step + 1e-300));
 }
 
-/* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths? Along the line
- * of centres now, the distance is never less than gap + duration * (parting speed): a bound from below. In contact
- * arithmetic, whose rounding `margin` is widened for. */
-static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, real unit, real duration)
+/* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths? Along the line of
+ * centres now, r long, they are never nearer than r + duration * (parting speed), which must not exceed the reach, with twice
+ * the margin. Both times r, and r * reach <= (r^2 + reach^2)/2 for lack of a root: r^2 + 2 duration (dv.x) against reach^2,
+ * in units of the ring. In contact arithmetic, whose rounding the reach is widened for. */
+static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, double duration)
 {
     enum { AHEAD = 4 * LANES };
     for (size_t k = pair + AHEAD; s->are_many && k < pair + AHEAD + LANES && k < list->pair_count; k++)
@@ -312,14 +313,16 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
     const wide_rows p = wide_rows_of_pairs(s->row, first, second);
     wide x[3];
     for (int c = 0; c < 3; c++) x[c] = __builtin_convertvector(p.place[c], wide);
-    const wide distance2 = wide_dot(x, x), to_unit = wide_inverse_root(distance2), parting = wide_dot(p.v, x) * to_unit;
-    const wide nearest = distance2 * to_unit * wide_all(unit) + wide_all(duration) * wide_lesser(parting, wide_all(0));
+    const wide parting = wide_lesser(wide_dot(p.v, x), wide_all(0));
+    const wide nearest2 = wide_fused(wide_all((real)(2 * duration * s->ring_units)), parting, wide_dot(x, x));
     /* at full size, also while they grow */
+    const double units = (1 + 4e-6) * s->ring_units;
     const wide radii = list->pairs.constants == CONSTANTS_OF_ALL
-                           ? wide_all((real)((2 + 8e-6) * (double)s->full_radius[0]))
+                           ? wide_all((real)(2 * units * (double)s->full_radius[0]))
                            : (wide_rests_load(s->rest, first).radius + wide_rests_load(s->rest, second).radius)
-                                 * wide_all((real)((1 + 4e-6) / s->scale));
-    return wide_mask_bits(wide_exceeds(radii + wide_all((real)(2 * list->margin)), nearest));
+                                 * wide_all((real)(units / s->scale));
+    const wide reach = radii + wide_all((real)(2 * units * list->margin));
+    return wide_mask_bits(wide_exceeds(reach * reach, nearest2));
 }
 
 /* What a pick is of, and what its parts find. */
@@ -348,11 +351,10 @@ static void mark_in_reach(void *context, int part, int parts)
     pick_work *const work = context;
     neighbor_list *const list = work->list;
     const spheres *const s = work->spheres;
-    const real unit = (real)(1 / s->ring_units), duration = (real)work->ahead.duration;
     size_t now = 0, was = 0;
     const size_t end = begin_of_groups(work, part + 1, parts);
     for (size_t g = begin_of_groups(work, part, parts); g < end; g++) {
-        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, unit, duration);
+        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, work->ahead.duration);
         now += (size_t)__builtin_popcount(list->in_reach[g]);
         if (work->same_outer) was += (size_t)__builtin_popcount(list->was_in_reach[g]);
     }

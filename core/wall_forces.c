@@ -6,26 +6,28 @@
 static void gather_cylinder(contact_block *restrict block, const spheres *s, const int32_t *restrict first, double radius,
                             double rotation_rate)
 {
+    const wide zero = wide_all(0), at_wall = wide_all((real)(rotation_rate * radius));
     for (int k = 0; k < BLOCK; k++) {
         const double *x = sphere_place(s, (size_t)first[k]);
-        const sphere_row *row = &s->row[first[k]];
-        const sphere_rest rest = s->rest[first[k]];
-        const double rho2 = x[0] * x[0] + x[1] * x[1], room = radius - (double)rest.radius;
-        /* the wall's velocity at the place of the contact: omega x r, at the wall rather than at the centre */
-        const real widen = (real)(rotation_rate * radius) * inverse_root((real)rho2);
+        const double rho2 = x[0] * x[0] + x[1] * x[1], room = radius - sphere_radius(s, (size_t)first[k]);
         block->n[0][k] = (real)x[0];
         block->n[1][k] = (real)x[1];
-        block->n[2][k] = 0;
         block->distance2[k] = (real)rho2;
         block->gap2[k] = (real)(rho2 - room * room); /* overlap = rho - (R - r) */
-        block->reach[k] = (real)radius - rest.radius;
-        block->radii[k] = rest.radius;
-        block->v[0][k] = -widen * (real)x[1] - row->v[0];
-        block->v[1][k] = widen * (real)x[0] - row->v[1];
-        block->v[2][k] = -row->v[2];
-        block->omega[0][k] = row->omega_x;
-        block->omega[1][k] = row->omega_y;
-        block->omega[2][k] = rest.omega_z;
+    }
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide_rows row = wide_rows_load(s->row, first + k);
+        const wide_rests rest = wide_rests_load(s->rest, first + k);
+        /* the wall's velocity at the place of the contact: omega x r, at the wall rather than at the centre */
+        const wide widen = at_wall * wide_inverse_root(wide_load(block->distance2 + k));
+        const wide v[3] = { -widen * wide_load(block->n[1] + k) - row.v[0], widen * wide_load(block->n[0] + k) - row.v[1],
+                            zero - row.v[2] };
+        const wide omega[3] = { row.omega[0], row.omega[1], rest.omega_z };
+        store_vector(block->v, k, v);
+        store_vector(block->omega, k, omega);
+        wide_store(block->n[2] + k, zero);
+        wide_store(block->reach + k, wide_all((real)radius) - rest.radius);
+        wide_store(block->radii + k, rest.radius);
     }
 }
 

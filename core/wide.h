@@ -195,6 +195,18 @@ WIDE_INLINE wide wide_fused(wide a, wide b, wide c)
 #endif
 }
 
+/* c - a b, rounded once */
+WIDE_INLINE wide wide_less(wide c, wide a, wide b)
+{
+#if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
+    return (wide)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
+#elif WIDE_BYTES == 32 && !defined(DEM_DOUBLE)
+    return (wide)_mm256_fnmadd_ps((__m256)a, (__m256)b, (__m256)c);
+#else
+    return wide_fused(-a, b, c);
+#endif
+}
+
 WIDE_INLINE double wide_largest_lane(wide x)
 {
     double largest = (double)x[0];

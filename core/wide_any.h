@@ -59,38 +59,53 @@ typedef struct any_row {
     real omega_x, v[3], omega_y;
 } __attribute__((aligned(8 * sizeof(real)), may_alias)) any_row;
 
+/* Rows as arrays of LANES numbers, for whole vectors to be loaded from. */
+typedef struct rows_in_lanes {
+    on_ring place[3][LANES];
+    real v[3][LANES], omega[2][LANES];
+} __attribute__((aligned(WIDE_BYTES))) rows_in_lanes;
+
+WIDE_INLINE wide_rows wide_rows_from(const rows_in_lanes *lanes)
+{
+    wide_rows out;
+    memcpy(out.place, lanes->place, sizeof out.place);
+    memcpy(out.v, lanes->v, sizeof out.v);
+    memcpy(out.omega, lanes->omega, sizeof out.omega);
+    return out;
+}
+
 WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
 {
     const any_row *all = rows;
-    wide_rows out = { 0 };
+    rows_in_lanes lanes;
 #pragma GCC unroll 8
     for (int k = 0; k < LANES; k++) {
         const any_row *row = &all[i[k]];
         for (int c = 0; c < 3; c++) {
-            out.place[c][k] = row->place[c];
-            out.v[c][k] = row->v[c];
+            lanes.place[c][k] = row->place[c];
+            lanes.v[c][k] = row->v[c];
         }
-        out.omega[0][k] = row->omega_x;
-        out.omega[1][k] = row->omega_y;
+        lanes.omega[0][k] = row->omega_x;
+        lanes.omega[1][k] = row->omega_y;
     }
-    return out;
+    return wide_rows_from(&lanes);
 }
 
 WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, const int32_t *b)
 {
     const any_row *all = rows;
-    wide_rows out = { 0 };
+    rows_in_lanes lanes;
 #pragma GCC unroll 8
     for (int k = 0; k < LANES; k++) {
         const any_row *row_a = &all[a[k]], *row_b = &all[b[k]];
         for (int c = 0; c < 3; c++) {
-            out.place[c][k] = ring_difference(row_a->place[c], row_b->place[c]);
-            out.v[c][k] = row_b->v[c] - row_a->v[c];
+            lanes.place[c][k] = ring_difference(row_a->place[c], row_b->place[c]);
+            lanes.v[c][k] = row_b->v[c] - row_a->v[c];
         }
-        out.omega[0][k] = row_b->omega_x + row_a->omega_x;
-        out.omega[1][k] = row_b->omega_y + row_a->omega_y;
+        lanes.omega[0][k] = row_b->omega_x + row_a->omega_x;
+        lanes.omega[1][k] = row_b->omega_y + row_a->omega_y;
     }
-    return out;
+    return wide_rows_from(&lanes);
 }
 
 WIDE_INLINE wide_rests wide_rests_load(const void *rests, const int32_t *i)
