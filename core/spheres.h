@@ -132,6 +132,13 @@ size_t species_particles(const dem_drum_definition *definition, size_t species);
 /* Before any place is set: rows tell places apart modulo a length, the period along z (m; 0: none) or a whole part of it or
  * some diameters. */
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
+/* Where loads are. As long as each sphere moves as soon as its load is complete, that is free again for one further on: so
+ * few are in use, and stay in the cache. begin: the first sphere; mask: 2^k - 1, or all bits: each has a load of its own. */
+typedef struct load_window {
+    uint32_t begin, mask;
+} load_window;
+#define ALL_LOADS ((load_window){ 0, UINT32_MAX })
+static inline uint32_t load_slot(load_window window, uint32_t i) { return window.begin + ((i - window.begin) & window.mask); }
 /* The first of a part's loads for what concerns nobody: no two parts write to one line of memory. */
 enum { LOADS_A_PART = 8, LOADS_OF_NOBODY = LOADS_A_PART * (MOST_PARTS + 1) };
 static inline size_t loads_of_nobody(const spheres *s, int part) { return s->load_count - LOADS_A_PART * (size_t)(part + 1); }
