@@ -51,7 +51,7 @@ typedef struct spheres {
     real *full_radius;         /* (mobile + lining) m */
     vector4 *velocity;         /* (mobile) m/s at the half step */
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
-    row8 *load;                /* (load_count) force N, torque N m about the centre, 0, 0: contacts only.
+    row8 *load;                /* (load_count) force N, torque N m about the centre, 0, 0: contacts only, see load_window.
                                                  * Zeros but between the forces and the motion. Behind those of the
                                                  * mobile ones are some that nobody reads */
     size_t load_count;
