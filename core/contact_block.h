@@ -25,7 +25,7 @@ typedef struct contact_block {
     real h[3][BLOCK];       /* direction of the stored friction force, turned into the tangent plane */
     real mu_n[BLOCK];       /* N, limit of friction */
     real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
-    real s_p[BLOCK];        /* of ds along h */
+    real s_p[BLOCK];        /* N, of ds along h */
     real spin[3][BLOCK];    /* rad/s, first less second; this and the next where contacts resist rolling */
     real moment[3][BLOCK];  /* N m, of rolling friction on the first */
     /* as wide_store_rows leaves them: what the contacts give their first ends, and their second ones but for the force's sign */

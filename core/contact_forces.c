@@ -10,7 +10,9 @@ WIDE_INLINE void store_geometry(contact_block *restrict block, int k, const wide
     wide x[3];
     const wide gap2 = wide_ring_gap2(turned, reach, x);
     store_vector(block->n, k, x);
-    wide_store(block->distance2 + k, reach * reach - gap2);
+    /* not zero where centres nearly coincide, by rounding */
+    const wide reach2 = reach * reach;
+    wide_store(block->distance2 + k, wide_greater(reach2 - gap2, reach2 * wide_all((real)0x1p-20)));
     wide_store(block->gap2 + k, gap2 * to_metres);
 }
 

@@ -21,7 +21,7 @@ typedef struct bound {
     const char *quantity;
 } bound;
 
-/* Inline: every sphere is looked at, at each pick. */
+/* Inline: every sphere is looked at, and often. */
 WIDE_INLINE bound bound_broken(const dem_scene *scene, const double x[3])
 {
     const container *c = &scene->drum;

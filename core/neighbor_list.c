@@ -548,15 +548,20 @@ dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container
 
     choose_margin(list);
     outlook now = outlook_since(list, time_step);
-    int steps = list->inner_valid ? safe_steps(list, &now, time_step) : 0;
+    int steps = list->inner_valid && list->picks_since_look < PICKS_BETWEEN_LOOKS ? safe_steps(list, &now, time_step) : 0;
+    list->picks_since_look++;
     if (steps < HORIZON) {
         now = outlook_measure(list, s, drum, threads);
         steps = list->outer_valid ? safe_steps(list, &now, time_step) : 0;
+        list->picks_since_look = 1;
         *looked = true;
     }
     if (steps < HORIZON) {
         const dem_status status = outer_build(list, s, drum, threads);
-        if (status != DEM_OK) return status;
+        if (status != DEM_OK) {
+            neighbor_list_invalidate(list);
+            return status;
+        }
         now.largest_displacement = 0.0;
         steps = safe_steps(list, &now, time_step);
     }

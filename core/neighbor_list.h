@@ -11,7 +11,10 @@
 #include "contact_parts.h"
 #include "container.h"
 
-enum { HORIZON = 8 }; /* steps between two picks of the inner list, at most */
+enum {
+    HORIZON = 8,             /* steps between two picks of the inner list, at most */
+    PICKS_BETWEEN_LOOKS = 8, /* at most: at each place as it is */
+};
 
 typedef struct pair_part {
     size_t count, capacity;
@@ -40,10 +43,11 @@ typedef struct neighbor_list {
     double margin; /* m: how far a sphere may stray from its straight path before the next pick */
     double least_margin, most_margin;
     int safe_steps;
-    outlook at_pick;        /* as looked at then, or before and bounded from there */
+    outlook at_pick; /* as looked at then, or before and bounded from there */
+    int picks_since_look;
     double turned_at_build; /* rad: the drum's angle when the outer list was made */
     bool inner_valid;
-    half_row *picked_velocity; /* (mobile) m/s at the pick */
+    half_row *picked_velocity; /* (mobile) m/s at the pick, and a fourth number that nobody reads */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
     uint32_t *wall_start;             /* (mobile + 1) where each sphere's begin in `walls` */
@@ -64,8 +68,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, bool 
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
- * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. looked: whether each sphere's place and velocity were looked at, as
- * they are now and then, and always where one is no number. */
+ * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. looked: whether it is time to look at each sphere's place and
+ * velocity: one that is no number is in no bound. */
 dem_status neighbor_list_update(neighbor_list *list, spheres *spheres, const container *drum, const dem_contact_parameters *contact,
                                 double time_step, int threads, bool *looked);
 /* Tell the list of a finished step: the largest |v - v at the pick| of all spheres, m/s. */

@@ -88,7 +88,8 @@ static void rearrange_clusters(spheres *s, const int32_t *order, int32_t *sphere
 dem_status sorting_apply(spheres *s, const int32_t *order, int32_t *sphere_order)
 {
     const size_t n = s->mobile_count, singles = s->single_count;
-    const size_t bytes = n * sizeof *s->row, of_bodies = s->clusters.count * sizeof *s->clusters.body;
+    const size_t bytes = n * (sizeof *s->row > sizeof *s->place ? sizeof *s->row : sizeof *s->place),
+                 of_bodies = s->clusters.count * sizeof *s->clusters.body;
     void *scratch = array_create(bytes > of_bodies ? bytes : of_bodies, 1);
     int32_t *body_order = array_create(s->clusters.count, sizeof *body_order);
     if (!scratch || !body_order) {

@@ -85,21 +85,52 @@ static void a_particle_beyond_the_wall_has_escaped(void **unused)
     dem_scene_free(scene);
 }
 
-/* A NaN from wherever is found at the next pick of contacts, at most HORIZON steps on, wherever it sits. */
-static void a_velocity_that_is_not_a_number_is_found_within_the_horizon(void **unused)
+enum { STEPS_BETWEEN_LOOKS = HORIZON * PICKS_BETWEEN_LOOKS };
+
+/* A NaN from wherever is found when places are looked at next, wherever it sits. */
+static void a_place_or_velocity_that_is_not_a_number_is_found_at_the_next_look(void **unused)
 {
     (void)unused;
     dem_drum_definition d = small_drum();
     follow_rules(&d, 0.03);
-    for (int component = 0; component < 4; component++) {
+    const size_t where[] = { 0, 17, d.particle_count - 1 };
+    for (int k = 0; k < 3 * 6; k++) {
         dem_scene *scene = drum_scene(&d);
         run(scene, 107);
-        if (component < 3) scene->spheres.velocity[17][component] = NAN;
-        else scene->spheres.place[17][1] = NAN;
-        const dem_status status = dem_scene_advance(scene, HORIZON + 1);
-        assert_int_equal(status, DEM_NOT_A_NUMBER);
+        (k % 6 < 3 ? scene->spheres.velocity : scene->spheres.place)[where[k / 6]][k % 3] = NAN;
+        assert_int_equal(dem_scene_advance(scene, STEPS_BETWEEN_LOOKS + 1), DEM_NOT_A_NUMBER);
         check_description(scene, DEM_NOT_A_NUMBER);
-        CHECK_BETWEEN(dem_scene_step_count(scene), 107, 107 + HORIZON);
+        CHECK_BETWEEN(dem_scene_step_count(scene), 107, 107 + STEPS_BETWEEN_LOOKS);
+        dem_scene_free(scene);
+    }
+}
+
+/* The same of a sphere that touches nothing, among others at rest, where no bound is ever passed. */
+static void what_is_not_a_number_is_found_among_spheres_at_rest(void **unused)
+{
+    (void)unused;
+    const dem_drum_definition d = hand_definition(2);
+    for (int k = 0; k < 6; k++) {
+        dem_scene *scene = weightless_scene(&d);
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0, 0, 0.05, 0, 0.01 } });
+        run(scene, 10);
+        (k < 3 ? scene->spheres.velocity : scene->spheres.place)[1][k % 3] = NAN;
+        assert_int_equal(dem_scene_advance(scene, STEPS_BETWEEN_LOOKS + 1), DEM_NOT_A_NUMBER);
+        dem_scene_free(scene);
+    }
+}
+
+/* However near the centres are: forces and speeds stay finite, and the pair is told. */
+static void spheres_nearly_one_in_another_overlap_too_much(void **unused)
+{
+    (void)unused;
+    const dem_drum_definition d = hand_definition(2);
+    for (double apart = 1e-8; apart < 0.3; apart *= 3) {
+        dem_scene *scene = weightless_scene(&d);
+        place_by_hand(scene,
+                      &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0, 0, 0.02, apart * 0.004, 0 } });
+        assert_int_equal(dem_scene_advance(scene, 1), DEM_OVERLAP_TOO_LARGE);
+        CHECK_NEAR(dem_scene_failure(scene)->value, (1 - apart) * 0.004, 1e-3 * 0.004);
         dem_scene_free(scene);
     }
 }
@@ -163,7 +194,9 @@ int main(void)
         cmocka_unit_test(a_drum_that_is_too_soft_stops_and_says_so),
         cmocka_unit_test(an_overlap_beyond_half_a_radius_is_a_failure_of_those_two),
         cmocka_unit_test(a_particle_beyond_the_wall_has_escaped),
-        cmocka_unit_test(a_velocity_that_is_not_a_number_is_found_within_the_horizon),
+        cmocka_unit_test(a_place_or_velocity_that_is_not_a_number_is_found_at_the_next_look),
+        cmocka_unit_test(what_is_not_a_number_is_found_among_spheres_at_rest),
+        cmocka_unit_test(spheres_nearly_one_in_another_overlap_too_much),
         cmocka_unit_test(a_failed_scene_stays_failed),
         cmocka_unit_test(a_definition_out_of_range_is_refused),
     };
