@@ -183,9 +183,11 @@ static void find_loads(block_loads *restrict to, const int32_t *restrict first, 
                        size_t begin, size_t end, size_t nobody, bool all)
 {
     const uint32_t none = load_offset((uint32_t)nobody), start = (uint32_t)begin, count = (uint32_t)(end - begin);
+    const bool are_shared = window.mask != ALL_LOADS.mask;
     for (int k = 0; k < BLOCK; k++) {
-        to->first[k] = load_offset(load_slot(window, (uint32_t)first[k]));
-        to->second[k] = load_offset(load_slot(window, (uint32_t)second[k]));
+        const uint32_t i = (uint32_t)first[k], j = (uint32_t)second[k];
+        to->first[k] = load_offset(are_shared ? load_slot(window, i) : i);
+        to->second[k] = load_offset(are_shared ? load_slot(window, j) : j);
     }
     for (int k = 0; !all && k < BLOCK; k++) {
         const uint32_t there = none + load_offset((uint32_t)k % LOADS_A_PART);

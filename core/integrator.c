@@ -3,9 +3,9 @@
 #include "leap_frog.h"
 
 /* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
- * its spin advances as its velocity does. */
+ * its spin advances as its velocity does. are_usual: of one species, and few. */
 WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, load_window loads, size_t from,
-                            size_t to, bool of_one_species)
+                            size_t to, bool are_usual)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
     enum { AHEAD = 32 };         /* what is sent for is needed after a block of contacts or two */
@@ -16,7 +16,7 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
     sphere_rest *restrict rest = s->rest;
     row8 *restrict loads_of_all = s->load;
     const vector4 keep = vector4_all(leap.keep), dt = vector4_all(leap.dt), units = vector4_all(leap.ring_units);
-    const bool many = s->are_many;
+    const bool many = !are_usual && s->are_many, of_one_species = are_usual || s->of_one_species;
     vector4 largest = { 0 }, farthest = { 0 };
     for (size_t i = from; i < to; i++) {
         if (many) {
@@ -27,7 +27,7 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
         }
         const int32_t kind = of_one_species ? 0 : species[i];
         const vector4 per_mass = dt * vector4_from(&inverse_mass[kind]), per_inertia = dt * vector4_from(&inverse_inertia[kind]);
-        row8 *const load = &loads_of_all[load_slot(loads, (uint32_t)i)];
+        row8 *const load = &loads_of_all[are_usual ? i : load_slot(loads, (uint32_t)i)];
         const vector4 v = vector4_fused(per_mass, row8_force(load), vector4_fused(keep, velocity[i], -leap.gravity_dt));
         const vector4 omega = vector4_fused(per_inertia, row8_torque(load), keep * spin[i]);
         const vector4 astray = v - vector4_of(&picked_velocity[i]);
@@ -48,8 +48,9 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
 vector4 spheres_advance(const leap_frog *leap, spheres *s, const half_row *picked_velocity, load_window loads, size_t from,
                         size_t to)
 {
-    return s->of_one_species ? advance(leap, s, picked_velocity, loads, from, to, true)
-                             : advance(leap, s, picked_velocity, loads, from, to, false);
+    const bool are_usual = s->of_one_species && !s->are_many;
+    return are_usual ? advance(leap, s, picked_velocity, loads, from, to, true)
+                     : advance(leap, s, picked_velocity, loads, from, to, false);
 }
 
 void integrator_leap(leap_frog *leap, const spheres *s, const container *drum, const body_forces *body, double dt)

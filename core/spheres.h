@@ -24,7 +24,7 @@ typedef struct sphere_rest {
 /* Place (in ring units), velocity and spin of a step; the radius stays. */
 static inline void sphere_row_store(sphere_row *row, sphere_rest *rest, vector4 place, vector4 v, vector4 omega)
 {
-    const half_row w = half_row_of(omega), front = __builtin_shufflevector(half_row_place(place), w, 0, 1, 2, 4),
+    const half_row w = half_row_of(omega), front = half_row_place(place, w),
                    back = __builtin_shufflevector(half_row_of(v), w, 0, 1, 2, 5);
     memcpy(row->place, &front, sizeof front);
     memcpy(row->v, &back, sizeof back);

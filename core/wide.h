@@ -241,14 +241,18 @@ WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row){ (real)x[0], (re
 WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint(x[1]), rint(x[2]), rint(x[3]) }; }
 #endif
 
-/* A place (ring units), rounded to whole ones in single precision. */
-WIDE_INLINE half_row half_row_place(vector4 place)
+/* A place (ring units), rounded to whole ones in single precision, and behind it the first number of w. */
+WIDE_INLINE half_row half_row_place(vector4 place, half_row w)
 {
 #ifdef DEM_DOUBLE
-    return place;
+    return __builtin_shufflevector(place, w, 0, 1, 2, 4);
+#elif WIDE_BYTES == 64
+    const __m256i low_and_w = _mm256_setr_epi32(0, 2, 4, 8, 0, 0, 0, 0);
+    const __m256 shifted = (__m256)(place + RING_SHIFT);
+    return (half_row)_mm256_castps256_ps128(_mm256_permutex2var_ps(shifted, low_and_w, _mm256_castps128_ps256((__m128)w)));
 #else
     typedef int64_t long4 __attribute__((vector_size(32)));
-    return (half_row) __builtin_convertvector((long4)(place + RING_SHIFT), ring_row);
+    return __builtin_shufflevector((half_row) __builtin_convertvector((long4)(place + RING_SHIFT), ring_row), w, 0, 1, 2, 4);
 #endif
 }
 
