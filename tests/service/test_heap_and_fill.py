@@ -1,6 +1,7 @@
 """Heaps below a raised tube and cylinders filled by a stream, from request to results."""
 import copy
 import json
+import statistics
 from pathlib import Path
 
 import pytest
@@ -130,23 +131,30 @@ def test_an_interrupted_run_ends_with_the_same_bits(tmp_path, process):
     assert {event["phase"] for event in events(tmp_path / "parts", "progress")} <= {"growing", "settling", phase}
 
 
-def test_a_heap_is_steeper_the_rougher_and_without_friction_there_is_none(tmp_path):
-    angle, height = {}, {}
-    for friction in (0.0, 0.1, 1.0):
-        folder = tmp_path / str(friction)
-        folder.mkdir()
-        inputs = changed(HEAP, contact={"friction": friction}, plate={"friction": friction}, wall={"friction": 0.2 * friction})
-        if friction == 0.0:
-            # Without friction spheres flow like water: only a wide plate and some patience show it.
-            inputs = changed(inputs, plate={"diameter": 0.08, "rim_height": 0.004}, duration={"at_most_seconds": 1.5})
-        found = run_spec(folder, "heap", inputs)
+def heap_of_friction(folder, friction, seed=1, **changes):
+    folder.mkdir()
+    all_like_it = {"contact": {"friction": friction}, "plate": {"friction": friction}, "wall": {"friction": 0.2 * friction}}
+    return run_spec(folder, "heap", changed(changed(HEAP, seed=seed, **all_like_it), **changes))
+
+
+def test_a_heap_is_steeper_the_rougher(tmp_path):
+    def mean_angle(friction):
         # of the four angles the one that a flat heap has, too
-        angle[friction] = found["repose"]["other_methods"]["equal-volume-cone"]
-        height[friction] = found["surface"]["height"]
+        heaps = [heap_of_friction(tmp_path / f"{friction}-{seed}", friction, seed) for seed in range(1, 7)]
+        return statistics.mean(heap["repose"]["other_methods"]["equal-volume-cone"] for heap in heaps)
+
+    # Over 24 heaps each these are 26.2 and 29.7 degrees, with deviations of 0.84 and 0.89: means of six differ by
+    # 3.5 +- 0.5, and 2 is three of them away.
+    assert mean_angle(1.0) > mean_angle(0.1) + 2
+
+
+def test_without_friction_there_is_no_heap(tmp_path):
+    # Spheres flow like water then: only a wide plate and some patience show it.
+    found = heap_of_friction(
+        tmp_path / "job", 0.0, plate={"diameter": 0.08, "rim_height": 0.004}, duration={"at_most_seconds": 1.5}
+    )
     # One layer would be 3 mm high, on which others ride at most one sphere high.
-    assert height[0.0] < 0.0062
-    # Over four seeds these were 25.2 and 30.2 degrees, with deviations of 1.0 and 0.3: nearer than 2 is three of them.
-    assert angle[1.0] > angle[0.1] + 2
+    assert found["surface"]["height"] < 0.0062
 
 
 def test_a_plate_without_a_rim_loses_particles_and_says_so(tmp_path):
