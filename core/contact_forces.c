@@ -175,22 +175,20 @@ typedef struct block_loads {
     uint32_t first[BLOCK], second[BLOCK];
 } block_loads;
 
-static uint32_t load_offset(uint32_t load) { return load * (uint32_t)sizeof(row8); }
+static uint32_t load_offset(size_t load) { return (uint32_t)(load * sizeof(row8)); }
 
 /* Of the spheres begin..end-1 of a block's contacts; what the others get is for nobody, who has several loads, so that sums
  * need not wait for each other. all: there are no others. */
-static void find_loads(block_loads *restrict to, const int32_t *restrict first, const int32_t *restrict second, load_window window,
-                       size_t begin, size_t end, size_t nobody, bool all)
+static void find_loads(block_loads *restrict to, const int32_t *restrict first, const int32_t *restrict second, size_t begin,
+                       size_t end, size_t nobody, bool all)
 {
-    const uint32_t none = load_offset((uint32_t)nobody), start = (uint32_t)begin, count = (uint32_t)(end - begin);
-    const bool are_shared = window.mask != ALL_LOADS.mask;
+    const uint32_t none = load_offset(nobody), start = (uint32_t)begin, count = (uint32_t)(end - begin);
     for (int k = 0; k < BLOCK; k++) {
-        const uint32_t i = (uint32_t)first[k], j = (uint32_t)second[k];
-        to->first[k] = load_offset(are_shared ? load_slot(window, i) : i);
-        to->second[k] = load_offset(are_shared ? load_slot(window, j) : j);
+        to->first[k] = load_offset((uint32_t)first[k]);
+        to->second[k] = load_offset((uint32_t)second[k]);
     }
     for (int k = 0; !all && k < BLOCK; k++) {
-        const uint32_t there = none + load_offset((uint32_t)k % LOADS_A_PART);
+        const uint32_t there = none + load_offset((size_t)k % LOADS_A_PART);
         to->first[k] = (uint32_t)first[k] - start < count ? to->first[k] : there;
         to->second[k] = (uint32_t)second[k] - start < count ? to->second[k] : there;
     }
@@ -242,16 +240,14 @@ typedef struct part_turn {
     size_t walls_end; /* there are none from here on */
     size_t shared;    /* the next of its own whose row others know by a copy */
     contact_block *block;
-    load_window loads;
     wide largest; /* m, overlaps */
     vector4 strayed;
 } part_turn;
 
 /* Contacts with walls come last in a sphere's sum. */
-WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, load_window loads, size_t from, size_t to)
+WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, size_t to)
 {
-    for (size_t k = list->wall_start[from]; k < list->wall_start[to]; k++)
-        s->load[load_slot(loads, (uint32_t)list->walls.first[k])] += list->walls.row[k];
+    for (size_t k = list->wall_start[from]; k < list->wall_start[to]; k++) s->load[list->walls.first[k]] += list->walls.row[k];
 }
 
 /* The part's own up to `to` have all their forces from others. */
@@ -266,11 +262,10 @@ WIDE_INLINE void spheres_complete(part_turn *turn, size_t to)
         turn->walls = end;
     }
     const size_t from = turn->complete, last = to < s->single_count ? to : s->single_count;
-    add_walls(list, s, turn->loads, from, to);
+    add_walls(list, s, from, to);
     turn->complete = to;
     if (!work->leap || from >= last) return;
-    turn->strayed =
-        vector4_greater_size(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, turn->loads, from, last));
+    turn->strayed = vector4_greater_size(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
     contact_parts_copy_rows(&list->parts, s, 1 - work->copies_turn, list->parts.shared_begin[turn->part + 1], last, &turn->shared);
 }
 
@@ -290,10 +285,9 @@ WIDE_INLINE void block_forces(part_turn *turn, contact_list *pairs, size_t b, co
     else if (pairs->has_rolling) gather_any(block, s, first_row, second_row, coming, true);
     else gather_any(block, s, first_row, second_row, coming, false);
     contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &turn->largest);
-    find_loads(&loads, first, second, turn->loads, parts->sphere[turn->part], parts->sphere[turn->part + 1],
-               loads_of_nobody(s, turn->part), !rows && all_mobile);
-    const bool in_cache = turn->loads.mask != ALL_LOADS.mask;
-    add_to_loads(block, &loads, pairs->ends_differ, s->load, in_cache ? NULL : coming);
+    find_loads(&loads, first, second, parts->sphere[turn->part], parts->sphere[turn->part + 1], loads_of_nobody(s, turn->part),
+               !rows && all_mobile);
+    add_to_loads(block, &loads, pairs->ends_differ, s->load, coming);
 }
 
 /* One part's blocks, after the copies of what earlier parts have. A sphere is first in contacts with those behind it in memory
@@ -305,7 +299,6 @@ static void part_forces(pair_work *work, int part)
     const size_t begin = list->parts.sphere[part], own_end = list->parts.sphere[part + 1], end = list->parts.block[part + 1];
     contact_block block;
     part_turn turn = { .work = work, .part = part, .complete = begin, .shared = list->parts.shared_begin[part], .block = &block };
-    turn.loads = work->leap ? own->loads : ALL_LOADS;
     if (work->walls) {
         turn.walls = list->wall_start[begin];
         turn.walls_end = list->wall_start[own_end];

@@ -280,48 +280,6 @@ static dem_status worst(const deal_work *work)
     return DEM_OK;
 }
 
-/* So wide that from the first sphere that has not all its forces yet to the farthest one in the next block, or moving after it,
- * no two meet. */
-static void find_window(void *context, int part, int parts)
-{
-    (void)parts;
-    const deal_work *const work = context;
-    contact_parts *const p = work->parts;
-    const contact_list *const pairs = work->pairs, *const copies = &p->part[part].copies;
-    const size_t blocks_end = p->block[part + 1];
-    const int32_t end = (int32_t)p->sphere[part + 1];
-    int32_t complete = (int32_t)p->sphere[part], widest = 0;
-    for (size_t k = 0; p->count > 1 && k < copies->count; k++)
-        if (copies->second[k] < end && copies->second[k] - complete > widest) widest = copies->second[k] - complete;
-    for (size_t b = p->block[part]; b < blocks_end; b++) {
-        int32_t farthest = b + 1 < blocks_end ? pairs->first[(b + 1) * BLOCK] : end;
-        const int32_t next = farthest;
-        for (size_t k = b * BLOCK; k < end_of_block(pairs, b); k++) {
-            const int32_t second = pairs->second[k] < end ? pairs->second[k] : 0;
-            farthest = second > farthest ? second : farthest;
-        }
-        if (farthest - complete > widest) widest = farthest - complete;
-        complete = next;
-    }
-    uint32_t size = 1;
-    while (size <= (uint32_t)widest) size *= 2;
-    p->part[part].loads = (load_window){ (uint32_t)p->sphere[part], size - 1 };
-}
-
-/* Copies, for several parts. */
-static dem_status share(deal_work *work)
-{
-    contact_parts *const parts = work->parts;
-    team_run(parts->count, find_across, work);
-    if (worst(work) != DEM_OK) return worst(work);
-    team_run(parts->count, find_shared, work);
-    join_shared(work);
-    if (spheres_reserve_copies(work->spheres, 2 * parts->shared_begin[parts->count]) != DEM_OK) return DEM_NO_MEMORY;
-    team_run(parts->count, complete_part, work);
-    work->spheres->copies_hold = true;
-    return worst(work);
-}
-
 dem_status contact_parts_deal(contact_parts *parts, const contact_list *pairs, const uint32_t *wall_start, spheres *s, int threads)
 {
     const int count = team_parts(threads);
@@ -329,14 +287,16 @@ dem_status contact_parts_deal(contact_parts *parts, const contact_list *pairs, c
     for (size_t k = 0; k < parts->shared_begin[parts->count]; k++) parts->slot[parts->shared[k]] = 0;
     begin_parts(parts, pairs, wall_start, s->mobile_count, count);
     memset(parts->shared_begin, 0, sizeof parts->shared_begin);
+    if (count == 1) return DEM_OK;
     deal_work work = { .parts = parts, .pairs = pairs, .spheres = s };
-    const dem_status status = count > 1 ? share(&work) : DEM_OK;
-    if (status != DEM_OK) return status;
-    /* others move when all loads are there */
-    const bool all_move_at_once = s->single_count == s->mobile_count && s->lining_count == 0;
-    for (int p = 0; p < count; p++) parts->part[p].loads = ALL_LOADS;
-    if (s->are_many && all_move_at_once) team_run(count, find_window, &work);
-    return DEM_OK;
+    team_run(count, find_across, &work);
+    if (worst(&work) != DEM_OK) return worst(&work);
+    team_run(count, find_shared, &work);
+    join_shared(&work);
+    if (spheres_reserve_copies(s, 2 * parts->shared_begin[count]) != DEM_OK) return DEM_NO_MEMORY;
+    team_run(count, complete_part, &work);
+    s->copies_hold = true;
+    return worst(&work);
 }
 
 typedef struct rows_work {

@@ -23,9 +23,8 @@ typedef struct contact_part {
     contact_list copies; /* of contacts that earlier parts have and remember */
     block_rows *rows;    /* (rows_capacity) of the blocks across, then of the copies' */
     size_t rows_capacity;
-    load_window loads; /* wide enough for these contacts; of few spheres, all */
-    double took;       /* processor's ticks, in all steps since the last deal; who runs the parts adds it */
-    double later;      /* ns by which it begins later than with an even share of the expected time: what parts took decides */
+    double took;  /* processor's ticks, in all steps since the last deal; who runs the parts adds it */
+    double later; /* ns by which it begins later than with an even share of the expected time: what parts took decides */
 } contact_part;
 
 typedef struct contact_parts {

@@ -3,9 +3,9 @@
 #include "leap_frog.h"
 
 /* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
- * its spin advances as its velocity does. are_usual: of one species, and few. */
-WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, load_window loads, size_t from,
-                            size_t to, bool are_usual)
+ * its spin advances as its velocity does. */
+WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to,
+                            bool of_one_species)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
     enum { AHEAD = 32 };         /* what is sent for is needed after a block of contacts or two */
@@ -14,9 +14,9 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
     vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity, *restrict place = s->place;
     sphere_row *restrict row = s->row;
     sphere_rest *restrict rest = s->rest;
-    row8 *restrict loads_of_all = s->load;
+    row8 *restrict load = s->load;
     const vector4 keep = vector4_all(leap.keep), dt = vector4_all(leap.dt), units = vector4_all(leap.ring_units);
-    const bool many = !are_usual && s->are_many, of_one_species = are_usual || s->of_one_species;
+    const bool many = s->are_many;
     vector4 largest = { 0 }, farthest = { 0 };
     for (size_t i = from; i < to; i++) {
         if (many) {
@@ -27,11 +27,10 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
         }
         const int32_t kind = of_one_species ? 0 : species[i];
         const vector4 per_mass = dt * vector4_from(&inverse_mass[kind]), per_inertia = dt * vector4_from(&inverse_inertia[kind]);
-        row8 *const load = &loads_of_all[are_usual ? i : load_slot(loads, (uint32_t)i)];
-        const vector4 v = vector4_fused(per_mass, row8_force(load), vector4_fused(keep, velocity[i], -leap.gravity_dt));
-        const vector4 omega = vector4_fused(per_inertia, row8_torque(load), keep * spin[i]);
+        const vector4 v = vector4_fused(per_mass, row8_force(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));
+        const vector4 omega = vector4_fused(per_inertia, row8_torque(&load[i]), keep * spin[i]);
         const vector4 astray = v - vector4_of(&picked_velocity[i]);
-        *load = (row8){ 0 };
+        load[i] = (row8){ 0 };
         velocity[i] = v;
         spin[i] = omega;
         const vector4 x = vector4_fused(dt, v, place[i]);
@@ -45,12 +44,10 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
     return largest;
 }
 
-vector4 spheres_advance(const leap_frog *leap, spheres *s, const half_row *picked_velocity, load_window loads, size_t from,
-                        size_t to)
+vector4 spheres_advance(const leap_frog *leap, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
 {
-    const bool are_usual = s->of_one_species && !s->are_many;
-    return are_usual ? advance(leap, s, picked_velocity, loads, from, to, true)
-                     : advance(leap, s, picked_velocity, loads, from, to, false);
+    return s->of_one_species ? advance(leap, s, picked_velocity, from, to, true)
+                             : advance(leap, s, picked_velocity, from, to, false);
 }
 
 void integrator_leap(leap_frog *leap, const spheres *s, const container *drum, const body_forces *body, double dt)
@@ -84,9 +81,8 @@ static void motion_of_part(void *context, int part, int parts)
     motion_work *const work = context;
     spheres *const s = work->spheres;
     const size_t count = s->single_count - work->moved, bodies = s->clusters.count;
-    const vector4 of_spheres =
-        spheres_advance(work->leap, s, work->picked_velocity, ALL_LOADS, work->moved + part_start(count, part, parts),
-                        work->moved + part_start(count, part + 1, parts));
+    const vector4 of_spheres = spheres_advance(work->leap, s, work->picked_velocity, work->moved + part_start(count, part, parts),
+                                               work->moved + part_start(count, part + 1, parts));
     const vector4 of_clusters = clusters_advance(work->leap, s, work->picked_velocity, part_start(bodies, part, parts),
                                                  part_start(bodies, part + 1, parts));
     work->largest[part] = vector4_greater_size(of_spheres, of_clusters);

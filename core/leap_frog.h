@@ -26,8 +26,7 @@ WIDE_INLINE vector4 sphere_move(const leap_frog *leap, sphere_row *row, sphere_r
 
 /* Eqns 3 and 4 for the single spheres from..to-1, which leaves their loads zeros. Returns the largest of each component of
  * v - picked_velocity, by size. */
-vector4 spheres_advance(const leap_frog *leap, spheres *spheres, const half_row *picked_velocity, load_window loads, size_t from,
-                        size_t to);
+vector4 spheres_advance(const leap_frog *leap, spheres *spheres, const half_row *picked_velocity, size_t from, size_t to);
 /* Eqns 3-23 for the clusters from..to-1 and their spheres; likewise. */
 vector4 clusters_advance(const leap_frog *leap, spheres *spheres, const half_row *picked_velocity, size_t from, size_t to);
 

@@ -51,7 +51,7 @@ typedef struct spheres {
     real *full_radius;         /* (mobile + lining) m */
     vector4 *velocity;         /* (mobile) m/s at the half step */
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
-    row8 *load;                /* (load_count) force N, torque N m about the centre, 0, 0: contacts only, see load_window.
+    row8 *load;                /* (load_count) force N, torque N m about the centre, 0, 0: contacts only.
                                                  * Zeros but between the forces and the motion. Behind those of the
                                                  * mobile ones are some that nobody reads */
     size_t load_count;
@@ -132,13 +132,6 @@ size_t species_particles(const dem_drum_definition *definition, size_t species);
 /* Before any place is set: rows tell places apart modulo a length, the period along z (m; 0: none) or a whole part of it or
  * some diameters. */
 void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
-/* Where loads are. As long as each sphere moves as soon as its load is complete, that is free again for one further on: so
- * few are in use, and stay in the cache. begin: the first sphere; mask: 2^k - 1, or all bits: each has a load of its own. */
-typedef struct load_window {
-    uint32_t begin, mask;
-} load_window;
-#define ALL_LOADS ((load_window){ 0, UINT32_MAX })
-static inline uint32_t load_slot(load_window window, uint32_t i) { return window.begin + ((i - window.begin) & window.mask); }
 /* The first of a part's loads for what concerns nobody: no two parts write to one line of memory. */
 enum { LOADS_A_PART = 8, LOADS_OF_NOBODY = LOADS_A_PART * (MOST_PARTS + 1) };
 static inline size_t loads_of_nobody(const spheres *s, int part) { return s->load_count - LOADS_A_PART * (size_t)(part + 1); }

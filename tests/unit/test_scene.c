@@ -137,53 +137,6 @@ static void parts_smaller_than_one_spheres_contacts_give_the_same_bits(void **un
     dem_scene_free(one);
 }
 
-/* A block of spheres that fly about, so many that loads are used again as soon as they are free. */
-static dem_scene *flying_block(int threads, dem_step_profile *profile)
-{
-    enum { SIDE = 22, LAYERS = 25, N = SIDE * SIDE * LAYERS };
-    static double position[N][3], velocity[N][3], spin[N][3];
-    dem_drum_definition d = hand_definition(N);
-    d.diameter = 0.4;
-    d.threads = threads;
-    unsigned random = 1;
-    for (int k = 0; k < N; k++) {
-        const int at[3] = { k % SIDE, k / SIDE % SIDE, k / SIDE / SIDE };
-        for (int c = 0; c < 3; c++) {
-            position[k][c] = 0.004 * (at[c] - (c < 2 ? SIDE : LAYERS) / 2);
-            if (c == 1) position[k][c] -= 0.06;     /* beside the axis */
-            random = 1664525 * random + 1013904223; /* Numerical Recipes */
-            velocity[k][c] = 0.5 * (random / 4294967296.0 - 0.5);
-            spin[k][c] = 200 * velocity[k][c];
-        }
-    }
-    dem_scene *scene = hand_scene(&d);
-    place_by_hand(
-        scene,
-        &(placement){ .phase = DEM_PHASE_ROTATING, .position = &position[0][0], .velocity = &velocity[0][0], .spin = &spin[0][0] });
-    dem_scene_set_profile(scene, profile);
-    run(scene, 300);
-    dem_scene_set_profile(scene, NULL);
-    return scene;
-}
-
-static double no_time(void) { return 0; }
-
-/* A profiled run has all loads before any sphere moves. */
-static void spheres_that_share_loads_move_as_if_each_had_its_own(void **unused)
-{
-    (void)unused;
-    dem_step_profile profile = { .clock = no_time };
-    dem_scene *own = flying_block(1, &profile);
-    for (int threads = 1; threads <= 3; threads++) {
-        dem_scene *shared = flying_block(threads, NULL);
-        const contact_parts *parts = &shared->neighbors.parts;
-        for (int p = 0; p < parts->count; p++) assert_true(parts->part[p].loads.mask < parts->sphere[p + 1] - parts->sphere[p]);
-        if (!are_equal(own, shared)) fail_msg("shared by %d threads, they differ", threads);
-        dem_scene_free(shared);
-    }
-    dem_scene_free(own);
-}
-
 /* ---- save and restore ---- */
 
 /* A new scene that goes on from where `scene` is. */
@@ -491,7 +444,6 @@ int main(int count, char **arguments)
         cmocka_unit_test(a_run_gives_the_same_bits_for_any_division_into_calls),
         cmocka_unit_test(a_run_gives_the_same_bits_for_any_number_of_threads),
         cmocka_unit_test(parts_smaller_than_one_spheres_contacts_give_the_same_bits),
-        cmocka_unit_test(spheres_that_share_loads_move_as_if_each_had_its_own),
         cmocka_unit_test(a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit),
         cmocka_unit_test(what_measuring_noted_of_the_particles_is_saved_too),
         cmocka_unit_test(a_run_saved_at_the_very_change_of_phase_goes_on_bit_for_bit),
