@@ -1,10 +1,10 @@
 /* How the contacts between spheres are dealt out to parts, one for each thread.
  *
- * A part has whole blocks of the list, and the spheres from its first contact's first on are its own, up to the next part's. A contact across,
- * of spheres that are not all the part's own, is computed again, from a copy, by every later part that has a sphere in it:
- * so each part has all the forces on its own spheres, in the list's order, and waits for none. Others' spheres in such
- * contacts it knows from copies of their rows, which their parts hand out: there are two of each in turn, so that one can be
- * written in a step that reads the other. */
+ * A part has whole blocks of the list, and the spheres from its first contact's first on are its own, up to the next part's.
+ * A contact across, of spheres that are not all the part's own, is computed again, from a copy, by every later part that has
+ * a sphere in it: so each part has all the forces on its own spheres, in the list's order, and waits for none. Others'
+ * spheres in such contacts it knows from copies of their rows, which their parts hand out: there are two of each in turn, so
+ * that one can be written in a step that reads the other. */
 #ifndef CONTACT_PARTS_H
 #define CONTACT_PARTS_H
 

@@ -13,8 +13,8 @@ double contact_forces_with_walls(neighbor_list *list, const spheres *spheres, co
 /* N m about the axis, of all walls on the bed, as contact_forces_with_walls left it; positive turns counter-clockwise. */
 double wall_torque(const neighbor_list *list);
 
-/* contact_forces_with_walls, torques apart, of the contacts from..to-1, which are all in one block; nobody reads or writes others. largest: m, the largest
- * overlaps so far. */
+/* contact_forces_with_walls, torques apart, of the contacts from..to-1, which are all in one block; nobody reads or writes
+ * others. largest: m, the largest overlaps so far. */
 void contact_forces_with_some_walls(neighbor_list *list, size_t from, size_t to, const spheres *spheres, const container *container,
                                     const dem_contact_parameters *contact, double dt, wide *largest);
 
