@@ -21,8 +21,8 @@ WIDE_INLINE void send_for(const spheres *s, const int32_t *coming)
     for (int k = 0; k < LANES; k++) __builtin_prefetch(&s->row[coming[k]]);
 }
 
-/* Of spheres that are all alike: the block has their reach and radii. in_order: first ends ascend, before this one; 0: not so.
- * coming: the second ends of the next block, whose rows are sent for; NULL: they are in the cache anyway. */
+/* Of spheres that are all alike: the block has their reach and radii. in_order: first ends ascend, before this one; 0: they
+ * may be any. coming: the second ends of the next block, whose rows are sent for; NULL: they are in the cache anyway. */
 static void gather_alike(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
                          const int32_t *restrict second, size_t in_order, const int32_t *coming)
 {
@@ -119,7 +119,7 @@ WIDE_INLINE void displacements(contact_block *restrict block, const real *restri
         }
         const wide parting = wide_dot(v_r, n);
         if (is_damped) wide_store(block->closing + k, -parting);
-        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_less(v_r[c], parting, n[c]) * times);
+        for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_minus_product(v_r[c], parting, n[c]) * times);
     }
 }
 
@@ -137,7 +137,7 @@ WIDE_INLINE void make_rows(contact_block *restrict block, const real *const forc
         const wide r_first = wide_load(first_radius + k), r_a = wide_fused(-half, overlap, r_first);
         wide f[3], q[3], moment[3];
         for (int c = 0; c < 3; c++) {
-            f[c] = wide_less(t[c], f_n, n[c]);
+            f[c] = wide_minus_product(t[c], f_n, n[c]);
             q[c] = cross(n, t, c);
             moment[c] = rolls ? wide_fused(r_a, q[c], wide_load(block->moment[c] + k)) : r_a * q[c];
         }

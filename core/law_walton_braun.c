@@ -40,7 +40,8 @@ static void turn_friction(contact_block *restrict block, const real *restrict t_
         const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
         const wide ds[3] = { wide_load(block->ds[0] + k), wide_load(block->ds[1] + k), wide_load(block->ds[2] + k) };
         const wide tn = wide_dot(t, n);
-        const wide u[3] = { wide_less(t[0], tn, n[0]), wide_less(t[1], tn, n[1]), wide_less(t[2], tn, n[2]) };
+        const wide u[3] = { wide_minus_product(t[0], tn, n[0]), wide_minus_product(t[1], tn, n[1]),
+                            wide_minus_product(t[2], tn, n[2]) };
         const wide uu = wide_dot(u, u);
         const wide turn = wide_select(wide_exceeds(uu, tiny), wide_inverse_root(uu), zero);
         const wide size = uu * turn, off = tn * turn, magnitude = wide_fused(half * size, wide_lesser(off * off, one), size);

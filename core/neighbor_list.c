@@ -546,14 +546,13 @@ dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container
     *looked = false;
     if (list->inner_valid && list->steps_since_pick < list->safe_steps && list->strayed <= list->margin) return DEM_OK;
 
+    *looked = list->inner_picks % PICKS_BETWEEN_LOOKS == 0;
     choose_margin(list);
     outlook now = outlook_since(list, time_step);
-    int steps = list->inner_valid && list->picks_since_look < PICKS_BETWEEN_LOOKS ? safe_steps(list, &now, time_step) : 0;
-    list->picks_since_look++;
+    int steps = list->inner_valid ? safe_steps(list, &now, time_step) : 0;
     if (steps < HORIZON) {
         now = outlook_measure(list, s, drum, threads);
         steps = list->outer_valid ? safe_steps(list, &now, time_step) : 0;
-        list->picks_since_look = 1;
         *looked = true;
     }
     if (steps < HORIZON) {

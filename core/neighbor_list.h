@@ -13,7 +13,7 @@
 
 enum {
     HORIZON = 8,             /* steps between two picks of the inner list, at most */
-    PICKS_BETWEEN_LOOKS = 8, /* at most: at each place as it is */
+    PICKS_BETWEEN_LOOKS = 2, /* at each place and velocity as it is, at most */
 };
 
 typedef struct pair_part {
@@ -43,8 +43,7 @@ typedef struct neighbor_list {
     double margin; /* m: how far a sphere may stray from its straight path before the next pick */
     double least_margin, most_margin;
     int safe_steps;
-    outlook at_pick; /* as looked at then, or before and bounded from there */
-    int picks_since_look;
+    outlook at_pick;        /* as looked at then, or before and bounded from there */
     double turned_at_build; /* rad: the drum's angle when the outer list was made */
     bool inner_valid;
     half_row *picked_velocity; /* (mobile) m/s at the pick, and a fourth number that nobody reads */

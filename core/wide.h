@@ -104,7 +104,7 @@ WIDE_INLINE wide_rests wide_rests_load(const void *rests, const int32_t *i)
 #endif
 
 /* omega_z of spheres that mostly are less than LANES from each other, and ascend. end: the first whose rest must not be read;
- * 0: they don't. */
+ * 0: they may be any. */
 WIDE_INLINE wide wide_spins_in_order(const void *rests, const int32_t *i, size_t end)
 {
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
@@ -196,7 +196,7 @@ WIDE_INLINE wide wide_fused(wide a, wide b, wide c)
 }
 
 /* c - a b, rounded once */
-WIDE_INLINE wide wide_less(wide c, wide a, wide b)
+WIDE_INLINE wide wide_minus_product(wide c, wide a, wide b)
 {
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
     return (wide)_mm512_fnmadd_ps((__m512)a, (__m512)b, (__m512)c);
