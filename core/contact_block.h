@@ -18,7 +18,7 @@ typedef struct contact_block {
     real r_omega[3][BLOCK]; /* m/s: sum of radius times spin, where the two may have different radii */
     real omega[3][BLOCK];   /* rad/s: sum of spins */
     real overlap[BLOCK];    /* m, negative: apart */
-    real closing[BLOCK];    /* m/s, rate of the overlap, for the damped laws */
+    real parting[BLOCK];    /* m/s, of the ends along n, for the damped laws */
     real ds[3][BLOCK];      /* m, tangential displacement of this step; N: times K_T0, for Walton & Braun's law */
     real f_n[BLOCK];        /* N, normal force */
     real force[3][BLOCK];   /* N, friction force on the first, of laws that do not remember it */
@@ -26,6 +26,7 @@ typedef struct contact_block {
     real mu_n[BLOCK];       /* N, limit of friction */
     real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
     real s_p[BLOCK];        /* N, of ds along h */
+    real compliance[BLOCK]; /* m/N, 1/k_t of the damped laws */
     real spin[3][BLOCK];    /* rad/s, first less second; this and the next where contacts resist rolling */
     real moment[3][BLOCK];  /* N m, of rolling friction on the first */
     /* as wide_store_rows leaves them: what the contacts give their first ends, and their second ones but for the force's sign */
@@ -46,10 +47,9 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
  * history remembers, else force), updates the list's histories from `start`. dt: s. */
 void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact);
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
-                                  bool is_wall, double dt);
+                                  double dt);
 /* Rolling friction of a block, right after its law, which has left stiffnesses in the block: sets the moments
  * (contact_rolling.c). */
-void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, bool is_wall,
-                        double dt);
+void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, double dt);
 
 #endif

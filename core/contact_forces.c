@@ -118,7 +118,7 @@ WIDE_INLINE void displacements(contact_block *restrict block, const real *restri
             for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
         }
         const wide parting = wide_dot(v_r, n);
-        if (is_damped) wide_store(block->closing + k, -parting);
+        if (is_damped) wide_store(block->parting + k, parting);
         for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_minus_product(v_r[c], parting, n[c]) * times);
     }
 }
@@ -162,8 +162,8 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     if (is_wall || are_alike(list)) displacements(block, first_radius, factor, is_damped);
     else displacements(block, NULL, factor, is_damped);
     if (!is_damped) contact_block_walton_braun(block, list, start, contact);
-    else contact_block_damped_springs(block, list, start, contact, is_wall, dt);
-    if (list->has_rolling) contact_block_roll(block, list, start, contact, is_wall, dt);
+    else contact_block_damped_springs(block, list, start, contact, dt);
+    if (list->has_rolling) contact_block_roll(block, list, start, contact, dt);
     const real *force[3];
     for (int c = 0; c < 3; c++) force[c] = is_damped ? block->force[c] : list->t[c] + start;
     if (list->has_rolling) make_rows(block, force, first_radius, true, list->ends_differ);

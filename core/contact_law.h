@@ -103,24 +103,24 @@ typedef struct damped_springs {
 typedef struct damped_law {
     real k_n;     /* N/m; Hertz-Mindlin: Pa, E* */
     real k_t;     /* N/m; Hertz-Mindlin: Pa, G* */
-    real damping; /* zeta; Hertz-Mindlin: sqrt(5/6) zeta */
+    real damping; /* 2 zeta sqrt(k_n); Hertz-Mindlin: 2 sqrt(5/6) zeta sqrt(2 E*) */
 } damped_law;
 
-/* Linear: c_n = 2 zeta sqrt(m K1), c_t = c_n/2. mass: effective, kg. */
-static inline damped_springs linear_springs(damped_law law, real alpha, real mass)
+/* Linear: c_n = 2 zeta sqrt(m K1), c_t = c_n/2. root_mass: kg^(1/2), root of the effective mass. */
+static inline damped_springs linear_springs(damped_law law, real alpha, real root_mass)
 {
-    const real mk = mass * law.k_n, c_n = 2 * law.damping * (mk * inverse_root(mk));
+    const real c_n = law.damping * root_mass;
     return (damped_springs){ law.k_n * alpha, c_n, law.k_t, c_n / 2 };
 }
 
 /* Hertz: N = 4/3 E* sqrt(R* alpha) alpha, S_n = dN/dalpha = 2 E* a; Mindlin without slip: S_t = 8 G* a, a = sqrt(R* alpha);
  * c_n = 2 sqrt(5/6) zeta sqrt(S_n m), which makes restitution independent of speed (Tsuji, Tanaka & Ishida 1992), and
- * c_t half of it. alpha > 0; radius: effective, m. */
-static inline damped_springs hertz_mindlin_springs(damped_law law, real alpha, real mass, real radius)
+ * c_t half of it. alpha > 0; radius: effective, m. a and its root are made of one power of R* alpha. */
+static inline damped_springs hertz_mindlin_springs(damped_law law, real alpha, real root_mass, real radius)
 {
-    const real aa = radius * alpha, a = aa * inverse_root(aa);
-    const real s_n = 2 * law.k_n * a, ms_n = mass * s_n, c_n = 2 * law.damping * (ms_n * inverse_root(ms_n));
-    return (damped_springs){ (real)(2.0 / 3.0) * s_n * alpha, c_n, 8 * law.k_t * a, c_n / 2 };
+    const real aa = radius * alpha, y = inverse_fourth_root(aa), a = aa * (y * y), root_a = a * y;
+    const real c_n = law.damping * root_a * root_mass;
+    return (damped_springs){ (real)(4.0 / 3.0) * law.k_n * a * alpha, c_n, 8 * law.k_t * a, c_n / 2 };
 }
 
 /* Normal force of spring and dashpot; 0 apart. closing: m/s, positive while the overlap grows. The dashpot may pull at
@@ -131,7 +131,7 @@ static inline real damped_normal_force(damped_springs springs, real alpha, real 
 }
 
 /* One increment of the spring's stretch (turned with the contact, as above) by ds in dt; force: with the dashpot, cut
- * at mu |N|. Where it is cut, the spring is pulled back to what the cut leaves. Keeping the stretch rather than the force
+ * at mu |N|. Where it is cut, the spring is pulled back by what was cut off. Keeping the stretch rather than the force
  * is Mindlin's solution without slip as the published benchmarks have it: the stiffness of now acts on all of it. */
 static inline void damped_friction_increment(const real n[3], const real ds[3], real inverse_dt, real mu_n, damped_springs springs,
                                              real stretch[3], real force[3])
@@ -139,23 +139,16 @@ static inline void damped_friction_increment(const real n[3], const real ds[3], 
     const real sn = dot(stretch, n);
     const real u[3] = { fused(-sn, n[0], stretch[0]), fused(-sn, n[1], stretch[1]), fused(-sn, n[2], stretch[2]) };
     /* |stretch|/|u|, as above by two terms of the root */
-    const real uu = dot(u, u), off2 = uu > TINY_SQUARE ? sn * sn / uu : 0;
-    const real keep = fused((real)0.5, lesser(off2, 1), 1);
+    const real off2 = sn * sn / greater(dot(u, u), TINY_SQUARE), keep = fused((real)0.5, lesser(off2, 1), 1);
     const real limit = greater(mu_n, -mu_n);
-    const bool pressed = limit > TINY_FORCE;
-    real dashpot[3];
     for (int c = 0; c < 3; c++) {
-        dashpot[c] = springs.c_t * inverse_dt * ds[c];
         stretch[c] = fused(u[c], keep, ds[c]);
-        force[c] = fused(springs.k_t, stretch[c], dashpot[c]);
+        force[c] = fused(springs.k_t, stretch[c], springs.c_t * inverse_dt * ds[c]);
     }
-    const real size2 = dot(force, force);
-    const bool cut = size2 > limit * limit;
-    const real scale = cut ? limit * inverse_root(size2) : 1;
-    const real compliance = pressed ? 1 / springs.k_t : 0;
+    const real scale = lesser(limit * inverse_root(dot(force, force)), 1);
     for (int c = 0; c < 3; c++) {
+        stretch[c] = limit > TINY_FORCE ? fused((scale - 1) / springs.k_t, force[c], stretch[c]) : 0;
         force[c] *= scale;
-        stretch[c] = pressed ? (cut ? (force[c] - dashpot[c]) * compliance : stretch[c]) : 0;
     }
 }
 

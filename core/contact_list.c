@@ -22,7 +22,8 @@ static void constants_free(contact_list *list)
 {
     free(list->friction);
     free(list->first_radius);
-    free(list->mass);
+    free(list->root_mass);
+    free(list->radius);
     free(list->rolling_friction);
 }
 
@@ -54,9 +55,11 @@ static bool constants_create(contact_list *list, size_t n)
     list->constant_capacity = n;
     list->friction = array_create(n, sizeof *list->friction);
     list->first_radius = array_create(n, sizeof *list->first_radius);
-    list->mass = array_create(n, sizeof *list->mass);
+    list->root_mass = array_create(n, sizeof *list->root_mass);
+    list->radius = array_create(n, sizeof *list->radius);
     if (list->has_rolling) list->rolling_friction = array_create(n, sizeof *list->rolling_friction);
-    return list->friction && list->first_radius && list->mass && (!list->has_rolling || list->rolling_friction);
+    return list->friction && list->first_radius && list->root_mass && list->radius
+           && (!list->has_rolling || list->rolling_friction);
 }
 
 dem_status contact_list_reserve(contact_list *list, size_t count)
@@ -94,7 +97,7 @@ void contact_list_pad(contact_list *list, int32_t first, int32_t second)
     for (size_t k = list->count; k < round_up_to_block(list->count); k++) {
         list->first[k] = first;
         list->second[k] = second;
-        if (of_each) list->friction[k] = list->first_radius[k] = list->mass[k] = 0;
+        if (of_each) list->friction[k] = list->first_radius[k] = list->root_mass[k] = list->radius[k] = 0;
         if (of_each && list->has_rolling) list->rolling_friction[k] = 0;
         contact_list_forget(list, k);
     }
@@ -126,7 +129,8 @@ void contact_list_copy(contact_list *to, size_t slot, const contact_list *from, 
     if (from->constants != CONSTANTS_OF_EACH) return;
     to->friction[slot] = from->friction[k];
     to->first_radius[slot] = from->first_radius[k];
-    to->mass[slot] = from->mass[k];
+    to->root_mass[slot] = from->root_mass[k];
+    to->radius[slot] = from->radius[k];
     if (from->has_rolling) to->rolling_friction[slot] = from->rolling_friction[k];
 }
 
@@ -135,7 +139,8 @@ void contact_list_copy_constants(contact_list *to, const contact_list *from)
     if (from->constants != CONSTANTS_OF_ALL) return;
     memcpy(to->friction, from->friction, BLOCK * sizeof *to->friction);
     memcpy(to->first_radius, from->first_radius, BLOCK * sizeof *to->first_radius);
-    memcpy(to->mass, from->mass, BLOCK * sizeof *to->mass);
+    memcpy(to->root_mass, from->root_mass, BLOCK * sizeof *to->root_mass);
+    memcpy(to->radius, from->radius, BLOCK * sizeof *to->radius);
     if (from->has_rolling) memcpy(to->rolling_friction, from->rolling_friction, BLOCK * sizeof *to->rolling_friction);
 }
 

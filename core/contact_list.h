@@ -34,9 +34,11 @@ typedef struct contact_list {
     size_t constant_capacity;
     real *friction;         /* mu */
     real *first_radius;     /* m, at full size */
-    real *mass;             /* kg, effective: m_i m_j/(m_i + m_j), of the first alone where the other is fixed */
+    real *root_mass;        /* kg^(1/2), root of the effective mass m_i m_j/(m_i + m_j); of the first's where the other is fixed */
+    real *radius;           /* m, effective: R_i R_j/(R_i + R_j), of the first alone to a wall */
     real *rolling_friction; /* mu_r */
     bool ends_differ;       /* in their moments */
+    damped_law damped;      /* of the list's materials, where contacts have a damped law */
     contact_row *row;       /* of walls alone: what each contact gave at the last step */
 } contact_list;
 
@@ -46,6 +48,8 @@ static inline size_t constants_of(const contact_list *list, size_t start)
     return list->constants == CONSTANTS_OF_ALL ? 0 : start;
 }
 
+/* Of a damped law. (law_damped_springs.c) */
+damped_law damped_law_of(const dem_contact_parameters *contact, bool is_wall);
 dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants);
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */

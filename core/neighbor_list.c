@@ -2,18 +2,20 @@
 
 #include <stdbool.h>
 
+#include "dem_rules.h"
 #include "wall_reach.h"
 
 /* Shares of the smallest diameter, chosen by measurement: core/NUMERICS.md, "Neighbor lists". */
 static const double SKIN = 0.4, LEAST_MARGIN = 0.0001, FIRST_MARGIN = 0.006, MOST_MARGIN = 0.02;
 
-dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_rolling)
+dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_drum_definition *definition)
 {
     memset(list, 0, sizeof *list);
     list->skin = SKIN * s->smallest_diameter;
     list->margin = FIRST_MARGIN * s->smallest_diameter;
     list->least_margin = LEAST_MARGIN * s->smallest_diameter;
     list->most_margin = MOST_MARGIN * s->smallest_diameter;
+    const bool has_rolling = dem_has_rolling_friction(definition);
     bool ends_differ = has_rolling, alike = s->lining_count == 0;
     for (size_t i = 1; i < spheres_count(s); i++) ends_differ = ends_differ || s->full_radius[i] != s->full_radius[0];
     for (size_t i = 1; alike && i < s->mobile_count; i++)
@@ -31,6 +33,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, bool has_ro
     for (int k = 0; k < 4; k++)
         enough = contact_list_init(all[k], has_rolling, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
     list->pairs.ends_differ = ends_differ;
+    list->pairs.damped = damped_law_of(&definition->contact, false);
+    list->walls.damped = damped_law_of(&definition->contact, true);
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
     return DEM_NO_MEMORY;
@@ -415,10 +419,12 @@ static void describe_pairs(contact_list *pairs, const spheres *s, const dem_cont
     }
     if (pairs->has_rolling)
         for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
-    if (contact->law == DEM_WALTON_BRAUN) return; /* which has no masses */
+    if (contact->law == DEM_WALTON_BRAUN && !pairs->has_rolling) return; /* for which the rest is not */
     for (size_t k = from; k < to; k++) {
+        const real r_i = s->full_radius[first[k]], r_j = s->full_radius[second[k]];
+        pairs->radius[k] = r_i * r_j / (r_i + r_j);
         const double own = sphere_inverse_mass(s, (size_t)first[k]);
-        pairs->mass[k] = (real)(1 / (second[k] < mobile ? own + sphere_inverse_mass(s, (size_t)second[k]) : own));
+        pairs->root_mass[k] = (real)(1 / sqrt(second[k] < mobile ? own + sphere_inverse_mass(s, (size_t)second[k]) : own));
     }
 }
 
@@ -428,7 +434,8 @@ static void describe_all_pairs(contact_list *pairs, const spheres *s, const dem_
     for (size_t k = 0; k < BLOCK; k++) {
         pairs->friction[k] = (real)contact->friction;
         pairs->first_radius[k] = s->full_radius[0];
-        pairs->mass[k] = (real)(0.5 / sphere_inverse_mass(s, 0));
+        pairs->root_mass[k] = (real)sqrt(0.5 / sphere_inverse_mass(s, 0));
+        pairs->radius[k] = s->full_radius[0] / 2;
         if (pairs->has_rolling) pairs->rolling_friction[k] = (real)contact->rolling_friction;
     }
 }

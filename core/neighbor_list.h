@@ -62,8 +62,7 @@ typedef struct neighbor_list {
     int steps_since_pick;
 } neighbor_list;
 
-/* has_rolling: contacts resist rolling. */
-dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, bool has_rolling);
+dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, const dem_drum_definition *definition);
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and

@@ -61,19 +61,21 @@ static inline real fused(real a, real b, real c)
 static inline real dot(const real a[3], const real b[3]) { return fused(a[2], b[2], fused(a[1], b[1], a[0] * b[0])); }
 
 /* Roots without the processor's own, which are slow where there are many: a guess y from the bits of a float, then one step
- * by a polynomial in what it is off by, e = 1 - x y^2 (or y^3), of which the root is y (1 - e)^(-1/2) (or -1/3). 1/sqrt ends
- * within a rounding or two and errs to both sides: an error that is always low makes friction at rest leak away. x^(-1/3),
- * of which only a stiffness is made, ends within 3e-6 in single. In double the step is repeated. wide.h does the same for
+ * by a polynomial in what it is off by, e = 1 - x y^2 (or y^3, y^4), of which the root is y (1 - e)^(-1/2) (or -1/3, -1/4).
+ * 1/sqrt ends within a rounding or two and errs to both sides: an error that is always low makes friction at rest leak away.
+ * x^(-1/3), of which only a stiffness is made, ends within 3e-6 in single, x^(-1/4) within 2e-7. In double the step is repeated. wide.h does the same for
  * many at once. x: 1e-37 to 1e37. */
 enum {
     INVERSE_ROOT_MAGIC = 0x5f374753,
     INVERSE_CUBE_ROOT_MAGIC = 0x54a1f5af,
+    INVERSE_FOURTH_ROOT_MAGIC = 0x4f580000,
     IN_DOUBLE = sizeof(real) == sizeof(double),
     INVERSE_ROOT_STEPS = IN_DOUBLE ? 3 : 1,
     INVERSE_CUBE_ROOT_STEPS = IN_DOUBLE ? 3 : 1,
+    INVERSE_FOURTH_ROOT_STEPS = IN_DOUBLE ? 3 : 1,
 };
-/* Whose largest error is least over the guess's e, of at most 0.0681 (0.102): 2.3e-8 (2.7e-6). From the constant on; the
- * series are 1/2, 3/8, 5/16, 35/128 and 1/3, 2/9, 14/81. */
+/* Whose largest error is least over the guess's e, of at most 0.0681 (0.102, 0.125): 2.3e-8 (2.7e-6, 1.5e-7). From the
+ * constant on; the series are 1/2, 3/8, 5/16, 35/128, and 1/3, 2/9, 14/81, and 1/4, 5/32, 15/128, 195/2048. */
 #define INVERSE_ROOT_TERMS                                                                                                         \
     {                                                                                                                              \
         (real)0.49999836, (real)0.3749968, (real)0.31392676, (real)0.27517833                                                      \
@@ -81,6 +83,10 @@ enum {
 #define INVERSE_CUBE_ROOT_TERMS                                                                                                    \
     {                                                                                                                              \
         (real)0.33332763, (real)0.22347455, (real)0.17469921                                                                       \
+    }
+#define INVERSE_FOURTH_ROOT_TERMS                                                                                                  \
+    {                                                                                                                              \
+        (real)0.24999439, (real)0.15623354, (real)0.11871463, (real)0.09763363                                                     \
     }
 
 typedef union float_bits {
@@ -121,6 +127,19 @@ static inline real inverse_cube_root(real x)
     for (int k = 0; k < INVERSE_CUBE_ROOT_STEPS; k++) {
         const real e = fused(-(x * y), y * y, 1);
         y = fused(y * e, fused(fused(term[2], e, term[1]), e, term[0]), y);
+    }
+    return y;
+}
+
+static inline real inverse_fourth_root(real x)
+{
+    const real term[] = INVERSE_FOURTH_ROOT_TERMS;
+    float_bits bits = { .f = (float)x };
+    bits.i = INVERSE_FOURTH_ROOT_MAGIC - (int32_t)((uint32_t)bits.i >> 2);
+    real y = bits.f;
+    for (int k = 0; k < INVERSE_FOURTH_ROOT_STEPS; k++) {
+        const real yy = y * y, e = fused(-(x * yy), yy, 1);
+        y = fused(y * e, fused(fused(fused(term[3], e, term[2]), e, term[1]), e, term[0]), y);
     }
     return y;
 }

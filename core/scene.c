@@ -29,7 +29,7 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
     else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
     if (status == DEM_OK) container_place_lining(&scene->drum, definition, &scene->spheres);
     if (status == DEM_OK) status = lost_init(scene);
-    if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres, dem_has_rolling_friction(definition));
+    if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres, definition);
     if (status != DEM_OK) {
         dem_scene_free(scene);
         return status;

@@ -86,7 +86,7 @@ static void block_of_walls(contact_list *walls, size_t start, const spheres *s, 
 /* A list of one block, with some contacts of another at its front. */
 typedef struct contacts_aside {
     int32_t first[BLOCK], second[BLOCK];
-    real memory[CONTACT_NUMBERS][BLOCK], constant[4][BLOCK];
+    real memory[CONTACT_NUMBERS][BLOCK], constant[5][BLOCK];
     contact_row row[BLOCK];
     contact_list list;
 } __attribute__((aligned(ALIGNMENT))) contacts_aside;
@@ -109,13 +109,16 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
                             .constant_capacity = BLOCK,
                             .friction = aside->constant[0],
                             .first_radius = aside->constant[1],
-                            .mass = aside->constant[2],
-                            .rolling_friction = aside->constant[3],
+                            .root_mass = aside->constant[2],
+                            .radius = aside->constant[3],
+                            .rolling_friction = aside->constant[4],
                             .ends_differ = walls->ends_differ,
+                            .damped = walls->damped,
                             .row = aside->row };
-    const real *const constant[] = { walls->friction, walls->first_radius, walls->mass, walls->rolling_friction };
+    const real *const constant[] = { walls->friction, walls->first_radius, walls->root_mass, walls->radius,
+                                     walls->rolling_friction };
     real *memory[CONTACT_NUMBERS];
-    const int numbers = contact_list_memory(walls, memory), constants = walls->has_rolling ? 4 : 3;
+    const int numbers = contact_list_memory(walls, memory), constants = walls->has_rolling ? 5 : 4;
     for (int m = 0; m < numbers; m++) memcpy(aside->memory[m], memory[m] + from, (to - from) * sizeof(real));
     for (int m = 0; m < constants; m++) memcpy(aside->constant[m], constant[m] + from, (to - from) * sizeof(real));
     for (size_t k = 0; k < BLOCK; k++) { /* behind its own nobody's, at a place that there is */

@@ -70,7 +70,8 @@ void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres
         walls->friction[slot] = (real)c->wall[k].friction;
         if (walls->has_rolling) walls->rolling_friction[slot] = (real)c->wall[k].rolling_friction;
         walls->first_radius[slot] = s->full_radius[i];
-        walls->mass[slot] = (real)(1 / sphere_inverse_mass(s, i));
+        walls->root_mass[slot] = (real)(1 / sqrt(sphere_inverse_mass(s, i)));
+        walls->radius[slot] = s->full_radius[i];
         slot++;
     }
 }

@@ -313,7 +313,7 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
     return __builtin_convertvector((wide_floats)(INVERSE_CUBE_ROOT_MAGIC - __builtin_convertvector(third, wide_ints)), wide);
 }
 
-/* 1/sqrt(x) and x^(-1/3) for x > 0, as real.h has them for one. */
+/* 1/sqrt(x), x^(-1/3) and x^(-1/4) for x > 0, as real.h has them for one. */
 WIDE_INLINE wide wide_inverse_root(wide x)
 {
     const real term[] = INVERSE_ROOT_TERMS;
@@ -333,6 +333,19 @@ WIDE_INLINE wide wide_inverse_cube_root(wide x)
     for (int k = 0; k < INVERSE_CUBE_ROOT_STEPS; k++) {
         const wide e = wide_fused(-(x * y), y * y, wide_all(1));
         y = wide_fused(y * e, wide_fused(wide_fused(wide_all(term[2]), e, wide_all(term[1])), e, wide_all(term[0])), y);
+    }
+    return y;
+}
+
+WIDE_INLINE wide wide_inverse_fourth_root(wide x)
+{
+    const real term[] = INVERSE_FOURTH_ROOT_TERMS;
+    const wide_counts quarter = (wide_counts) __builtin_convertvector(x, wide_floats) >> 2;
+    wide y = __builtin_convertvector((wide_floats)(INVERSE_FOURTH_ROOT_MAGIC - quarter), wide);
+    for (int k = 0; k < INVERSE_FOURTH_ROOT_STEPS; k++) {
+        const wide yy = y * y, e = wide_minus_product(wide_all(1), x * yy, yy);
+        const wide high = wide_fused(wide_fused(wide_all(term[3]), e, wide_all(term[2])), e, wide_all(term[1]));
+        y = wide_fused(y * e, wide_fused(high, e, wide_all(term[0])), y);
     }
     return y;
 }

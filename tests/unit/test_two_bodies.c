@@ -92,6 +92,33 @@ static void head_on_spheres_part_with_e_and_the_closed_forms(void **unused)
         }
 }
 
+/* Hertz's: largest overlap ((15/16) m v^2/(E* sqrt(R*)))^(2/5), a collision of 2.94328 of it over v (the integral of
+ * dx/sqrt(1 - x^(5/2)) from 0 to 1, twice): m and R* are the scene's business, whether spheres are alike or not. */
+static void head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says(void **unused)
+{
+    (void)unused;
+    for (int differ = 0; differ < 2; differ++) {
+        dem_drum_definition d = hand_definition(2);
+        if (differ) first_sphere_differs(&d, (dem_species){ .diameter = 0.006, .density = 1200 });
+        d.contact.law = DEM_HERTZ_MINDLIN;
+        d.contact.restitution = 1;
+        d.contact.particle = d.contact.wall = (dem_elasticity){ 5e7, 0.3 };
+        const double r_1 = 0.002, r_2 = differ ? 0.003 : 0.002, v = 0.3, e_star = 5e7 / (2 * (1 - 0.09));
+        const double m_1 = species_mass(&d.species[0]), m_2 = species_mass(&d.species[differ]), m_eff = m_1 * m_2 / (m_1 + m_2);
+        const double overlap = pow(15.0 / 16 * m_eff * v * v / (e_star * sqrt(r_1 * r_2 / (r_1 + r_2))), 0.4);
+        d.time_step = 2.94328 * overlap / v / STEPS_A_CONTACT;
+        dem_scene *scene = weightless_scene(&d);
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                           .position = (double[]){ 0, 0.01, 0, r_1 + r_2 + 7.3 * v * d.time_step, 0.01, 0 },
+                                           .velocity = (double[]){ 0.25 * v, 0, 0, -0.75 * v, 0, 0 } });
+        const collision c = collide(scene, 2, v, "pair_history");
+        CHECK_NEAR(c.speed_ratio, 1, 3e-5 + 30 * ROUNDING);
+        CHECK_NEAR(c.duration, 2.94328 * overlap / v, 2 * d.time_step);
+        CHECK_NEAR(c.largest_overlap, overlap, (1e-5 + 30 * ROUNDING) * overlap);
+        dem_scene_free(scene);
+    }
+}
+
 static void a_sphere_leaves_the_wall_with_e_and_the_closed_forms(void **unused)
 {
     (void)unused;
@@ -358,6 +385,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(head_on_spheres_part_with_e_and_the_closed_forms),
+        cmocka_unit_test(head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says),
         cmocka_unit_test(a_sphere_leaves_the_wall_with_e_and_the_closed_forms),
         cmocka_unit_test(with_variable_unloading_spheres_part_slower_the_faster_they_met),
         cmocka_unit_test(at_the_runs_own_time_step_e_holds_to_half_a_percent),
