@@ -19,6 +19,23 @@ WIDE_INLINE void store_geometry(contact_block *restrict block, int k, const wide
 WIDE_INLINE void send_for(const spheres *s, const int32_t *coming)
 {
     for (int k = 0; k < LANES; k++) __builtin_prefetch(&s->row[coming[k]]);
+    for (int k = 0; s->exceed_caches && k < LANES; k++) __builtin_prefetch(&s->rest[coming[k]]);
+}
+
+/* What the contacts from `next` on remember, and who those after them are: these are more arrays than the processor follows
+ * by itself. */
+static void send_for_block(const contact_list *pairs, size_t next)
+{
+    enum { LINE = ALIGNMENT / sizeof(real), INDEX_LINE = ALIGNMENT / sizeof(int32_t) };
+    for (size_t k = next; k < next + BLOCK; k += LINE) {
+        for (int c = 0; c < 3; c++) __builtin_prefetch(&pairs->t[c][k], 1);
+        __builtin_prefetch(&pairs->t_star[k], 1);
+        __builtin_prefetch(&pairs->alpha_0[k], 1);
+    }
+    for (size_t k = next + BLOCK; k < next + 2 * BLOCK; k += INDEX_LINE) {
+        __builtin_prefetch(&pairs->first[k]);
+        __builtin_prefetch(&pairs->second[k]);
+    }
 }
 
 /* Of spheres that are all alike: the block has their reach and radii. in_order: first ends ascend, before this one; 0: they
@@ -253,9 +270,11 @@ WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, s
 /* The part's own up to `to` have all their forces from others. */
 WIDE_INLINE void spheres_complete(part_turn *turn, size_t to)
 {
+    enum { AHEAD = 96 }; /* of three blocks or four */
     const pair_work *const work = turn->work;
     neighbor_list *const list = work->list;
     spheres *const s = work->spheres;
+    if (s->exceed_caches) __builtin_prefetch(&list->wall_start[to + AHEAD]);
     while (turn->walls < turn->walls_end && turn->walls < list->wall_start[to]) {
         const size_t next = turn->walls / BLOCK * BLOCK + BLOCK, end = next < turn->walls_end ? next : turn->walls_end;
         contact_forces_with_some_walls(list, turn->walls, end, s, work->walls, work->contact, work->dt, &turn->largest);
@@ -284,6 +303,7 @@ WIDE_INLINE void block_forces(part_turn *turn, contact_list *pairs, size_t b, co
     if (are_alike(pairs)) gather_alike(block, s, first_row, second_row, rows ? 0 : parts->sphere[turn->part + 1], coming);
     else if (pairs->has_rolling) gather_any(block, s, first_row, second_row, coming, true);
     else gather_any(block, s, first_row, second_row, coming, false);
+    if (coming && s->exceed_caches) send_for_block(pairs, (b + 1) * BLOCK);
     contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &turn->largest);
     find_loads(&loads, first, second, parts->sphere[turn->part], parts->sphere[turn->part + 1], loads_of_nobody(s, turn->part),
                !rows && all_mobile);

@@ -63,7 +63,8 @@ typedef struct spheres {
     double smallest_diameter, largest_diameter; /* m, mobile */
     double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */
     bool of_one_species;                        /* all of the mobile ones */
-    bool are_many;                              /* for the cache: it pays to send for what comes next */
+    bool are_many;                              /* for the cache of a core: it pays to send for what comes next */
+    bool exceed_caches;                         /* all of them: and for what is read in turn */
     double scale;                               /* share of full size that the mobile spheres have now */
     /* written in each step, apart from what all threads read */
     _Alignas(ALIGNMENT) int copies_turn; /* 0, 1: which of the two copies of a row is read next */
