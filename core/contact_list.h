@@ -48,7 +48,7 @@ static inline size_t constants_of(const contact_list *list, size_t start)
     return list->constants == CONSTANTS_OF_ALL ? 0 : start;
 }
 
-/* Of a damped law. (law_damped_springs.c) */
+/* Of a damped law: what its springs and dashpots are made of, between particles or to a wall (law_damped_springs.c). */
 damped_law damped_law_of(const dem_contact_parameters *contact, bool is_wall);
 dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants);
 void contact_list_clear(contact_list *list);

@@ -419,7 +419,7 @@ static void describe_pairs(contact_list *pairs, const spheres *s, const dem_cont
     }
     if (pairs->has_rolling)
         for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
-    if (contact->law == DEM_WALTON_BRAUN && !pairs->has_rolling) return; /* for which the rest is not */
+    if (contact->law == DEM_WALTON_BRAUN && !pairs->has_rolling) return; /* which needs neither masses nor R* */
     for (size_t k = from; k < to; k++) {
         const real r_i = s->full_radius[first[k]], r_j = s->full_radius[second[k]];
         pairs->radius[k] = r_i * r_j / (r_i + r_j);

@@ -63,8 +63,8 @@ static inline real dot(const real a[3], const real b[3]) { return fused(a[2], b[
 /* Roots without the processor's own, which are slow where there are many: a guess y from the bits of a float, then one step
  * by a polynomial in what it is off by, e = 1 - x y^2 (or y^3, y^4), of which the root is y (1 - e)^(-1/2) (or -1/3, -1/4).
  * 1/sqrt ends within a rounding or two and errs to both sides: an error that is always low makes friction at rest leak away.
- * x^(-1/3), of which only a stiffness is made, ends within 3e-6 in single, x^(-1/4) within 2e-7. In double the step is repeated. wide.h does the same for
- * many at once. x: 1e-37 to 1e37. */
+ * x^(-1/3), of which only a stiffness is made, ends within 3e-6 in single, x^(-1/4) within 2e-7. In double the step is
+ * repeated. wide.h does the same for many at once. x: 1e-37 to 1e37. */
 enum {
     INVERSE_ROOT_MAGIC = 0x5f374753,
     INVERSE_CUBE_ROOT_MAGIC = 0x54a1f5af,
