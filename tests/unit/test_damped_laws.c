@@ -154,6 +154,25 @@ static void tangential_restitution_over_the_angle(void **unused)
     }
 }
 
+static void random_contact(dice *d, contact_block *b, contact_list *list, int k)
+{
+    double n[3];
+    dice_direction(d, n);
+    list->radius[k] = (real)dice_uniform(d, 5e-4, 1e-3);
+    list->root_mass[k] = (real)sqrt(dice_uniform(d, 1e-5, 1e-4));
+    list->friction[k] = (real)dice_uniform(d, 0, 1);
+    b->overlap[k] = (real)dice_uniform(d, -2e-5, 2e-5);
+    b->parting[k] = (real)dice_uniform(d, -0.5, 0.5);
+    const real slide[3] = { (real)dice_uniform(d, -1e-6, 1e-6), (real)dice_uniform(d, -1e-6, 1e-6),
+                            (real)dice_uniform(d, -1e-6, 1e-6) };
+    const real unit[3] = { (real)n[0], (real)n[1], (real)n[2] }, along = dot(slide, unit);
+    for (int c = 0; c < 3; c++) {
+        b->n[c][k] = unit[c];
+        b->ds[c][k] = slide[c] - along * unit[c];
+        list->t[c][k] = (real)dice_uniform(d, -3e-6, 3e-6);
+    }
+}
+
 /* The passes over a block against the scalar law, over random contacts, half of them apart. */
 static void many_contacts_at_once_are_as_one_by_one(void **unused)
 {
@@ -169,23 +188,7 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
         contact_list list;
         assert_int_equal(contact_list_init(&list, false, CONSTANTS_OF_EACH), DEM_OK);
         contact_block *b = array_create(1, sizeof *b);
-        for (int k = 0; k < BLOCK; k++) {
-            double n[3];
-            dice_direction(&d, n);
-            list.radius[k] = (real)dice_uniform(&d, 5e-4, 1e-3);
-            list.root_mass[k] = (real)sqrt(dice_uniform(&d, 1e-5, 1e-4));
-            list.friction[k] = (real)dice_uniform(&d, 0, 1);
-            b->overlap[k] = (real)dice_uniform(&d, -2e-5, 2e-5);
-            b->parting[k] = (real)dice_uniform(&d, -0.5, 0.5);
-            const real slide[3] = { (real)dice_uniform(&d, -1e-6, 1e-6), (real)dice_uniform(&d, -1e-6, 1e-6),
-                                    (real)dice_uniform(&d, -1e-6, 1e-6) };
-            const real unit[3] = { (real)n[0], (real)n[1], (real)n[2] }, along = dot(slide, unit);
-            for (int c = 0; c < 3; c++) {
-                b->n[c][k] = unit[c];
-                b->ds[c][k] = slide[c] - along * unit[c];
-                list.t[c][k] = (real)dice_uniform(&d, -3e-6, 3e-6);
-            }
-        }
+        for (int k = 0; k < BLOCK; k++) random_contact(&d, b, &list, k);
         real f_n[BLOCK], force[3][BLOCK], stretch[3][BLOCK];
         for (int k = 0; k < BLOCK; k++) {
             const real alpha = b->overlap[k];

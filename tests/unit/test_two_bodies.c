@@ -1,6 +1,8 @@
 /* Claims about two spheres, or one and the wall: collisions with closed forms (core/NUMERICS.md), in the scene's
  * own step. */
+#include "contact_forces.h"
 #include "scene_by_hand.h"
+#include "step.h"
 
 /* ---- head-on ---- */
 
@@ -116,6 +118,37 @@ static void head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says(void 
         CHECK_NEAR(c.duration, 2.94328 * overlap / v, 2 * d.time_step);
         CHECK_NEAR(c.largest_overlap, overlap, (1e-5 + 30 * ROUNDING) * overlap);
         dem_scene_free(scene);
+    }
+}
+
+/* While a bed is filled, radii are below full size, and R* is what it will be. */
+static void growing_spheres_of_hertz_press_each_other_as_grown_ones_do(void **unused)
+{
+    (void)unused;
+    static const double overlap = 2e-5;
+    for (int differ = 0; differ < 2; differ++) {
+        dem_drum_definition d = hand_definition(2);
+        if (differ) first_sphere_differs(&d, (dem_species){ .diameter = 0.006, .density = 1200 });
+        d.contact.law = DEM_HERTZ_MINDLIN;
+        d.contact.particle = d.contact.wall = (dem_elasticity){ 5e7, 0.3 };
+        const double r_1 = 0.002, r_2 = differ ? 0.003 : 0.002, e_star = 5e7 / (2 * (1 - 0.09));
+        for (double scale = 0.25; scale < 1; scale += 0.25) {
+            dem_scene *scene = weightless_scene(&d);
+            spheres *s = &scene->spheres;
+            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+                                               .position = (double[]){ 0, 0.01, 0, scale * (r_1 + r_2) - overlap, 0.01, 0 } });
+            spheres_set_scale(s, scale);
+            neighbor_list_invalidate(&scene->neighbors);
+            assert_int_equal(scene_update_neighbors(scene), DEM_OK);
+            vector4 strayed;
+            contact_forces_between_spheres(&scene->neighbors, s, NULL, &scene->contact, 0, NULL, &strayed);
+            double most = 0;
+            for (size_t i = 0; i < s->mobile_count; i++) most = fmax(most, fabs((double)s->load[i][0]));
+            /* 3/2 of the overlap's error: a few last digits of the radii */
+            const double f = 4.0 / 3 * e_star * sqrt(r_1 * r_2 / (r_1 + r_2)) * pow(overlap, 1.5);
+            CHECK_NEAR(most, f, 6 * ROUNDING * (r_1 + r_2) / overlap * f);
+            dem_scene_free(scene);
+        }
     }
 }
 
@@ -386,6 +419,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(head_on_spheres_part_with_e_and_the_closed_forms),
         cmocka_unit_test(head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says),
+        cmocka_unit_test(growing_spheres_of_hertz_press_each_other_as_grown_ones_do),
         cmocka_unit_test(a_sphere_leaves_the_wall_with_e_and_the_closed_forms),
         cmocka_unit_test(with_variable_unloading_spheres_part_slower_the_faster_they_met),
         cmocka_unit_test(at_the_runs_own_time_step_e_holds_to_half_a_percent),
