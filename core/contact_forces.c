@@ -1,7 +1,5 @@
 #include "contact_forces.h"
 
-#include "contact_block.h"
-#include "leap_frog.h"
 #include "wall_forces.h"
 
 /* What all contacts of a block have, from the way between their ends in ring units. */
@@ -23,8 +21,8 @@ WIDE_INLINE void send_for(const spheres *s, const int32_t *coming)
 }
 
 /* What the contacts from `next` on remember, and who those after them are: these are more arrays than the processor follows
- * by itself. */
-static void send_for_block(const contact_list *pairs, size_t next)
+ * by itself. Inline: a call that only sends for memory has no effect that the compiler sees, and would be left out. */
+WIDE_INLINE void send_for_block(const contact_list *pairs, size_t next)
 {
     enum { LINE = ALIGNMENT / sizeof(real), INDEX_LINE = ALIGNMENT / sizeof(int32_t) };
     for (size_t k = next; k < next + BLOCK; k += LINE) {
@@ -230,37 +228,6 @@ static void add_to_loads(const contact_block *restrict block, const block_loads 
     }
 }
 
-/* Each in a line of memory of its own. */
-typedef struct part_result {
-    _Alignas(ALIGNMENT) uint64_t ticks; /* of the processor */
-    double largest;                     /* m, overlaps */
-    vector4 strayed;
-} part_result;
-
-typedef struct pair_work {
-    neighbor_list *list;
-    spheres *spheres;
-    const container *walls; /* NULL: all their contacts have their rows */
-    const dem_contact_parameters *contact;
-    double dt;
-    const leap_frog *leap;
-    int copies_turn;
-    part_result part[MOST_PARTS];
-} pair_work;
-
-/* How far one part has come. */
-typedef struct part_turn {
-    const pair_work *work;
-    int part;
-    size_t complete;  /* the first sphere of its own that has not all its forces yet */
-    size_t walls;     /* the first contact of its own with a wall that has no row yet; */
-    size_t walls_end; /* there are none from here on */
-    size_t shared;    /* the next of its own whose row others know by a copy */
-    contact_block *block;
-    wide largest; /* m, overlaps */
-    vector4 strayed;
-} part_turn;
-
 /* Contacts with walls come last in a sphere's sum. */
 WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, size_t to)
 {
@@ -310,31 +277,94 @@ WIDE_INLINE void block_forces(part_turn *turn, contact_list *pairs, size_t b, co
     add_to_loads(block, &loads, pairs->ends_differ, s->load, coming);
 }
 
-/* One part's blocks, after the copies of what earlier parts have. A sphere is first in contacts with those behind it in memory
- * alone: behind its last one as first, it has all its forces, and no other contact reads its row in this step. */
-static void part_forces(pair_work *work, int part)
+/* Of a list that is not gone through from block to block. */
+static __attribute__((noinline)) void block_forces_aside(part_turn *turn, contact_list *pairs, size_t b, const block_rows *rows)
 {
-    neighbor_list *const list = work->list;
-    contact_part *const own = &list->parts.part[part];
-    const size_t begin = list->parts.sphere[part], own_end = list->parts.sphere[part + 1], end = list->parts.block[part + 1];
-    contact_block block;
-    part_turn turn = { .work = work, .part = part, .complete = begin, .shared = list->parts.shared_begin[part], .block = &block };
+    block_forces(turn, pairs, b, rows, NULL);
+}
+
+/* Block b is done: spheres before the first of the next one have all their forces. A sphere is first in contacts with those
+ * behind it in memory alone: behind its last one as first, no other contact reads its row in this step. */
+WIDE_INLINE void block_done(part_turn *turn, size_t b)
+{
+    const int32_t *const next = turn->work->list->pairs.first + (b + 1) * BLOCK;
+    if (b + 1 < turn->end && (size_t)*next > turn->complete) spheres_complete(turn, (size_t)*next);
+}
+
+void part_turn_next_block(part_turn *turn)
+{
+    contact_list *const pairs = &turn->work->list->pairs;
+    const contact_part *const own = &turn->work->list->parts.part[turn->part];
+    const size_t b = turn->next++;
+    const bool is_across = turn->across < own->across_count && own->across[turn->across] == b;
+    const int32_t *const coming =
+        turn->work->spheres->are_many && turn->next < turn->end ? pairs->second + turn->next * BLOCK : NULL;
+    block_forces(turn, pairs, b, is_across ? &own->rows[turn->across++] : NULL, coming);
+    block_done(turn, b);
+}
+
+void part_turn_complete(part_turn *turn, size_t to) { spheres_complete(turn, to); }
+
+void part_turn_rest_of_block(part_turn *turn, size_t done)
+{
+    contact_list *const pairs = &turn->work->list->pairs;
+    const spheres *const s = turn->work->spheres;
+    const size_t b = turn->next++;
+    int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
+    int32_t ends[2][BLOCK];
+    real *memory[CONTACT_NUMBERS], kept[CONTACT_NUMBERS][BLOCK];
+    const int numbers = contact_list_memory(pairs, memory);
+    memcpy(ends[0], first, sizeof ends[0]);
+    memcpy(ends[1], second, sizeof ends[1]);
+    for (int m = 0; m < numbers; m++) memcpy(kept[m], memory[m] + b * BLOCK, done * sizeof(real));
+    for (size_t k = 0; k < done; k++) {
+        first[k] = sphere_of_zeros(s);
+        second[k] = sphere_far_away(s);
+    }
+    block_rows rows;
+    memcpy(rows.first[turn->work->copies_turn], first, sizeof rows.first[0]);
+    memcpy(rows.second[turn->work->copies_turn], second, sizeof rows.second[0]);
+    block_forces_aside(turn, pairs, b, &rows);
+    memcpy(first, ends[0], sizeof ends[0]);
+    memcpy(second, ends[1], sizeof ends[1]);
+    for (int m = 0; m < numbers; m++) memcpy(memory[m] + b * BLOCK, kept[m], done * sizeof(real));
+    block_done(turn, b);
+}
+
+void pair_work_begin(pair_work *work, neighbor_list *list, spheres *s, const container *walls,
+                     const dem_contact_parameters *contact, double dt, const leap_frog *leap)
+{
+    work->list = list, work->spheres = s, work->walls = walls, work->contact = contact, work->dt = dt, work->leap = leap;
+    work->copies_turn = s->copies_turn;
+}
+
+part_turn part_turn_of(const pair_work *work, int part, contact_block *block)
+{
+    const neighbor_list *const list = work->list;
+    const size_t begin = list->parts.sphere[part];
+    part_turn turn = { .work = work, .part = part, .block = block, .complete = begin };
+    turn.next = list->parts.block[part];
+    turn.end = list->parts.block[part + 1];
+    turn.shared = list->parts.shared_begin[part];
     if (work->walls) {
         turn.walls = list->wall_start[begin];
-        turn.walls_end = list->wall_start[own_end];
+        turn.walls_end = list->wall_start[list->parts.sphere[part + 1]];
     }
-    if (are_alike(&list->pairs)) set_reach(&block, work->spheres);
+    if (are_alike(&list->pairs)) set_reach(block, work->spheres);
+    return turn;
+}
+
+/* One part's blocks, after the copies of what earlier parts have. */
+static void part_forces(pair_work *work, int part)
+{
+    contact_part *const own = &work->list->parts.part[part];
+    const size_t own_end = work->list->parts.sphere[part + 1];
+    contact_block block;
+    part_turn turn = part_turn_of(work, part, &block);
     for (size_t b = 0; b * BLOCK < own->copies.count; b++)
-        block_forces(&turn, &own->copies, b, &own->rows[own->across_count + b], NULL);
-    size_t across = 0; /* blocks passed */
-    for (size_t b = list->parts.block[part]; b < end; b++) {
-        const int32_t *const next = list->pairs.first + (b + 1) * BLOCK;
-        const bool is_across = across < own->across_count && own->across[across] == b, is_last = b + 1 == end;
-        const int32_t *const coming = work->spheres->are_many && !is_last ? list->pairs.second + (b + 1) * BLOCK : NULL;
-        block_forces(&turn, &list->pairs, b, is_across ? &own->rows[across++] : NULL, coming);
-        if (!is_last && (size_t)*next > turn.complete) spheres_complete(&turn, (size_t)*next);
-    }
-    if (turn.complete < own_end) spheres_complete(&turn, own_end);
+        block_forces_aside(&turn, &own->copies, b, &own->rows[own->across_count + b]);
+    while (turn.next < turn.end) part_turn_next_block(&turn);
+    if (turn.complete < own_end) part_turn_complete(&turn, own_end);
     work->part[part].largest = wide_largest_lane(turn.largest);
     work->part[part].strayed = turn.strayed;
 }
@@ -352,8 +382,7 @@ double contact_forces_between_spheres(neighbor_list *list, spheres *s, const con
                                       const dem_contact_parameters *contact, double dt, const leap_frog *leap, vector4 *strayed)
 {
     pair_work work;
-    work.list = list, work.spheres = s, work.walls = walls, work.contact = contact, work.dt = dt, work.leap = leap;
-    work.copies_turn = s->copies_turn;
+    pair_work_begin(&work, list, s, walls, contact, dt, leap);
     contact_parts_hand_out(&list->parts, s);
     team_run(list->parts.count, pairs_of_part, &work);
     if (leap) s->copies_turn = 1 - s->copies_turn;

@@ -8,6 +8,8 @@
 #include "random.h"
 #include "spheres.h"
 
+enum { STEPS_BETWEEN_RESTS = 100 }; /* of settling, between two looks whether the bed is at rest */
+
 typedef struct filling {
     double start_scale; /* share of full size at which particles are placed */
     int64_t growing_steps;

@@ -23,11 +23,12 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_d
     cell_grid_init(&list->grid, s);
     const size_t n = s->mobile_count;
     list->start = array_create(n + 1, sizeof *list->start);
+    list->farthest = array_create(n / STRETCH + 1, sizeof *list->farthest);
     list->built_at = array_create(n, sizeof *list->built_at);
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
     list->wall_start = array_create(n + 1, sizeof *list->wall_start);
     contact_parts_init(&list->parts, n);
-    bool enough = list->start && list->built_at && list->picked_velocity && list->wall_start;
+    bool enough = list->start && list->farthest && list->built_at && list->picked_velocity && list->wall_start;
     contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
     const contact_constants constants[] = { alike ? CONSTANTS_OF_ALL : CONSTANTS_OF_EACH, CONSTANTS_OF_EACH };
     for (int k = 0; k < 4; k++)
@@ -45,6 +46,7 @@ void neighbor_list_clear(neighbor_list *list)
     free(list->start);
     free(list->first);
     free(list->second);
+    free(list->farthest);
     for (int p = 0; p < MOST_PARTS; p++) free(list->part[p].second);
     free(list->in_reach);
     free(list->was_in_reach);
@@ -66,6 +68,12 @@ void neighbor_list_invalidate(neighbor_list *list)
 {
     list->outer_valid = false;
     list->inner_valid = false;
+}
+
+void neighbor_list_doubt(neighbor_list *list, int steps_apart)
+{
+    list->inner_valid = false;
+    list->steps_apart = steps_apart;
 }
 
 /* ---- outer list ---- */
@@ -218,6 +226,16 @@ static void outer_join(void *context, int part, int parts)
     }
 }
 
+static void find_farthest(neighbor_list *list, const spheres *s)
+{
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        const bool has_pairs = list->start[i + 1] > list->start[i];
+        const uint32_t last = has_pairs ? (uint32_t)list->second[list->start[i + 1] - 1] : (uint32_t)i;
+        uint32_t *const of_stretch = &list->farthest[i / STRETCH];
+        if (i % STRETCH == 0 || last > *of_stretch) *of_stretch = last;
+    }
+}
+
 static dem_status outer_build(neighbor_list *list, const spheres *s, const container *drum, int threads)
 {
     list->outer_valid = false;
@@ -237,6 +255,7 @@ static dem_status outer_build(neighbor_list *list, const spheres *s, const conta
         list->first[k] = sphere_of_zeros(s);
         list->second[k] = sphere_far_away(s);
     }
+    if (s->in_waves) find_farthest(list, s);
     list->turned_at_build = drum->angle;
     list->outer_valid = true;
     list->outer_builds++;
@@ -304,11 +323,12 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
     return (int)fmin(HORIZON, 1 + room / (now->largest_speed * time_step + 1e-300));
 }
 
-/* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths? Along the line of
- * centres now, r long, they are never nearer than r + duration * (parting speed), which must not exceed the reach, with twice
- * the margin. Both times r, and r * reach <= (r^2 + reach^2)/2 for lack of a root: r^2 + 2 duration (dv.x) against reach^2,
- * in units of the ring. In contact arithmetic, whose rounding the reach is widened for. */
-static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, double duration)
+/* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths, and `apart` (m) at the
+ * most from where they are at one time? Along the line of centres now, r long, they are never nearer than
+ * r + duration * (parting speed), which must not exceed the reach, with twice the margin. Both times r, and
+ * r * reach <= (r^2 + reach^2)/2 for lack of a root: r^2 + 2 duration (dv.x) against reach^2, in units of the ring. In contact
+ * arithmetic, whose rounding the reach is widened for. */
+static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, double duration, double apart)
 {
     enum { AHEAD = 4 * LANES };
     for (size_t k = pair + AHEAD; s->are_many && k < pair + AHEAD + LANES && k < list->pair_count; k++)
@@ -325,7 +345,7 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
                            ? wide_all((real)(2 * units * (double)s->full_radius[0]))
                            : (wide_rests_load(s->rest, first).radius + wide_rests_load(s->rest, second).radius)
                                  * wide_all((real)(units / s->scale));
-    const wide reach = radii + wide_all((real)(2 * units * list->margin));
+    const wide reach = radii + wide_all((real)(2 * units * (list->margin + apart)));
     return wide_mask_bits(wide_exceeds(reach * reach, nearest2));
 }
 
@@ -336,6 +356,7 @@ typedef struct pick_work {
     const container *drum;
     const dem_contact_parameters *contact;
     wall_outlook ahead;
+    double apart;    /* m: pairs_in_reach */
     bool same_outer; /* as at the pick before */
     /* how many pairs each part has in reach, and had at the pick before, and contacts with walls; then how many the parts
      * before it have, had */
@@ -358,7 +379,7 @@ static void mark_in_reach(void *context, int part, int parts)
     size_t now = 0, was = 0;
     const size_t end = begin_of_groups(work, part + 1, parts);
     for (size_t g = begin_of_groups(work, part, parts); g < end; g++) {
-        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, work->ahead.duration);
+        list->in_reach[g] = (uint16_t)pairs_in_reach(list, s, g * LANES, work->ahead.duration, work->apart);
         now += (size_t)__builtin_popcount(list->in_reach[g]);
         if (work->same_outer) was += (size_t)__builtin_popcount(list->was_in_reach[g]);
     }
@@ -502,10 +523,12 @@ static void make_contacts(void *context, int part, int parts)
 }
 
 static dem_status inner_pick(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
-                             double duration, int threads)
+                             double time_step, int threads)
 {
     const int parts = team_parts(threads);
+    const double duration = list->safe_steps * time_step;
     pick_work work = { .list = list, .spheres = s, .drum = drum, .contact = contact, .ahead = { duration, list->margin } };
+    work.apart = list->steps_apart * time_step * list->at_pick.largest_speed;
     work.same_outer = list->picked_of == list->outer_builds;
     contact_list_swap(&list->pairs, &list->pairs_before);
     contact_list_swap(&list->walls, &list->walls_before);
@@ -574,7 +597,7 @@ dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container
     list->at_pick = now;
     /* Right after a build, the step at hand is safe whatever the speed. */
     list->safe_steps = steps > 1 ? steps : 1;
-    const dem_status status = inner_pick(list, s, drum, contact, list->safe_steps * time_step, threads);
+    const dem_status status = inner_pick(list, s, drum, contact, time_step, threads);
     if (status != DEM_OK) neighbor_list_invalidate(list);
     return status;
 }

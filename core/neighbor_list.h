@@ -14,6 +14,7 @@
 enum {
     HORIZON = 8,             /* steps between two picks of the inner list, at most */
     PICKS_BETWEEN_LOOKS = 2, /* at each place and velocity as it is, at most */
+    STRETCH = 256,           /* spheres in a row in memory */
 };
 
 typedef struct pair_part {
@@ -33,8 +34,9 @@ typedef struct neighbor_list {
     size_t pair_count, pair_capacity, second_capacity;
     uint32_t *start;         /* (mobile + 1) */
     int32_t *first, *second; /* (pair_capacity, second_capacity) by first, then by second; padded with a pair far apart */
-    uint16_t *in_reach;      /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
-    uint16_t *was_in_reach;  /* likewise, at the pick before */
+    uint32_t *farthest; /* (mobile / STRETCH + 1) for waves: the last sphere that is in a pair with one of a stretch, or of it */
+    uint16_t *in_reach; /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
+    uint16_t *was_in_reach; /* likewise, at the pick before */
     pair_part part[MOST_PARTS];
     ring_row *built_at; /* (mobile) places when the outer list was made */
     cell_grid grid;
@@ -42,6 +44,7 @@ typedef struct neighbor_list {
     /* inner */
     double margin; /* m: how far a sphere may stray from its straight path before the next pick */
     double least_margin, most_margin;
+    int steps_apart; /* by which the places of spheres may be apart in time: zero but where waves end early (wave.h) */
     int safe_steps;
     outlook at_pick;        /* as looked at then, or before and bounded from there */
     double turned_at_build; /* rad: the drum's angle when the outer list was made */
@@ -65,6 +68,8 @@ typedef struct neighbor_list {
 dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, const dem_drum_definition *definition);
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
+/* The next update picks, from spheres whose places may be as many steps apart: those that are ahead wait for the others. */
+void neighbor_list_doubt(neighbor_list *list, int steps_apart);
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
  * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. looked: whether it is time to look at each sphere's place and
  * velocity: one that is no number is in no bound. */

@@ -3,21 +3,24 @@
 /* Between two sorts a drum turns by a tenth of a radian or so. Fewer than LEAST fit into the cache in any order. */
 enum { STEPS_BETWEEN_SORTS = 8192, LEAST = 1500, MOST_CELLS_A_SIDE = 512 };
 
-static bool is_due(const dem_scene *scene)
+int64_t sorting_steps_left(const dem_scene *scene)
 {
-    if (scene->drum.kind != DEM_DRUM || scene->spheres.mobile_count < LEAST) return false;
+    if (scene->drum.kind != DEM_DRUM || scene->spheres.mobile_count < LEAST) return INT64_MAX;
     const int64_t steps = scene->phase == DEM_PHASE_ROTATING ? scene->step_count - scene->rotation_start + scene->steps_before
                                                              : scene->step_count - scene->phase_start;
-    return steps % STEPS_BETWEEN_SORTS == 0;
+    return STEPS_BETWEEN_SORTS - steps % STEPS_BETWEEN_SORTS;
 }
 
 /* ---- the order ---- */
 
-/* Cells of a sphere's size; the longest axis is the slowest to change, so that neighbors along it are not too far away. */
+/* Cells of a sphere's size; the longest axis is the slowest to change, so that neighbors along it are not too far away.
+ * Where it is periodic and waves go along it (wave.h), it is folded: the first layer, the last, the second, the last but
+ * one, so that no two that touch are far apart. */
 typedef struct sorting_cells {
     const double *low;
     double inverse_size[3];
     int count[3], axis[3]; /* axis: slowest first */
+    bool is_folded;        /* the slowest */
 } sorting_cells;
 
 static sorting_cells cells_of(const dem_scene *scene)
@@ -30,6 +33,7 @@ static sorting_cells cells_of(const dem_scene *scene)
         cells.inverse_size[a] = cells.count[a] / side;
     }
     if (cells.count[2] > cells.count[0]) memcpy(cells.axis, (const int[]){ 2, 0, 1 }, sizeof cells.axis);
+    cells.is_folded = scene->spheres.in_waves && drum->period > 0 && cells.axis[0] == 2;
     return cells;
 }
 
@@ -39,7 +43,9 @@ static int32_t cell_of(const sorting_cells *cells, const double x[3])
     for (int k = 0; k < 3; k++) {
         const int a = cells->axis[k], last = cells->count[a] - 1;
         const double along = (x[a] - cells->low[a]) * cells->inverse_size[a];
-        cell = cell * cells->count[a] + (along > 0 ? (along < last ? (int)along : last) : 0);
+        const int layer = along > 0 ? (along < last ? (int)along : last) : 0;
+        const bool folds = k == 0 && cells->is_folded;
+        cell = cell * cells->count[a] + (!folds ? layer : 2 * layer <= last ? 2 * layer : 2 * (last - layer) + 1);
     }
     return cell;
 }
@@ -178,7 +184,7 @@ static dem_status sort(dem_scene *scene, int32_t *order, int32_t *sphere_order, 
 
 dem_status sorting_look(dem_scene *scene)
 {
-    if (!is_due(scene)) return DEM_OK;
+    if (sorting_steps_left(scene) != STEPS_BETWEEN_SORTS) return DEM_OK;
     const size_t n = scene->spheres.mobile_count;
     int32_t *numbers = array_create(4 * n + 1, sizeof *numbers);
     const dem_status status = numbers ? sort(scene, numbers, numbers + n, numbers + 2 * n, numbers + 3 * n) : DEM_NO_MEMORY;

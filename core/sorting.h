@@ -9,6 +9,8 @@
 
 #include "scene.h"
 
+/* Steps that can be taken until the next time, after sorting_look. */
+int64_t sorting_steps_left(const dem_scene *scene);
 /* Sorts when it is due; contacts keep what they remember, and lists are made again. Errors: DEM_NO_MEMORY. */
 dem_status sorting_look(dem_scene *scene);
 /* Particles into another order, in memory: order (particles): where each was; spheres before clusters, as always. The

@@ -2,8 +2,9 @@
 
 #include "dem_rules.h"
 
-/* Of 2,300 all that a step needs is in the second-level cache; of 24,000 it is in the third; of 100,000 it is in none. */
-enum { MANY = 10000, VERY_MANY = 50000 };
+/* Of 2,300 all that a step needs is in the second-level cache; of 24,000 it is in the third; of 100,000 it is in none, but
+ * comes from memory as fast as it is asked for. */
+enum { MANY = 10000, VERY_MANY = 50000, FOR_WAVES = 200000 };
 
 size_t spheres_count(const spheres *s) { return s->mobile_count + s->lining_count; }
 
@@ -36,6 +37,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->of_one_species = definition->species_count == 1;
     s->are_many = n >= MANY;
     s->exceed_caches = n >= VERY_MANY;
+    s->in_waves = n >= FOR_WAVES;
     const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->row_count = s->first_copy = all + 2;
     s->row = array_create(s->row_count, sizeof *s->row);

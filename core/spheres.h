@@ -65,6 +65,7 @@ typedef struct spheres {
     bool of_one_species;                        /* all of the mobile ones */
     bool are_many;                              /* for the cache of a core: it pays to send for what comes next */
     bool exceed_caches;                         /* all of them: and for what is read in turn */
+    bool in_waves;                              /* it pays to take several steps in one pass through memory: wave.h */
     double scale;                               /* share of full size that the mobile spheres have now */
     /* written in each step, apart from what all threads read */
     _Alignas(ALIGNMENT) int copies_turn; /* 0, 1: which of the two copies of a row is read next */

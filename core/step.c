@@ -17,6 +17,7 @@
 #include "stream.h"
 #include "team.h"
 #include "wall_forces.h"
+#include "wave.h"
 
 dem_status scene_update_neighbors(dem_scene *scene)
 {
@@ -52,6 +53,14 @@ static void look_at_torque(dem_scene *scene, bool has_loads)
     scene->torque.count += 1;
 }
 
+/* largest: m, of the step; since: s, for which single spheres have moved on since. */
+static dem_status look_at_overlaps(dem_scene *scene, double largest, double since)
+{
+    scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
+    const double limit = FAILURE_OVERLAP * 0.5 * scene->spheres.smallest_diameter;
+    return largest > limit ? failure_check_overlaps(scene, since) : DEM_OK;
+}
+
 /* leap: those spheres that have all their forces move at once, while the processor has them at hand; NULL: none. */
 static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4 *strayed)
 {
@@ -64,10 +73,8 @@ static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4
     if (walls_first) look_at_torque(scene, false);
     const double between =
         contact_forces_between_spheres(list, s, walls_first ? NULL : &scene->drum, &scene->contact, dt, leap, strayed);
-    largest = fmax(largest, between);
     step_profile_lap(scene->profile, DEM_PART_PAIRS);
-    scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
-    return largest > FAILURE_OVERLAP * 0.5 * s->smallest_diameter ? failure_check_overlaps(scene, leap ? dt : 0.0) : DEM_OK;
+    return look_at_overlaps(scene, fmax(largest, between), leap ? dt : 0.0);
 }
 
 /* Half a step's work: once with the velocities before the forces act, once with those after. */
@@ -109,10 +116,9 @@ static void next_phase(dem_scene *scene, dem_phase phase)
 
 static dem_status continue_settling(dem_scene *scene)
 {
-    enum { STEPS_BETWEEN_LOOKS = 100 };
     const filling *f = &scene->filling;
     const int64_t steps = scene->step_count - scene->phase_start;
-    if (steps < f->settling_steps_least || steps % STEPS_BETWEEN_LOOKS) return DEM_OK;
+    if (steps < f->settling_steps_least || steps % STEPS_BETWEEN_RESTS) return DEM_OK;
     const double energy = spheres_kinetic_energy(&scene->spheres);
     if (energy < f->rest_energy) next_phase(scene, DEM_PHASE_ROTATING);
     else if (steps > f->settling_steps_most) return failure_of_settling(scene, energy);
@@ -153,27 +159,53 @@ static double step_motion(dem_scene *scene, const leap_frog *leap, size_t moved,
     return deviation;
 }
 
-dem_status scene_step(dem_scene *scene)
+/* What follows the motion. */
+static dem_status finish_step(dem_scene *scene, double deviation)
 {
-    const double dt = scene->definition.time_step;
-    step_profile_begin(scene->profile);
-    dem_status status = sorting_look(scene) == DEM_OK ? step_neighbors(scene) : failure_of_memory(scene);
-    if (status != DEM_OK) return status;
-    const body_forces body = forces_of_phase(scene);
-    integrator_leap(&scene->leap, &scene->spheres, &scene->drum, &body, dt);
-    const bool looks = scene->profile || scene->audit.is_on || (torque_is_due(scene) && scene->spheres.lining_count > 0);
-    vector4 so_far = { 0 };
-    status = step_contacts(scene, looks ? NULL : &scene->leap, &so_far);
-    if (status != DEM_OK) return status;
-    const double deviation = step_motion(scene, &scene->leap, looks ? 0 : scene->spheres.single_count, so_far);
-    neighbor_list_step_done(&scene->neighbors, deviation, dt);
+    neighbor_list_step_done(&scene->neighbors, deviation, scene->definition.time_step);
     lost_hold(scene);
     scene->step_count++;
     lost_look(scene);
     stream_enter(scene);
     move_container(scene);
-    status = continue_phase(scene);
+    return continue_phase(scene);
+}
+
+static dem_status one_step(dem_scene *scene)
+{
+    const bool looks = scene->profile || scene->audit.is_on || (torque_is_due(scene) && scene->spheres.lining_count > 0);
+    vector4 so_far = { 0 };
+    dem_status status = step_contacts(scene, looks ? NULL : &scene->leap, &so_far);
+    if (status != DEM_OK) return status;
+    const double deviation = step_motion(scene, &scene->leap, looks ? 0 : scene->spheres.single_count, so_far);
+    status = finish_step(scene, deviation);
     step_profile_lap(scene->profile, DEM_PART_CONTAINER);
+    return status;
+}
+
+/* The next steps as one wave. Apart: a wave's stages need not be in the way of the stack of single steps. */
+__attribute__((noinline)) static dem_status several_steps(dem_scene *scene, int steps)
+{
+    const double dt = scene->definition.time_step;
+    const bool walls_first = torque_is_due(scene);
+    const double of_walls =
+        walls_first ? contact_forces_with_walls(&scene->neighbors, &scene->spheres, &scene->drum, &scene->contact, dt) : 0.0;
+    look_at_torque(scene, false);
+    wave w;
+    wave_begin(&w, scene, steps, walls_first);
+    wave_run(&w);
+    dem_status status = DEM_OK;
+    for (int k = 0; k < steps && status == DEM_OK; k++) {
+        if (k == w.whole) neighbor_list_doubt(&scene->neighbors, steps - w.whole);
+        if (k >= w.whole) {
+            status = scene_update_neighbors(scene);
+            if (status != DEM_OK) break;
+            wave_resume(&w, k);
+        }
+        status = look_at_overlaps(scene, fmax(wave_largest_overlap(&w, k), k == 0 ? of_walls : 0.0), dt);
+        if (status == DEM_OK) status = finish_step(scene, wave_deviation(&w, k));
+    }
+    scene->neighbors.steps_apart = 0;
     return status;
 }
 
@@ -185,13 +217,21 @@ typedef struct advance {
 static dem_status advance_scene(void *context)
 {
     const advance *a = context;
-    for (int64_t k = 0; k < a->steps; k++) {
-        const dem_status status = scene_step(a->scene);
+    dem_scene *const scene = a->scene;
+    for (int64_t k = 0; k < a->steps;) {
+        step_profile_begin(scene->profile);
+        dem_status status = sorting_look(scene) == DEM_OK ? step_neighbors(scene) : failure_of_memory(scene);
         if (status != DEM_OK) return status;
+        const body_forces body = forces_of_phase(scene);
+        integrator_leap(&scene->leap, &scene->spheres, &scene->drum, &body, scene->definition.time_step);
+        const int steps = wave_length(scene, a->steps - k);
+        status = steps > 1 ? several_steps(scene, steps) : one_step(scene);
+        if (status != DEM_OK) return status;
+        k += steps;
     }
     /* Whoever looks at the scene now finds lists that hold for the present places. */
-    step_profile_begin(a->scene->profile);
-    return step_neighbors(a->scene);
+    step_profile_begin(scene->profile);
+    return step_neighbors(scene);
 }
 
 dem_status dem_scene_advance(dem_scene *scene, int64_t steps)

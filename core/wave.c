@@ -1,0 +1,171 @@
+#include "wave.h"
+
+#include "failure.h"
+#include "sorting.h"
+
+enum { TURNS = 200 }; /* of a stage, between those of the others: of a million spheres, each a layer or so */
+
+/* ---- which steps ---- */
+
+static int64_t until_next(int64_t count, int64_t every) { return every - count % every; }
+
+static bool is_possible(const dem_scene *scene)
+{
+    const spheres *s = &scene->spheres;
+    const container *c = &scene->drum;
+    const bool turns = scene->phase == DEM_PHASE_ROTATING;
+    return s->in_waves && scene->definition.threads == 1 && scene->phase != DEM_PHASE_GROWING && s->single_count == s->mobile_count
+           && s->lining_count == 0 && c->kind == DEM_DRUM && c->bar_count == 0
+           && c->rotation_rate == (turns ? scene->definition.rotation_rate : 0.0) && !scene->profile && !scene->audit.is_on;
+}
+
+int wave_length(const dem_scene *scene, int64_t left)
+{
+    if (!is_possible(scene)) return 1;
+    const neighbor_list *list = &scene->neighbors;
+    const bool turns = scene->phase == DEM_PHASE_ROTATING;
+    const int64_t looks = turns ? until_next(scene->step_count - scene->rotation_start, STEPS_BETWEEN_TORQUES)
+                                : until_next(scene->step_count - scene->phase_start, STEPS_BETWEEN_RESTS);
+    const int64_t bounds[] = { left, looks, sorting_steps_left(scene), list->safe_steps - list->steps_since_pick };
+    int64_t steps = HORIZON;
+    for (size_t k = 0; k < sizeof bounds / sizeof *bounds; k++) steps = bounds[k] < steps ? bounds[k] : steps;
+    return (int)steps;
+}
+
+/* ---- the stages ---- */
+
+void wave_begin(wave *w, dem_scene *scene, int steps, bool are_walls_done)
+{
+    w->list = &scene->neighbors;
+    w->spheres = &scene->spheres;
+    w->steps = w->whole = steps;
+    w->overlap_limit = FAILURE_OVERLAP * 0.5 * scene->spheres.smallest_diameter;
+    pair_work_begin(&w->work, w->list, w->spheres, &scene->drum, &scene->contact, scene->definition.time_step, &scene->leap);
+    for (int k = 0; k < steps; k++) {
+        wave_stage *const stage = &w->stage[k];
+        stage->turn = part_turn_of(&w->work, 0, &w->block);
+        stage->ready = 0;
+    }
+    if (are_walls_done) w->stage[0].turn.walls_end = 0;
+}
+
+double wave_largest_overlap(const wave *w, int k) { return wide_largest_lane(w->stage[k].turn.largest); }
+
+double wave_deviation(const wave *w, int k)
+{
+    const vector4 v = w->stage[k].turn.strayed;
+    return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+/* Spheres that stage k may have as first ones: all, or those before `ready`. */
+static void look_ahead(wave *w, int k)
+{
+    const neighbor_list *const list = w->list;
+    wave_stage *const stage = &w->stage[k];
+    const size_t n = w->spheres->mobile_count, complete = w->stage[k - 1].turn.complete;
+    while (stage->ready < n && list->farthest[stage->ready / STRETCH] < complete) stage->ready += STRETCH;
+    if (complete == n) stage->ready = n + 1;
+    stage->turn.walls_end = list->wall_start[complete];
+}
+
+static void go_on(wave *w, int k)
+{
+    wave_stage *const stage = &w->stage[k];
+    part_turn *const turn = &stage->turn;
+    const size_t n = w->spheres->mobile_count;
+    if (k) look_ahead(w, k);
+    else stage->ready = n + 1;
+    for (size_t b = 0; b <= turn->end / TURNS && turn->next < turn->end; b++) {
+        const size_t last = turn->next + 1 < turn->end ? (size_t)w->list->pairs.first[(turn->next + 1) * BLOCK] : n;
+        if (last >= stage->ready) return;
+        part_turn_next_block(turn);
+    }
+    if (turn->next == turn->end && stage->ready > n) part_turn_complete(turn, n);
+}
+
+/* Steps that the list holds for, by how far spheres have come; the one with too large an overlap is the last. */
+static int steps_that_hold(const wave *w)
+{
+    double strayed = w->list->strayed;
+    for (int k = 0; k + 1 < w->whole; k++) {
+        strayed += wave_deviation(w, k) * w->work.dt;
+        if (!(strayed <= w->list->margin) || wave_largest_overlap(w, k) > w->overlap_limit) return k + 1;
+    }
+    return w->whole;
+}
+
+/* ---- stages that stop and go on ---- */
+
+static void keep_place(const wave *w, wave_stage *stage)
+{
+    const contact_list *const pairs = &w->list->pairs, *const walls = &w->list->walls;
+    const part_turn *const turn = &stage->turn;
+    const size_t done = turn->next * BLOCK < pairs->count ? turn->next * BLOCK : pairs->count;
+    stage->first = done ? pairs->first[done - 1] : -1;
+    stage->second = done ? pairs->second[done - 1] : -1;
+    const size_t begin = w->list->wall_start[turn->complete];
+    stage->wall_count = turn->walls > begin ? turn->walls - begin : 0;
+    memcpy(stage->wall_first, walls->first + begin, stage->wall_count * sizeof *walls->first);
+    memcpy(stage->wall_second, walls->second + begin, stage->wall_count * sizeof *walls->second);
+    memcpy(stage->wall_row, walls->row + begin, stage->wall_count * sizeof *walls->row);
+}
+
+void wave_run(wave *w)
+{
+    const size_t n = w->spheres->mobile_count;
+    while (w->stage[w->whole - 1].turn.complete < n)
+        for (int k = 0; k < w->whole; k++) {
+            if (w->stage[k].turn.complete == n) continue;
+            go_on(w, k);
+            w->whole = steps_that_hold(w);
+        }
+    for (int k = w->whole; k < w->steps; k++) keep_place(w, &w->stage[k]);
+}
+
+/* Where the contacts behind this one begin. */
+static size_t slot_behind(const contact_list *list, int32_t first, int32_t second)
+{
+    size_t low = 0, high = list->count;
+    while (low < high) {
+        const size_t k = low + (high - low) / 2;
+        if (list->first[k] < first || (list->first[k] == first && list->second[k] <= second)) low = k + 1;
+        else high = k;
+    }
+    return low;
+}
+
+/* The rows that spheres have yet to add. Contacts that were not listed did not touch. */
+static void put_rows_back(wave *w, const wave_stage *stage, size_t begin, size_t end)
+{
+    const contact_list *const walls = &w->list->walls;
+    if (begin < end) memset(walls->row + begin, 0, (end - begin) * sizeof *walls->row);
+    for (size_t k = 0; k < stage->wall_count; k++) {
+        const size_t behind = slot_behind(walls, stage->wall_first[k], stage->wall_second[k]);
+        if (behind == 0 || walls->first[behind - 1] != stage->wall_first[k] || walls->second[behind - 1] != stage->wall_second[k])
+            continue; /* which does not touch, either */
+        walls->row[behind - 1] = stage->wall_row[k];
+    }
+}
+
+void wave_resume(wave *w, int k)
+{
+    wave_stage *const stage = &w->stage[k];
+    const neighbor_list *const list = w->list;
+    const size_t n = w->spheres->mobile_count, complete = stage->turn.complete, last_wall = stage->wall_count;
+    part_turn *const turn = &stage->turn;
+    turn->strayed = (vector4){ 0 };
+    turn->end = list->parts.block[1];
+    const size_t slot = slot_behind(&list->pairs, stage->first, stage->second);
+    turn->next = slot / BLOCK;
+    turn->walls_end = list->wall_start[n];
+    turn->walls = list->wall_start[complete];
+    if (last_wall) {
+        const size_t end = slot_behind(&list->walls, stage->wall_first[last_wall - 1], stage->wall_second[last_wall - 1]);
+        put_rows_back(w, stage, turn->walls, end);
+        turn->walls = end;
+    }
+    if (slot < list->pairs.count && slot % BLOCK) part_turn_rest_of_block(turn, slot % BLOCK);
+    else if (slot % BLOCK) turn->next++;
+    while (turn->next < turn->end) part_turn_next_block(turn);
+    if (turn->complete < n) part_turn_complete(turn, n);
+}
