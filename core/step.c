@@ -212,13 +212,14 @@ __attribute__((noinline)) static dem_status several_steps(dem_scene *scene, int 
 typedef struct advance {
     dem_scene *scene;
     int64_t steps;
+    bool to_rotation; /* at the furthest */
 } advance;
 
 static dem_status advance_scene(void *context)
 {
     const advance *a = context;
     dem_scene *const scene = a->scene;
-    for (int64_t k = 0; k < a->steps;) {
+    for (int64_t k = 0; k < a->steps && !(a->to_rotation && scene->phase == DEM_PHASE_ROTATING);) {
         step_profile_begin(scene->profile);
         dem_status status = sorting_look(scene) == DEM_OK ? step_neighbors(scene) : failure_of_memory(scene);
         if (status != DEM_OK) return status;
@@ -236,5 +237,10 @@ static dem_status advance_scene(void *context)
 
 dem_status dem_scene_advance(dem_scene *scene, int64_t steps)
 {
-    return team_gather(scene->definition.threads, advance_scene, &(advance){ scene, steps });
+    return team_gather(scene->definition.threads, advance_scene, &(advance){ scene, steps, false });
+}
+
+dem_status dem_scene_advance_to_rotation(dem_scene *scene, int64_t steps)
+{
+    return team_gather(scene->definition.threads, advance_scene, &(advance){ scene, steps, true });
 }

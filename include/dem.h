@@ -19,6 +19,8 @@ void dem_scene_free(dem_scene *scene);
  * Stops early with the failure described by dem_scene_failure. The same bits for any number of threads and
  * for any way of dividing the steps into calls. */
 dem_status dem_scene_advance(dem_scene *scene, int64_t steps);
+/* The same, of at most `steps`: no further than to the first step of rotation. */
+dem_status dem_scene_advance_to_rotation(dem_scene *scene, int64_t steps);
 const dem_failure *dem_scene_failure(const dem_scene *scene);
 
 /* From now on `profile` is filled, until it is set to NULL; it must live as long. Nothing computed depends on it,

@@ -9,6 +9,9 @@
 /* Weight of the newest second in the speed: a run's speed changes as its bed loosens, but not by the second. */
 #define NEWEST_WEIGHT 0.3
 #define SHORT_RUN_SECONDS 0.05
+/* Large beds take several steps in one pass, if they may. */
+#define LONGEST_RUN_SECONDS 1.0
+enum { FEWEST_STEPS = 20 };
 
 double monotonic_seconds(void)
 {
@@ -68,5 +71,6 @@ int64_t progress_short_run(const progress *run)
 {
     /* A cautious guess until the first report. */
     const double speed = run->steps_per_second > 0.0 ? run->steps_per_second : 1e6 / fmax(run->spheres, 1.0);
-    return (int64_t)fmax(1.0, fmin(1e6, speed * SHORT_RUN_SECONDS));
+    const double fewest = fmax(1.0, fmin(FEWEST_STEPS, speed * LONGEST_RUN_SECONDS));
+    return (int64_t)fmax(fewest, fmin(1e6, speed * SHORT_RUN_SECONDS));
 }

@@ -31,7 +31,7 @@ bool progress_is_due(progress *run, const dem_scene *scene, progress_report *rep
 
 double progress_wall_seconds(const progress *run); /* of all attempts */
 
-/* Steps that take about 50 ms: how long a signal or a report may have to wait. */
+/* Steps that take about 50 ms, of large beds up to a second: how long a signal or a report may have to wait. */
 int64_t progress_short_run(const progress *run);
 
 #endif

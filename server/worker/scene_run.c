@@ -44,15 +44,6 @@ static enum worker_exit fail(scene_run *r, dem_status status)
 
 static enum worker_exit fail_for_disk(scene_run *r, const char *name) { return failure_report_disk(r->events, name); }
 
-/* Rotation's first step is not known before: in the phases before it the scene is looked at after every step. */
-static dem_status advance_towards_rotation(dem_scene *scene, int64_t steps)
-{
-    dem_status status = DEM_OK;
-    for (int64_t k = 0; k < steps && status == DEM_OK && dem_scene_phase(scene) != DEM_PHASE_ROTATING; k++)
-        status = dem_scene_advance(scene, 1);
-    return status;
-}
-
 /* Steps since rotation began. */
 static int64_t rotation_step(const scene_run *r) { return dem_scene_step_count(r->scene) - dem_scene_rotation_start(r->scene); }
 
@@ -61,7 +52,7 @@ static bool is_rotating(const scene_run *r) { return dem_scene_phase(r->scene) =
 static dem_status advance(scene_run *r)
 {
     int64_t steps = progress_short_run(&r->progress);
-    if (!is_rotating(r)) return advance_towards_rotation(r->scene, steps);
+    if (!is_rotating(r)) return dem_scene_advance_to_rotation(r->scene, steps);
     int64_t due = r->plan.rotation_steps;
     if (r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) < due)
         due = schedule_sample_step(&r->plan, r->next_sample);

@@ -50,6 +50,25 @@ static dem_scene *run_in_calls(const dem_drum_definition *d, int64_t steps, int6
     return scene;
 }
 
+static void advancing_to_rotation_ends_at_its_first_step(void **unused)
+{
+    (void)unused;
+    dem_drum_definition d = quick_drum();
+    for (d.threads = 1; d.threads <= 2; d.threads++) {
+        dem_scene *once = drum_scene(&d), *stepwise = drum_scene(&d);
+        assert_int_equal(dem_scene_advance_to_rotation(once, 7), DEM_OK);
+        assert_int_equal(dem_scene_step_count(once), 7);
+        assert_int_equal(dem_scene_advance_to_rotation(once, 1000000), DEM_OK);
+        while (dem_scene_phase(stepwise) != DEM_PHASE_ROTATING) run(stepwise, 1);
+        assert_int_equal(dem_scene_rotation_start(once), dem_scene_step_count(once));
+        assert_true(are_equal(once, stepwise));
+        assert_int_equal(dem_scene_advance_to_rotation(once, 5), DEM_OK);
+        assert_true(are_equal(once, stepwise));
+        dem_scene_free(once);
+        dem_scene_free(stepwise);
+    }
+}
+
 static void a_run_gives_the_same_bits_for_any_division_into_calls(void **unused)
 {
     (void)unused;
@@ -441,6 +460,7 @@ int main(int count, char **arguments)
     (void)count;
     wait_without_spinning(arguments);
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(advancing_to_rotation_ends_at_its_first_step),
         cmocka_unit_test(a_run_gives_the_same_bits_for_any_division_into_calls),
         cmocka_unit_test(a_run_gives_the_same_bits_for_any_number_of_threads),
         cmocka_unit_test(parts_smaller_than_one_spheres_contacts_give_the_same_bits),
