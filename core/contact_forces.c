@@ -321,7 +321,7 @@ void part_turn_rest_of_block(part_turn *turn, size_t done)
         first[k] = sphere_of_zeros(s);
         second[k] = sphere_far_away(s);
     }
-    block_rows rows;
+    block_rows rows = { 0 };
     memcpy(rows.first[turn->work->copies_turn], first, sizeof rows.first[0]);
     memcpy(rows.second[turn->work->copies_turn], second, sizeof rows.second[0]);
     block_forces_aside(turn, pairs, b, &rows);
