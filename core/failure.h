@@ -6,6 +6,11 @@
 
 /* An overlap beyond this share of the smaller radius is no contact any more. */
 #define FAILURE_OVERLAP 0.5
+/* m: no smaller overlap is one of these. */
+static inline double failure_least_overlap(const dem_scene *scene)
+{
+    return FAILURE_OVERLAP * 0.5 * scene->spheres.smallest_diameter;
+}
 
 dem_status failure_check_places(dem_scene *scene); /* DEM_NOT_A_NUMBER, DEM_PARTICLE_ESCAPED */
 /* At the places of `since` (s) ago, if single spheres have moved since the forces: DEM_OVERLAP_TOO_LARGE. */

@@ -34,8 +34,8 @@ typedef struct neighbor_list {
     size_t pair_count, pair_capacity, second_capacity;
     uint32_t *start;         /* (mobile + 1) */
     int32_t *first, *second; /* (pair_capacity, second_capacity) by first, then by second; padded with a pair far apart */
-    uint32_t *farthest; /* (mobile / STRETCH + 1) for waves: the last sphere that is in a pair with one of a stretch, or of it */
-    uint16_t *in_reach; /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
+    uint32_t *farthest;     /* (mobile / STRETCH + 1) for waves: of each stretch, the last sphere that it or one of its pairs has */
+    uint16_t *in_reach;     /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
     uint16_t *was_in_reach; /* likewise, at the pick before */
     pair_part part[MOST_PARTS];
     ring_row *built_at; /* (mobile) places when the outer list was made */

@@ -57,8 +57,7 @@ static void look_at_torque(dem_scene *scene, bool has_loads)
 static dem_status look_at_overlaps(dem_scene *scene, double largest, double since)
 {
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
-    const double limit = FAILURE_OVERLAP * 0.5 * scene->spheres.smallest_diameter;
-    return largest > limit ? failure_check_overlaps(scene, since) : DEM_OK;
+    return largest > failure_least_overlap(scene) ? failure_check_overlaps(scene, since) : DEM_OK;
 }
 
 /* leap: those spheres that have all their forces move at once, while the processor has them at hand; NULL: none. */

@@ -39,7 +39,7 @@ void wave_begin(wave *w, dem_scene *scene, int steps, bool are_walls_done)
     w->list = &scene->neighbors;
     w->spheres = &scene->spheres;
     w->steps = w->whole = steps;
-    w->overlap_limit = FAILURE_OVERLAP * 0.5 * scene->spheres.smallest_diameter;
+    w->overlap_limit = failure_least_overlap(scene);
     pair_work_begin(&w->work, w->list, w->spheres, &scene->drum, &scene->contact, scene->definition.time_step, &scene->leap);
     for (int k = 0; k < steps; k++) {
         wave_stage *const stage = &w->stage[k];

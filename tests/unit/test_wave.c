@@ -4,7 +4,7 @@
 #include "small_drum.h"
 #include "wave.h"
 
-enum { MOST_CALLS = 3 * HORIZON, BEFORE_SORT = 8192 - 500 };
+enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500 };
 
 /* Eight diameters across and a hundred long: some 3000 spheres, so that steps follow each other along it. */
 static dem_drum_definition slender_drum(void)
@@ -55,12 +55,12 @@ typedef struct tally {
     int64_t stopped;         /* waves that had to be picked for again on their way */
 } tally;
 
-/* `calls` times up to MOST_CALLS steps, of another number each time. */
+/* `calls` times up to MOST_STEPS steps, of another number each time. */
 static tally compare(dem_scene *waves, dem_scene *single, int calls)
 {
     tally t = { 0 };
     for (int call = 0; call < calls; call++) {
-        for (int left = 1 + call * 7 % MOST_CALLS; left > 0;) {
+        for (int left = 1 + call * 7 % MOST_STEPS; left > 0;) {
             const int steps = wave_length(waves, left);
             const int64_t picks = waves->neighbors.inner_picks;
             run(waves, steps);
