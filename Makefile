@@ -121,12 +121,16 @@ test: test-packages ## unit, short physics and service tests; closes with a line
 physics: test-packages ## verification, a quarter of an hour: tests/physics/RESULTS.md; LONG=1: all of it, an hour more
 	@$(MAKE) --no-print-directory physics-programs
 	@$(if $(LONG),rm -f tests/physics/RESULTS.md)
-	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider $(if $(LONG),,-m "not long") tests/physics --results tests/physics/RESULTS.md
+	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider $(if $(LONG),,-m "not long and not torture") tests/physics --results tests/physics/RESULTS.md
 # In both precisions by the best instructions of this machine; the hash of states by all of them.
 physics-programs: programs $(foreach v,single-$(ISA) double-$(ISA),$(patsubst %,$(BUILD)/tests/$(v)/%,$(PHYSICS))) \
   $(patsubst %,$(BUILD)/tests/%/state_hash,$(RUNNABLE))
 	@rm -rf $(BUILD)/tests/single $(BUILD)/tests/double
 	@ln -s single-$(ISA) $(BUILD)/tests/single && ln -s double-$(ISA) $(BUILD)/tests/double
+
+torture: test-packages ## faults for minutes: kill -9 in loops, full disks, the n-th call that fails
+	@$(MAKE) --no-print-directory programs
+	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider -m torture tests/service tests/physics
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs
@@ -188,6 +192,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES))
 
-.PHONY: FORCE all programs demo serve test physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve test torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)

@@ -24,7 +24,7 @@ done
 
 if [ "$2" != unit ]; then
   for folder in tests/physics tests/service; do
-    REPOSED_BUILD=$build "${PYTHON:-python3}" -m pytest -q -p no:cacheprovider -m "not long and not minutes" "$folder" | tee "$log"
+    REPOSED_BUILD=$build "${PYTHON:-python3}" -m pytest -q -p no:cacheprovider -m "not long and not minutes and not torture" "$folder" | tee "$log"
     last=$(grep -E '[0-9]+ (passed|failed|error)' "$log" | tail -n 1)
     count() { printf '%s' "$last" | grep -oE "[0-9]+ $1" | grep -oE '[0-9]+' || echo 0; }
     passed=$((passed + $(count passed)))
