@@ -69,7 +69,7 @@ static void begin_case(study_summing *summing, int64_t index)
 {
     summing->index = index;
     memset(summing->counts, 0, sizeof summing->counts);
-    for (int m = 0; m < STUDY_MEASURES; m++) summing->sums[m] = (study_sums){ .run_error = NAN };
+    memset(summing->means, 0, sizeof summing->means);
     json_object_clear(summing->regimes);
 }
 
@@ -78,26 +78,6 @@ void study_summing_init(study_summing *summing, study_table *table)
     summing->table = table;
     summing->regimes = json_object();
     begin_case(summing, -1);
-}
-
-/* Welford's recurrence: no difference of large sums. */
-static void add_value(study_sums *sums, double value)
-{
-    sums->count++;
-    const double off = value - sums->mean;
-    sums->mean += off / (double)sums->count;
-    sums->squares += off * (value - sums->mean);
-}
-
-/* {"mean", "standard_error", "error_from", "count"}. */
-static json_t *sums_to_json(const study_sums *sums)
-{
-    const bool several = sums->count > 1;
-    const double n = (double)sums->count;
-    const double error = several ? sqrt(sums->squares / (n - 1.0) / n) : sums->run_error;
-    const char *from = several ? "repeats" : isfinite(error) ? "run" : NULL;
-    return json_pack("{s:f, s:o, s:s?, s:I}", "mean", sums->mean, "standard_error",
-                     isfinite(error) ? json_real(error) : json_null(), "error_from", from, "count", (json_int_t)sums->count);
 }
 
 /* "rolling"; "rolling 2, slumping 1". */
@@ -125,7 +105,8 @@ static void end_case(study_summing *summing)
     for (int i = 0; i < JOB_STATUSES; i++) all += summing->counts[i];
     json_t *results = json_object();
     for (int m = 0; m < STUDY_MEASURES; m++)
-        if (summing->sums[m].count > 0) json_object_set_new(results, study_measures[m].name, sums_to_json(&summing->sums[m]));
+        if (summing->means[m].count > 0)
+            json_object_set_new(results, study_measures[m].name, mean_of_runs_to_json(&summing->means[m]));
     if (json_object_set_new(one, "repeats", json_integer(all)) != 0
         || json_object_set_new(one, "finished", json_integer(summing->counts[JOB_SUCCESSFUL])) != 0
         || json_object_set_new(one, "failed", json_integer(summing->counts[JOB_FAILED])) != 0
@@ -146,9 +127,8 @@ bool study_summing_add_run(void *context, const study_run_row *row)
     for (int m = 0; m < STUDY_MEASURES; m++) {
         const json_t *value = json_object_get(row->measures, study_measures[m].name);
         if (!json_is_number(value)) continue;
-        add_value(&summing->sums[m], json_number_value(value));
         const json_t *error = study_measures[m].run_error ? json_object_get(row->measures, study_measures[m].run_error) : NULL;
-        summing->sums[m].run_error = json_is_number(error) ? json_number_value(error) : NAN;
+        mean_of_runs_add(&summing->means[m], json_number_value(value), json_is_number(error) ? json_number_value(error) : NAN);
     }
     const char *regime = json_string_value(json_object_get(row->measures, "regime"));
     if (regime)
@@ -203,6 +183,14 @@ static void add_json(text_buffer *out, const json_t *value)
     }
 }
 
+/* Where a run has an error of its own, a column says which error was taken; that of the angle is the last. */
+static bool has_error_from(const char *name)
+{
+    for (int m = 1; m < STUDY_MEASURES; m++)
+        if (strcmp(study_measures[m].name, name) == 0) return study_measures[m].run_error;
+    return false;
+}
+
 static void write_head(const json_t *inputs, const json_t *labels, const json_t *results, text_buffer *out)
 {
     const char *name;
@@ -215,6 +203,7 @@ static void write_head(const json_t *inputs, const json_t *labels, const json_t 
     {
         add_name(out, "", name, "");
         add_name(out, "", name, "_standard_error");
+        if (has_error_from(name)) add_name(out, "", name, "_error_from");
     }
     if (json_object_get(results, "angle_deg")) text_buffer_print(out, ",error_from");
     text_buffer_print(out, "\r\n");
@@ -237,6 +226,7 @@ static void write_row(const json_t *row, const json_t *inputs, const json_t *lab
         const json_t *measure = json_object_get(json_object_get(row, "results"), name);
         add_json(out, json_object_get(measure, "mean"));
         add_json(out, json_object_get(measure, "standard_error"));
+        if (has_error_from(name)) add_json(out, json_object_get(measure, "error_from"));
     }
     if (json_object_get(results, "angle_deg"))
         add_json(out, json_object_get(json_object_get(json_object_get(row, "results"), "angle_deg"), "error_from"));

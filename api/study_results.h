@@ -1,11 +1,9 @@
-/* A study's results: a row a case, with the mean over its repeats and the standard error of that mean.
- *
- * Repeats differ in their random beginning alone, so they are independent, and the error of their mean is s/sqrt(n)
- * with s^2 = sum (x - mean)^2/(n - 1). With one repeat there is no such thing; for the angle the run's own error,
- * from block averages in time, stands in for it, and error_from says so. */
+/* A study's results: a row a case, with the mean over its repeats and the standard error of that mean. Repeats differ in
+ * their random beginning alone, so they are independent (mean_of_runs.h). */
 #ifndef STUDY_RESULTS_H
 #define STUDY_RESULTS_H
 
+#include "mean_of_runs.h"
 #include "store.h"
 #include "text_buffer.h"
 
@@ -27,15 +25,11 @@ void study_table_clear(study_table *table);
  * or the summing. */
 study_case_visitor study_table_add_case;
 
-typedef struct study_sums {
-    int64_t count;
-    double mean, squares, run_error; /* squares: sum of (x - mean)^2; run_error: of the last run; NaN: none */
-} study_sums;
 typedef struct study_summing {
     study_table *table;
     int64_t index; /* of the case being summed; -1: none yet */
     int64_t counts[JOB_STATUSES];
-    study_sums sums[STUDY_MEASURES];
+    mean_of_runs means[STUDY_MEASURES];
     json_t *regimes; /* {"rolling": 2}: how many runs were so */
 } study_summing;
 

@@ -6,15 +6,15 @@ const ROWS_SHOWN = 500;
 
 // Name in the results, heading, and how a number is written.
 const MEASURES = [
-  ['angle_deg', 'angle of repose', degrees],
-  ['maximum_deg', 'highest angle', degrees],
+  ['angle_deg', 'angle of repose', angle],
+  ['maximum_deg', 'highest angle', angle],
   ['minimum_omega2', 'least ω²R/g', plain],
   ['radial_index', 'radial segregation', plain],
   ['lacey_index', 'Lacey index', plain],
   ['solid_fraction', 'solid fraction', plain],
   ['torque', 'torque, N m', plain],
   ['slumps_period', 'period of slumps, s', plain],
-  ['maximum_overlap', 'largest overlap', value => percent(value)],
+  ['maximum_overlap', 'largest overlap', share],
 ];
 
 // As many decimals as the error has meaning.
@@ -25,6 +25,17 @@ function plain(mean, error) {
   const decimals = Math.min(Math.max(1 - Math.floor(Math.log10(error / scale)), 0), 12);
   const both = `${(mean / scale).toFixed(decimals)} ± ${(error / scale).toFixed(decimals)}`;
   return power === 0 ? both : `(${both})·10${superscript(power)}`;
+}
+
+function angle(mean, error) {
+  if (!(error > 0)) return degrees(mean, error);
+  return `${plain(mean, error)}°`;
+}
+
+function share(mean, error) {
+  if (!(error > 0)) return percent(mean);
+  const text = plain(100 * mean, 100 * error);
+  return text.startsWith('(') ? `${text} %` : `(${text}) %`;
 }
 
 export function caseTable(cases) {
@@ -58,6 +69,10 @@ function inWords(value) {
 
 function measure(result, write) {
   if (!result) return h('td', { class: 'measure' }, '–');
-  const from = { repeats: `standard error over ${result.count} repeats`, run: 'standard error of the one run' }[result.error_from] ?? 'no error known';
+  const from = {
+    repeats: `standard error from the scatter of ${result.count} repeats`,
+    runs: `standard error from the own errors of ${result.count} repeats, which scatter less`,
+    run: 'standard error of the one run',
+  }[result.error_from] ?? 'no error known';
   return h('td', { class: 'measure', title: from }, write(result.mean, result.standard_error));
 }

@@ -1,0 +1,71 @@
+#include "mean_of_runs.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+/* Of a normal distribution, within one standard deviation. */
+#define WITHIN_ONE_SIGMA 0.682689492137086
+#define PI 3.14159265358979323846
+
+/* Welford's recurrence: no difference of large sums. */
+void mean_of_runs_add(mean_of_runs *mean, double value, double run_error)
+{
+    mean->count++;
+    const double off = value - mean->mean;
+    mean->mean += off / (double)mean->count;
+    mean->squares += off * (value - mean->mean);
+    if (!isfinite(run_error)) return;
+    mean->errors++;
+    mean->squares_of_errors += run_error * run_error;
+}
+
+/* One and two degrees of freedom have closed forms. Beyond, the expansion in 1/degrees for a quantile of 1 sigma
+ * (Abramowitz and Stegun 26.7.5), off by less than 1e-3. */
+double student_factor(int64_t degrees)
+{
+    const double n = (double)degrees, a = WITHIN_ONE_SIGMA;
+    if (degrees <= 1) return tan(0.5 * PI * a);
+    if (degrees == 2) return a * sqrt(2.0 / (1.0 - a * a));
+    return 1.0 + 1.0 / (2.0 * n) + 1.0 / (4.0 * n * n) + 1.0 / (16.0 * n * n * n);
+}
+
+static double error_of(const mean_of_runs *mean, const char **from)
+{
+    const double n = (double)mean->count;
+    const double scatter = mean->count > 1 ? student_factor(mean->count - 1) * sqrt(mean->squares / (n - 1.0) / n) : NAN;
+    const double own = mean->errors > 0 ? sqrt(mean->squares_of_errors / (double)mean->errors / n) : NAN;
+    *from = isnan(scatter) && isnan(own) ? NULL : mean->count == 1 ? "run" : own > scatter ? "runs" : "repeats";
+    return fmax(scatter, own); /* fmax passes over NaN */
+}
+
+static double two_digits(double value)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%.1e", value);
+    return strtod(text, NULL);
+}
+
+/* As far as two digits of the error reach: 23.456 +- 0.123 is 23.46. */
+static double rounded_to(double value, double error)
+{
+    enum { MOST_DECIMALS = 300 };
+    char text[700];
+    const int decimals = 1 - (int)floor(log10(error));
+    if (decimals > MOST_DECIMALS) return value;
+    if (decimals < 0) {
+        const double unit = pow(10.0, -decimals);
+        return unit * round(value / unit);
+    }
+    snprintf(text, sizeof text, "%.*f", decimals, value);
+    return strtod(text, NULL) + 0.0; /* no -0 */
+}
+
+json_t *mean_of_runs_to_json(const mean_of_runs *mean)
+{
+    const char *from;
+    const double error = two_digits(error_of(mean, &from));
+    const double value = error > 0.0 && isfinite(error) ? rounded_to(mean->mean, error) : mean->mean;
+    return json_pack("{s:f, s:o, s:s?, s:I}", "mean", value, "standard_error", isfinite(error) ? json_real(error) : json_null(),
+                     "error_from", from, "count", (json_int_t)mean->count);
+}
