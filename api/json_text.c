@@ -5,9 +5,30 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A number that is not 0 as written but too small for a double: strtod makes 0 or a denormal of it, and the parser
- * does not tell. Returns its place, or NULL. The text is known to be good JSON. */
-static const char *find_vanishing_number(const char *text, const char *end)
+/* What of a number is shown in a message. */
+enum { LONGEST_SHOWN = 20 };
+
+/* A piece of the text: it ends after `length` bytes and not with a zero byte, for what lies behind it is not ours. */
+typedef struct text_piece {
+    const char *start;
+    size_t length;
+} text_piece;
+
+/* Whether strtod, which reads up to a zero byte, makes 0 of this number. */
+static bool vanishes(text_piece number)
+{
+    char few[64], *copy = number.length < sizeof few ? few : malloc(number.length + 1);
+    if (!copy) return true; /* better to refuse a good number than to take 0 for it */
+    memcpy(copy, number.start, number.length);
+    copy[number.length] = '\0';
+    const bool is_zero = strtod(copy, NULL) == 0.0;
+    if (copy != few) free(copy);
+    return is_zero;
+}
+
+/* A number that is not 0 as written but too small for a double: strtod makes 0 of it, and the parser does not tell.
+ * start NULL: there is none. The text is known to be good JSON. */
+static text_piece find_vanishing_number(const char *text, const char *end)
 {
     for (const char *c = text; c < end;) {
         if (*c == '"') {
@@ -19,15 +40,13 @@ static const char *find_vanishing_number(const char *text, const char *end)
             size_t digits = 0; /* of the mantissa, other than 0 */
             for (; c < end && (isdigit((unsigned char)*c) || *c == '.'); c++) digits += *c >= '1' && *c <= '9';
             while (c < end && (isalnum((unsigned char)*c) || *c == '+' || *c == '-' || *c == '.')) c++;
-            char number[64] = "";
-            const size_t length = (size_t)(c - start);
-            memcpy(number, start, length < sizeof number ? length : sizeof number - 1);
-            if (length < sizeof number && digits && strtod(number, NULL) == 0.0) return start;
+            const text_piece number = { start, (size_t)(c - start) };
+            if (digits && vanishes(number)) return number;
         } else {
             c++;
         }
     }
-    return NULL;
+    return (text_piece){ NULL, 0 };
 }
 
 json_t *json_text_load(const char *text, size_t length, problem_list *problems)
@@ -38,11 +57,13 @@ json_t *json_text_load(const char *text, size_t length, problem_list *problems)
         problem_list_add(problems, "", "is not JSON: %s (line %d, column %d)", error.text, error.line, error.column);
         return NULL;
     }
-    const char *vanishing = find_vanishing_number(text, text + length);
-    if (!vanishing) return document;
+    const text_piece vanishing = find_vanishing_number(text, text + length);
+    if (!vanishing.start) return document;
     int line = 1;
-    for (const char *c = text; c < vanishing; c++) line += *c == '\n';
-    problem_list_add(problems, "", "has in line %d a number too close to 0 to be kept: %.20s...", line, vanishing);
+    for (const char *c = text; c < vanishing.start; c++) line += *c == '\n';
+    const bool is_cut = vanishing.length > LONGEST_SHOWN;
+    problem_list_add(problems, "", "has in line %d a number too close to 0 to be kept: %.*s%s", line,
+                     is_cut ? LONGEST_SHOWN : (int)vanishing.length, vanishing.start, is_cut ? "..." : "");
     json_decref(document);
     return NULL;
 }

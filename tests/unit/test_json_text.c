@@ -9,8 +9,11 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
 #include "drum_result.h"
+#include "job_spec.h"
 #include "json_text.h"
 
 /* The detail of the problem, or "" when the text is read. */
@@ -34,6 +37,77 @@ static void a_number_that_would_turn_into_0_is_refused(void **state)
     assert_non_null(strstr(refusal("{\"a\":\n 1e-400}", detail, sizeof detail), "line 2"));
     assert_string_not_equal(refusal("[-0.001e-330]", detail, sizeof detail), "");
     assert_string_equal(refusal("[0, 0.0, -0, 0e5, 0.000e-400, 1e-300, 100]", detail, sizeof detail), "");
+}
+
+/* A body as it comes from a client: its bytes and not one more. The page behind it can't be read: whoever reads on dies.
+ * Behind it only that page; before it, to be seen in a message, the other's bytes. */
+typedef struct exact_body {
+    char *pages, *text;
+    size_t size, length;
+} exact_body;
+
+static exact_body exact_body_make(const char *text, size_t length)
+{
+    const size_t page = (size_t)sysconf(_SC_PAGESIZE), size = (length / page + 2) * page;
+    exact_body body = { mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0), NULL, size, length };
+    assert_true(body.pages != MAP_FAILED);
+    memset(body.pages, 'S', size - page);
+    body.text = body.pages + size - page - length;
+    memcpy(body.text, text, length);
+    assert_int_equal(mprotect(body.pages + size - page, page, PROT_NONE), 0);
+    return body;
+}
+
+static void exact_body_free(exact_body *body) { munmap(body->pages, body->size); }
+
+static void a_message_holds_no_byte_that_was_not_sent(void **state)
+{
+    (void)state;
+    static const char *const numbers[] = { "1e-400", "-2.5e-999", "0.00001e-999999", "12345678901234567890123456789e-999",
+                                           "0.00000000000000000000000000000000000000000000000000000000000000000000000001e-330" };
+    static const char *const shown[] = { "1e-400", "2.5e-999", "0.00001e-999999", "12345678901234567890...", "0.000000000000000000..." };
+    for (size_t n = 0; n < sizeof numbers / sizeof numbers[0]; n++) {
+        for (size_t space = 0; space < 40; space++) {
+            char text[200], expected[300];
+            snprintf(text, sizeof text, "%*s%s", (int)space, "", numbers[n]);
+            snprintf(expected, sizeof expected, "has in line 1 a number too close to 0 to be kept: %s", shown[n]);
+            exact_body body = exact_body_make(text, strlen(text));
+            problem_list problems;
+            problem_list_init(&problems);
+            assert_null(json_text_load(body.text, body.length, &problems));
+            assert_string_equal(json_string_value(json_object_get(json_array_get(problems.errors, 0), "detail")), expected);
+            problem_list_clear(&problems);
+            exact_body_free(&body);
+        }
+    }
+}
+
+static const char drum_body[] =
+    "{\"inputs\": {\"drum\": {\"diameter\": 0.126, \"length\": 1.89e-2, \"rotation_rate\": 1.5}, \"particles\":"
+    " [{\"shape\": \"sphere\", \"diameter\": 0.00378, \"density\": 2500}], \"fill_fraction\": 0.5, \"seed\": 18446744073709551615,"
+    " \"contact\": {\"friction\": 1e-400}}, \"label\": {\"\\u00e4\\\\\": \"h\xc3\xa4\xc3\x9flich \\\"\\\\\"}}";
+
+/* Every beginning of a body, and every body with one byte changed, is read as a specification. */
+static void bodies_are_read_by_their_length(void **state)
+{
+    (void)state;
+    const size_t whole = sizeof drum_body - 1;
+    for (size_t round = 0; round <= 2 * whole; round++) {
+        const size_t length = round <= whole ? round : whole;
+        exact_body body = exact_body_make(drum_body, length);
+        if (round > whole) body.text[round - whole - 1] = "\"\\{}[]:,e-0\xc3"[round % 12];
+        problem_list problems;
+        problem_list_init(&problems);
+        json_t *document = json_text_load(body.text, body.length, &problems);
+        assert_true((document == NULL) != problem_list_is_empty(&problems));
+        if (document) {
+            job_spec spec;
+            if (job_spec_parse("drum", document, 1, &spec, &problems)) job_spec_clear(&spec);
+        }
+        json_decref(document);
+        problem_list_clear(&problems);
+        exact_body_free(&body);
+    }
 }
 
 static void digits_inside_a_text_are_no_numbers(void **state)
@@ -103,6 +177,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_number_that_would_turn_into_0_is_refused),
+        cmocka_unit_test(a_message_holds_no_byte_that_was_not_sent),
+        cmocka_unit_test(bodies_are_read_by_their_length),
         cmocka_unit_test(digits_inside_a_text_are_no_numbers),
         cmocka_unit_test(numbers_are_written_in_the_fewest_digits_that_read_back_the_same),
         cmocka_unit_test(what_was_not_measured_is_null),
