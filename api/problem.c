@@ -6,6 +6,8 @@
 
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { MOST_PROBLEMS = 100, LONGEST_DETAIL = 600 };
 
@@ -23,15 +25,28 @@ void problem_list_clear(problem_list *problems)
 
 bool problem_list_is_empty(const problem_list *problems) { return problems->errors && json_array_size(problems->errors) == 0; }
 
-/* Cut back to whole UTF-8 characters: a text cut at the buffer's end is otherwise no JSON string. */
-static void trim_cut_character(char *text, size_t length)
+/* Of a text that quotes what a client sent, perhaps cut within a character, what is UTF-8: JSON can hold nothing else.
+ * New reference. */
+static json_t *text_json(const char *text)
 {
-    size_t start = length;
-    while (start > 0 && ((unsigned char)text[start - 1] & 0xC0) == 0x80) start--;
-    if (start == 0) return;
-    const unsigned char lead = (unsigned char)text[start - 1];
-    const size_t needed = lead >= 0xF0 ? 4 : lead >= 0xE0 ? 3 : lead >= 0xC0 ? 2 : 1;
-    if (length - (start - 1) < needed) text[start - 1] = '\0';
+    json_t *whole = json_string(text);
+    char *kept = whole ? NULL : strdup(text);
+    if (!kept) return whole;
+    size_t length = 0;
+    for (const char *end = text + strlen(text); text < end;) {
+        size_t bytes = 0;
+        for (size_t n = 1; n <= 4 && n <= (size_t)(end - text) && bytes == 0; n++) {
+            json_t *character = json_stringn(text, n);
+            if (character) bytes = n;
+            json_decref(character);
+        }
+        memcpy(kept + length, text, bytes);
+        length += bytes;
+        text += bytes ? bytes : 1;
+    }
+    json_t *rest = json_stringn(kept, length);
+    free(kept);
+    return rest;
 }
 
 void problem_list_add(problem_list *problems, const char *pointer, const char *format, ...)
@@ -40,17 +55,16 @@ void problem_list_add(problem_list *problems, const char *pointer, const char *f
     char detail[LONGEST_DETAIL];
     va_list arguments;
     va_start(arguments, format);
-    const int length = vsnprintf(detail, sizeof detail, format, arguments);
+    vsnprintf(detail, sizeof detail, format, arguments);
     va_end(arguments);
-    if (length >= (int)sizeof detail) trim_cut_character(detail, sizeof detail - 1);
 
-    json_t *problem = json_pack("{s:s, s:s}", "pointer", pointer, "detail", detail);
+    json_t *problem = json_pack("{s:o, s:o}", "pointer", text_json(pointer), "detail", text_json(detail));
     if (!problem || json_array_append_new(problems->errors, problem) != 0) problem_list_clear(problems);
 }
 
 json_t *problem_json(int http_status, const char *type, const char *title, const char *detail, const problem_list *errors)
 {
-    json_t *document = json_pack("{s:s, s:s, s:i, s:s}", "type", type, "title", title, "status", http_status, "detail", detail);
+    json_t *document = json_pack("{s:s, s:s, s:i, s:o}", "type", type, "title", title, "status", http_status, "detail", text_json(detail));
     if (!document || !errors || !errors->errors) return document;
     if (json_object_set(document, "errors", errors->errors) != 0) {
         json_decref(document);
