@@ -15,23 +15,52 @@
 
 /* --- the token and the address to listen on --- */
 
-static bool read_token(const char *path, char token[HTTP_TOKEN_SIZE])
+/* The whole file, or as much of it as the buffer holds; -1: errno says why not. */
+static ssize_t read_file(const char *path, char *text, size_t size, mode_t *mode)
 {
     const int file = open(path, O_RDONLY | O_CLOEXEC);
-    struct stat facts;
-    if (file < 0 || fstat(file, &facts) != 0) {
+    struct stat facts = { .st_mode = 0 };
+    ssize_t got = file < 0 || fstat(file, &facts) != 0 ? -1 : 1, length = 0;
+    while (got > 0 && (size_t)length < size) {
+        got = read(file, text + length, size - (size_t)length);
+        if (got > 0) length += got;
+    }
+    const int problem = errno;
+    if (file >= 0) close(file);
+    errno = problem;
+    *mode = facts.st_mode;
+    return got < 0 ? -1 : length;
+}
+
+/* A token is never taken in part: a client that sends all of it would be refused, and who knows a part let in. */
+static bool read_token(const char *path, char token[HTTP_TOKEN_SIZE])
+{
+    char text[HTTP_TOKEN_SIZE + 64]; /* and white space around it */
+    mode_t mode;
+    const ssize_t length = read_file(path, text, sizeof text, &mode);
+    if (length < 0) {
         log_line("token file %s can't be read: %s", path, strerror(errno));
-        if (file >= 0) close(file);
         return false;
     }
-    const ssize_t got = read(file, token, HTTP_TOKEN_SIZE - 1);
-    close(file);
-    token[got > 0 ? got : 0] = '\0';
-    token[strcspn(token, " \t\r\n")] = '\0';
-    if ((facts.st_mode & 077) != 0) log_line("token file %s has mode %03o; must be 0600", path, (unsigned)facts.st_mode & 0777U);
-    else if (strlen(token) < 16)
-        log_line("token file %s holds %zu characters; must hold 16 to %d", path, strlen(token), HTTP_TOKEN_SIZE - 1);
-    else return true;
+    size_t first = 0, end = (size_t)length;
+    while (first < end && isspace((unsigned char)text[first])) first++;
+    while (end > first && isspace((unsigned char)text[end - 1])) end--;
+    size_t plain = first;
+    while (plain < end && isgraph((unsigned char)text[plain])) plain++;
+    const size_t characters = end - first;
+    if ((mode & 077) != 0) log_line("token file %s has mode %03o; must be 0600", path, (unsigned)mode & 0777U);
+    else if ((size_t)length == sizeof text)
+        log_line("token file %s holds %zu characters or more; must hold 16 to %d", path, sizeof text, HTTP_TOKEN_SIZE - 1);
+    else if (characters < 16 || characters >= HTTP_TOKEN_SIZE)
+        log_line("token file %s holds %zu characters; must hold 16 to %d", path, characters, HTTP_TOKEN_SIZE - 1);
+    else if (plain < end)
+        log_line("token file %s holds, at character %zu, one that a header can't hold; must hold ASCII without spaces", path,
+                 plain - first + 1);
+    else {
+        memcpy(token, text + first, characters);
+        token[characters] = '\0';
+        return true;
+    }
     return false;
 }
 
