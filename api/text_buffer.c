@@ -1,5 +1,6 @@
 #include "text_buffer.h"
 
+#include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -69,15 +70,41 @@ void text_buffer_add_json_string(text_buffer *buffer, const char *text, size_t l
     text_buffer_add(buffer, "\"", 1);
 }
 
+/* [+-]digits[.digits][e[+-]digits], as a spreadsheet reads it, too; nothing else that strtod takes. */
+static bool is_number(const char *text, size_t length)
+{
+    size_t at = length > 0 && (text[0] == '+' || text[0] == '-'), digits = 0;
+    for (; at < length && isdigit((unsigned char)text[at]); at++) digits++;
+    if (at < length && text[at] == '.')
+        for (at++; at < length && isdigit((unsigned char)text[at]); at++) digits++;
+    if (digits > 0 && at < length && (text[at] == 'e' || text[at] == 'E')) {
+        at += at + 1 < length && (text[at + 1] == '+' || text[at + 1] == '-') ? 2 : 1;
+        for (digits = 0; at < length && isdigit((unsigned char)text[at]); at++) digits++;
+    }
+    return digits > 0 && at == length;
+}
+
+/* What a spreadsheet would take for a formula, and run: it begins with one of these, or with their full-width forms. */
+static bool is_formula(const char *text, size_t length)
+{
+    if (length == 0 || is_number(text, length)) return false;
+    if (memchr("=+-@\t\r\n", text[0], 7)) return true;
+    static const char *const wide[] = { "\uff1d", "\uff0b", "\uff0d", "\uff20" };
+    for (size_t i = 0; i < sizeof wide / sizeof wide[0]; i++)
+        if (length >= 3 && memcmp(text, wide[i], 3) == 0) return true;
+    return false;
+}
+
 void text_buffer_add_csv_field(text_buffer *buffer, const char *text, size_t length)
 {
-    bool quote = false;
-    for (size_t i = 0; i < length && !quote; i++) quote = strchr(",\"\r\n", text[i]) != NULL;
+    const bool formula = is_formula(text, length);
+    bool quote = formula;
+    for (size_t i = 0; i < length && !quote; i++) quote = memchr(",;\"\t\r\n", text[i], 6) != NULL;
     if (!quote) {
         text_buffer_add(buffer, text, length);
         return;
     }
-    text_buffer_add(buffer, "\"", 1);
+    text_buffer_add(buffer, "\"'", formula ? 2 : 1);
     for (size_t i = 0; i < length; i++) {
         if (text[i] == '"') text_buffer_add(buffer, "\"", 1);
         text_buffer_add(buffer, &text[i], 1);

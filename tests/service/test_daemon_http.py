@@ -87,6 +87,16 @@ def test_bad_bodies_are_told_apart(fake):
     assert fake.get("/jobs").json()["jobs"] == []
 
 
+def test_a_refusal_is_told_whatever_it_quotes(fake):
+    for path in ("/jobs?" + "ä" * 30 + "=1", "/jobs?xä" + "ä" * 30 + "=1", "/jobs?limit=x" + "€" * 30, "/query?sql=select 1;" + "x" + "ä" * 30):
+        answer = fake.get(path)
+        assert answer.status_code == 400 and answer.json()["detail"], path
+    job = fake.submit()
+    fake.ended(job)
+    answer = fake.get(f"/jobs/{job}/snapshots/0.hdf", headers={"Range": b"bytes=999-"})
+    assert answer.status_code == 416 and answer.json()["detail"]
+
+
 def test_a_body_of_more_than_a_megabyte_is_refused(fake):
     padded = json.dumps({"inputs": SPEC}).ljust(1 << 20)
     path, headers = f"{fake.url}/processes/drum/execution", {"Content-Type": "application/json"}
@@ -208,6 +218,31 @@ def test_a_token_is_asked_for(tmp_path):
             assert daemon.post(headers={"Authorization": wrong} if wrong else {}).status_code == 401
         assert daemon.get("/jobs", headers={"Authorization": "Bearer a-token-of-some-length"}).status_code == 200
         assert daemon.post(headers={"Authorization": "bearer a-token-of-some-length"}).status_code == 201
+    finally:
+        daemon.stop()
+
+
+@pytest.mark.parametrize("text, says", [("x" * 300, "300 characters; must hold 16 to 255"), ("x" * 256, "256 characters"),
+                                        ("x" * 400, "320 characters or more"), ("a-token-of-some length", "at character 16"),
+                                        ("a-token-of-some-\0length", "at character 17"), ("a-token-of-söme-length", "at character 13"),
+                                        ("short", "5 characters")])
+def test_a_token_is_never_taken_in_part(tmp_path, text, says):
+    token = tmp_path / "token"
+    token.write_text(text + "\n")
+    token.chmod(0o600)
+    command = [BUILD / "reposed", "serve", "--port", "0", "--data", tmp_path / "data", "--worker", FAKE_WORKER, "--token-file", token]
+    refused = subprocess.run(command, capture_output=True, text=True, timeout=10)
+    assert refused.returncode == 1 and says in refused.stderr
+
+
+def test_the_longest_token_is_taken_whole(tmp_path):
+    token = tmp_path / "token"
+    token.write_text("y" * 255 + "\r\n")
+    token.chmod(0o600)
+    daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--token-file", str(token)]).start()
+    try:
+        assert daemon.get("/jobs", headers={"Authorization": "Bearer " + "y" * 255}).status_code == 200
+        assert daemon.get("/jobs", headers={"Authorization": "Bearer " + "y" * 254}).status_code == 401
     finally:
         daemon.stop()
 

@@ -3,6 +3,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -153,6 +154,70 @@ static void a_buffer_keeps_its_cap(void **state)
     text_buffer_clear(&buffer);
 }
 
+static void a_text_is_no_formula_in_a_spreadsheet(void **state)
+{
+    (void)state;
+    static const char *const fields[][2] = { { "plain", "plain" },
+                                             { "", "" },
+                                             { "a,b", "\"a,b\"" },
+                                             { "a\"b", "\"a\"\"b\"" },
+                                             { "a;=1+1", "\"a;=1+1\"" },
+                                             { "=1+1", "\"'=1+1\"" },
+                                             { "+1+1", "\"'+1+1\"" },
+                                             { "-1+1", "\"'-1+1\"" },
+                                             { "@SUM(1)", "\"'@SUM(1)\"" },
+                                             { "\t=1", "\"'\t=1\"" },
+                                             { "\r=1", "\"'\r=1\"" },
+                                             { "\n=1", "\"'\n=1\"" },
+                                             { "=\"a\"", "\"'=\"\"a\"\"\"" },
+                                             { "-", "\"'-\"" },
+                                             { "-0x10", "\"'-0x10\"" },
+                                             { "-inf", "\"'-inf\"" },
+                                             { "-1e", "\"'-1e\"" },
+                                             { "-1e5-2", "\"'-1e5-2\"" },
+                                             { "-.", "\"'-.\"" },
+                                             { "\xef\xbc\x9d" "1+1", "\"'\xef\xbc\x9d" "1+1\"" },
+                                             /* numbers stay numbers */
+                                             { "-1", "-1" },
+                                             { "+2.5", "+2.5" },
+                                             { "-1.5e-7", "-1.5e-7" },
+                                             { "-.5", "-.5" },
+                                             { "-1E+05", "-1E+05" },
+                                             /* and what only holds such a character is nothing special */
+                                             { "a=b", "a=b" },
+                                             { "20261122-014455-3f9a2c71", "20261122-014455-3f9a2c71" },
+                                             { "a@b", "a@b" } };
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
+        text_buffer buffer;
+        text_buffer_init(&buffer, 100);
+        text_buffer_add_csv_field(&buffer, fields[i][0], strlen(fields[i][0]));
+        text_buffer_add(&buffer, "", 0);
+        assert_string_equal(buffer.text, fields[i][1]);
+        text_buffer_clear(&buffer);
+    }
+}
+
+/* A client may send any bytes in a header, and a limit of bytes may cut a character. */
+static void a_problem_is_told_whatever_bytes_it_quotes(void **state)
+{
+    (void)state;
+    static const char *const quoted[][2] = { { "h\xc3\xa4\xc3\x9f", "h\xc3\xa4\xc3\x9f" }, { "h\xc3\xa4\xc3", "h\xc3\xa4" },
+                                             { "\xff\xfe" "a", "a" },           { "\xe2\x82\xac\xe2\x82", "\xe2\x82\xac" },
+                                             { "\xed\xa0\x80" "b", "b" },      { "\xf0\x9f\x98\x80", "\xf0\x9f\x98\x80" } };
+    for (size_t i = 0; i < sizeof quoted / sizeof quoted[0]; i++) {
+        http_response response;
+        http_response_init(&response);
+        http_respond_problem(&response, 400, NULL, "Bad", "it is \"%s\"", quoted[i][0]);
+        assert_int_equal(response.status, 400);
+        json_t *document = json_loadb(response.body, response.length, 0, NULL);
+        char expected[100];
+        snprintf(expected, sizeof expected, "it is \"%s\"", quoted[i][1]);
+        assert_string_equal(json_string_value(json_object_get(document, "detail")), expected);
+        json_decref(document);
+        http_response_clear(&response);
+    }
+}
+
 static void ids_have_one_shape(void **state)
 {
     (void)state;
@@ -174,7 +239,8 @@ int main(void)
         cmocka_unit_test(parameters_are_decoded_once), cmocka_unit_test(strange_targets_are_refused),
         cmocka_unit_test(whole_numbers_have_bounds),   cmocka_unit_test(accept_names_types_not_wildcards),
         cmocka_unit_test(routes_fill_in_segments),     cmocka_unit_test(a_buffer_keeps_its_cap),
-        cmocka_unit_test(ids_have_one_shape),
+        cmocka_unit_test(ids_have_one_shape),          cmocka_unit_test(a_text_is_no_formula_in_a_spreadsheet),
+        cmocka_unit_test(a_problem_is_told_whatever_bytes_it_quotes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
