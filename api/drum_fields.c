@@ -9,9 +9,9 @@ static const char *const ends_choices[] = { "periodic", "walls", NULL };
 static const spec_field fields[] = {
     { SPEC_INPUTS, "drum", FIELD_OBJECT, SPEC_DRUM, .required = true, .meaning = "the rotating drum" },
     { SPEC_DRUM, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(drum_diameter),
-      .meaning = "inner diameter" },
+      USUAL(0.005, 2.0), SLIP("cm", 0.01), .meaning = "inner diameter" },
     { SPEC_DRUM, "length", FIELD_REAL, .required = true, .unit = "m", RANGE(0.0001, 20.0), .fallback = NAN, AT(drum_length),
-      .meaning = "length along the axis; at least 3 of the largest particle diameters" },
+      USUAL(0.0005, 1.0), SLIP("cm", 0.01), .meaning = "length along the axis; at least 3 of the largest particle diameters" },
     { SPEC_DRUM, "ends", FIELD_CHOICE, .unit = "", .choices = ends_choices, AT(drum_ends),
       .meaning = "periodic: what leaves at one end enters at the other, as in a slice of a long drum; walls: closed by flat "
                  "discs that turn with it" },
@@ -24,7 +24,7 @@ static const spec_field fields[] = {
 
     { SPEC_INPUTS, "fill_fraction", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 0.95), .fallback = 0.5, .excludes = "particle_count",
       .spared_beside = "start", AT(fill_fraction),
-      .meaning = "share of the cross-section below the free surface, at a bed solid fraction of 0.6. With start: as there" },
+      USUAL(0.05, 0.95), .meaning = "share of the cross-section below the free surface, at a bed solid fraction of 0.6. With start: as there" },
     { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(1, 5000000), .fallback = NAN, .excludes = "fill_fraction",
       AT(particle_count), .meaning = "number of particles, instead of fill_fraction; at least 8, but with start" },
 
@@ -57,26 +57,26 @@ static const spec_field fields[] = {
 
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "inner wall of the drum" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
-      .meaning = "coefficient of friction between a particle and the wall or its lining" },
+      USUAL(0.0, 1.5), .meaning = "coefficient of friction between a particle and the wall or its lining" },
     { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
       .meaning = "coefficient of rolling friction between a particle and all that is the drum's: wall, ends, lining, lifters. "
                  "Default: none" },
     { SPEC_WALL, "end_friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(end_friction),
-      .meaning = "coefficient of friction between a particle and the walls at the drum's ends. Default: the wall's" },
+      USUAL(0.0, 1.5), .meaning = "coefficient of friction between a particle and the walls at the drum's ends. Default: the wall's" },
     { SPEC_WALL, "lining", FIELD_OBJECT_OR_NULL, SPEC_LINING, AT(lining_diameter),
       .meaning = "spheres glued to the wall, turning with it; null: a smooth wall" },
     { SPEC_LINING, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT(lining_diameter),
-      .meaning = "diameter of the glued spheres; at most 1/8 of the drum's, and 1/3 of a periodic axis" },
+      USUAL(1e-4, 0.05), SLIP("cm", 0.01), .meaning = "diameter of the glued spheres; at most 1/8 of the drum's, and 1/3 of a periodic axis" },
     { SPEC_LINING, "pitch", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT(lining_pitch),
-      .meaning = "distance between their centres, around the wall and along the axis. Default: their diameter" },
+      USUAL(1e-4, 0.1), SLIP("cm", 0.01), .meaning = "distance between their centres, around the wall and along the axis. Default: their diameter" },
     { SPEC_LIFTERS, "count", FIELD_INTEGER, .required = true, .unit = "", RANGE(1, DEM_MAXIMUM_LIFTERS), .fallback = NAN,
       AT(lifter_count), .meaning = "number of bars" },
     { SPEC_LIFTERS, "height", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 10.0), .fallback = NAN, AT(lifter_height),
-      .meaning = "of a bar, from the wall towards the axis" },
+      USUAL(1e-4, 0.5), SLIP("cm", 0.01), .meaning = "of a bar, from the wall towards the axis" },
     { SPEC_LIFTERS, "width", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 10.0), .fallback = NAN, AT(lifter_width),
-      .meaning = "of a bar, around the wall" },
+      USUAL(1e-4, 0.5), SLIP("cm", 0.01), .meaning = "of a bar, around the wall" },
     { SPEC_LIFTERS, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(lifter_friction),
-      .meaning = "coefficient of friction between a particle and a bar. Default: the wall's" },
+      USUAL(0.0, 1.5), .meaning = "coefficient of friction between a particle and a bar. Default: the wall's" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, .meaning = "how long the drum turns" },
     { SPEC_DURATION, "revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = 1.25,
@@ -93,6 +93,6 @@ static const spec_field fields[] = {
 
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity),
-      .meaning = "acceleration of gravity, across the axis" },
+      USUAL(1.0, 30.0), SLIP("cm/s2", 0.01), .meaning = "acceleration of gravity, across the axis" },
 };
 const spec_table drum_fields = { fields, sizeof fields / sizeof fields[0] };

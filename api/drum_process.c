@@ -10,5 +10,7 @@ const process_type drum_process = {
     .inputs_at = offsetof(job_spec, inputs),
     .apply_rules = drum_rules_apply,
     .estimate = drum_estimate,
+    .warn = drum_warn,
+    .understand = drum_understand,
     .results = &drum_result_fields,
 };

@@ -14,6 +14,8 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
 void drum_cluster_derive(species_inputs *inputs, size_t species, dem_cluster *cluster,
                          problem_list *problems);                                   /* drum_clusters.c */
 double drum_spheres_a_particle(const dem_drum_definition *drum);                    /* mean; drum_estimate.c */
+void drum_warn(const job_spec *spec, problem_list *warnings);                       /* drum_warnings.c */
+void drum_understand(const job_spec *spec, json_t *words);                          /* drum_warnings.c */
 job_estimate drum_estimate(const job_spec *spec, const calibration *machine); /* drum_estimate.c */
 
 #endif

@@ -186,7 +186,8 @@ static double largest_impact(const drum_inputs *inputs, const dem_drum_definitio
     return fmax(rolling, dem_lifted_speed(drum->diameter, drum->gravity, drum->fill_fraction, drum->rotation_rate));
 }
 
-static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+/* Returns what scene_derive_contact does. */
+static double derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     *drum = (dem_drum_definition){
         .diameter = inputs->drum_diameter,
@@ -209,7 +210,7 @@ static void derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_
     const bool good_lifters = check_lifters(inputs, drum, problems);
     derive_particle_count(inputs, drum, problems);
     if (good_lifters) check_room_beside_lifters(inputs, drum, problems);
-    scene_derive_contact(inputs, largest_impact(inputs, drum), drum, problems);
+    return scene_derive_contact(inputs, largest_impact(inputs, drum), drum, problems);
 }
 
 void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
@@ -219,7 +220,7 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
     derive_duration(inputs, spec, problems);
     if (inputs->start.particle_count == 0) scene_share_out(inputs, problems);
     set_dependent_defaults(inputs, spec->duration, seed_if_missing);
-    derive_drum(inputs, &spec->drum, problems);
+    spec->expected_overlap = derive_drum(inputs, &spec->drum, problems);
     scene_set_common(spec);
     scene_check_amounts(spec,
                         spec->until_standard_error > 0.0 ? "/inputs/duration/at_most_revolutions"

@@ -5,6 +5,7 @@
 #include "dem_rules.h"
 #include "dem_stream.h"
 #include "fill_process.h"
+#include "scene_warnings.h"
 #include "standing_rules.h"
 
 #define LEAST_CYLINDER_DIAMETERS 6.0 /* of the largest particle: a surface needs some width */
@@ -102,7 +103,8 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
     standing_derive_scene(inputs, scene, seed_if_missing, problems);
     derive_cylinder(inputs, scene, problems);
     const double weight = SPEED_OF_WEIGHT * sqrt(scene->gravity * dem_stream_level(scene, (double)scene->particle_count));
-    scene_derive_contact(inputs, fmax(IMPACT_ON_OTHERS * inputs->fill.impact_speed, weight), scene, problems);
+    spec->expected_overlap =
+        scene_derive_contact(inputs, fmax(IMPACT_ON_OTHERS * inputs->fill.impact_speed, weight), scene, problems);
     spec->duration = (double)scene->particle_count / scene->stream.rate + inputs->fill.settling_seconds;
     standing_complete(spec, what_makes_it_long(inputs, scene), problems);
 }
@@ -115,6 +117,15 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     return standing_estimate(spec, machine, filling + settling, 0.0, (0.5 * filling + settling) / (filling + settling));
 }
 
+static void understand(const job_spec *spec, json_t *words)
+{
+    char filling[TIME_IN_WORDS_SIZE], settling[TIME_IN_WORDS_SIZE];
+    time_in_words((double)spec->drum.particle_count / spec->drum.stream.rate, filling);
+    time_in_words(spec->inputs.fill.settling_seconds, settling);
+    scene_understand(spec, words);
+    json_object_set_new(words, "duration", json_sprintf("%s of filling, then at most %s to come to rest", filling, settling));
+}
+
 const process_type fill_process = {
     .name = "fill",
     .title = "Filling a cylinder",
@@ -124,5 +135,7 @@ const process_type fill_process = {
     .inputs_at = offsetof(job_spec, inputs),
     .apply_rules = apply_rules,
     .estimate = estimate,
+    .warn = scene_warn,
+    .understand = understand,
     .results = &fill_result_fields,
 };

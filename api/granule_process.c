@@ -3,6 +3,8 @@
 
 #include <math.h>
 
+#include "scene_warnings.h"
+
 /* Bisection follows some 35 motions of a few revolutions. Most of it is starting: eleven jobs took 0.05 s in the mean. */
 #define WALL_SECONDS 0.05
 #define MEMORY_BYTES 20e6
@@ -38,6 +40,14 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     };
 }
 
+static void understand(const job_spec *spec, json_t *words)
+{
+    const dem_granule_definition *granule = &spec->granule;
+    if (!isnan(granule->rotation_rate))
+        rotation_understand(granule->rotation_rate, froude_number(granule->rotation_rate, granule->radius, granule->gravity),
+                            words);
+}
+
 const process_type granule_process = {
     .name = "granule",
     .title = "One particle on the wall of a rotating cylinder",
@@ -48,5 +58,6 @@ const process_type granule_process = {
     .inputs_at = offsetof(job_spec, granule_inputs),
     .apply_rules = apply_rules,
     .estimate = estimate,
+    .understand = understand,
     .results = &granule_result_fields,
 };

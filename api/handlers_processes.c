@@ -100,6 +100,8 @@ static void respond_created(api_service *service, const http_request *request, h
         store_read_calibration(service->store, &machine);
         const job_estimate estimate = job_spec_estimate(spec, &machine);
         json_object_set_new(info, "estimate", job_estimate_to_json(&estimate));
+        json_object_set_new(info, "understood", job_spec_understood(spec, &machine));
+        json_object_set_new(info, "warnings", job_spec_warnings(spec, &machine));
         http_respond_json(response, 201, info);
         job_record_clear(&job);
     }

@@ -25,18 +25,21 @@ static bool find_study(api_service *service, const http_request *request, http_r
 
 /* --- posting --- */
 
-static void respond_created(api_service *service, http_response *response, const study_estimate *estimate, const char *id)
+static void respond_created(api_service *service, http_response *response, const study_estimate *estimate,
+                            const problem_list *warnings, const char *id)
 {
     study_record study;
     json_t *info = store_find_study(service->store, id, &study) == STORE_OK
                        ? study_info(&study)
                        : json_pack("{s:s, s:s}", "studyID", id, "status", "accepted");
     json_object_set_new(info, "estimate", study_estimate_to_json(estimate));
+    json_object_set_new(info, "warnings", job_warnings_to_json(warnings));
     http_respond_json(response, 201, info);
     snprintf(response->location, sizeof response->location, "/studies/%s", id);
 }
 
-static void add_study(api_service *service, http_response *response, const study_spec *study, const study_estimate *estimate)
+static void add_study(api_service *service, http_response *response, const study_spec *study, const study_estimate *estimate,
+                      const problem_list *warnings)
 {
     char id[JOB_ID_SIZE];
     const store_status status = store_add_study(service->store, study, estimate, id);
@@ -45,7 +48,7 @@ static void add_study(api_service *service, http_response *response, const study
         return;
     }
     service->jobs_changed(service->daemon);
-    respond_created(service, response, estimate, id);
+    respond_created(service, response, estimate, warnings, id);
 }
 
 /* Refused whole or kept whole: every job is read before any is added. */
@@ -58,10 +61,11 @@ void create_study(api_service *service, const http_request *request, http_respon
                                     .seed_if_missing = choose_seed(),
                                     .default_threads = service->default_threads,
                                     .most_jobs = store_queue_limit(service->store) };
-    problem_list problems;
+    problem_list problems, warnings;
     study_spec study;
     study_estimate estimate;
-    if (!problem_list_init(&problems)) {
+    if (!problem_list_init(&warnings) || !problem_list_init(&problems)) {
+        problem_list_clear(&warnings);
         http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
         json_decref(document);
         return;
@@ -70,7 +74,7 @@ void create_study(api_service *service, const http_request *request, http_respon
     json_decref(document);
     calibration machine;
     store_read_calibration(service->store, &machine);
-    if (study_check(&study, &machine, &estimate, &problems)) add_study(service, response, &study, &estimate);
+    if (study_check(&study, &machine, &estimate, &problems, &warnings)) add_study(service, response, &study, &estimate, &warnings);
     else
         http_respond_json(response, 400,
                           problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",
@@ -78,6 +82,7 @@ void create_study(api_service *service, const http_request *request, http_respon
                                        &problems));
     study_spec_clear(&study);
     problem_list_clear(&problems);
+    problem_list_clear(&warnings);
 }
 
 /* --- looking --- */

@@ -6,20 +6,20 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "tube", FIELD_OBJECT, SPEC_TUBE, .required = true,
       .meaning = "the tube, or straw, that stands on the plate full of particles and is raised" },
     { SPEC_TUBE, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(heap.tube_diameter),
-      .meaning = "inner diameter; at least 5 of the largest particle diameters, or they jam" },
+      USUAL(0.003, 1.0), SLIP("cm", 0.01), .meaning = "inner diameter; at least 5 of the largest particle diameters, or they jam" },
     { SPEC_TUBE, "height", FIELD_REAL, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(heap.tube_height),
-      .meaning = "of the tube. Default: what the particles need" },
+      USUAL(0.001, 5.0), SLIP("cm", 0.01), .meaning = "of the tube. Default: what the particles need" },
     { SPEC_TUBE, "lift_speed", FIELD_REAL, .unit = "m/s", OPEN_RANGE(0.0, 10.0), .fallback = NAN, AT(heap.lift_speed),
       .meaning = "at which it is raised. Default: slowly, a fiftieth of sqrt(gravity * diameter)" },
 
     { SPEC_INPUTS, "plate", FIELD_OBJECT, SPEC_PLATE, .meaning = "the level disc below, whose middle is on the tube's axis" },
     { SPEC_PLATE, "diameter", FIELD_REAL, .unit = "m", RANGE(0.001, 50.0), .fallback = NAN, AT(heap.plate_diameter),
-      .meaning = "of the disc: what rolls off it is lost. Default: 2 of the tube's diameters" },
+      USUAL(0.003, 3.0), SLIP("cm", 0.01), .meaning = "of the disc: what rolls off it is lost. Default: 2 of the tube's diameters" },
     { SPEC_PLATE, "rim_height", FIELD_REAL, .unit = "m", RANGE(0.0, 1.0), .fallback = NAN, AT(heap.rim_height),
-      .meaning = "of the rim around it; 0: none. Default: half the largest particle diameter, which keeps the lowest layer "
+      USUAL(0.0, 0.1), SLIP("cm", 0.01), .meaning = "of the rim around it; 0: none. Default: half the largest particle diameter, which keeps the lowest layer "
                  "from rolling off" },
     { SPEC_PLATE, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(heap.plate_friction),
-      .meaning = "coefficient of friction between a particle and the plate or its rim" },
+      USUAL(0.0, 1.5), .meaning = "coefficient of friction between a particle and the plate or its rim" },
     { SPEC_PLATE, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(heap.plate_rolling_friction),
       .meaning = "coefficient of rolling friction between a particle and the plate or its rim. Default: none" },
 
@@ -28,13 +28,13 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height",
       AT(particle_count), .meaning = "number of particles, instead of fill_height" },
     { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, AT(fill_height),
-      .meaning = "of the bed in the tube, at a solid fraction of 0.6. Default: twice the tube's diameter" },
+      USUAL(0.0, 3.0), SLIP("cm", 0.01), .meaning = "of the bed in the tube, at a solid fraction of 0.6. Default: twice the tube's diameter" },
 
     FIELDS_OF_CONTACT,
 
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall of the tube" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
-      .meaning = "coefficient of friction between a particle and the tube" },
+      USUAL(0.0, 1.5), .meaning = "coefficient of friction between a particle and the tube" },
     { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
       .meaning = "coefficient of rolling friction between a particle and the tube. Default: none" },
 
@@ -46,6 +46,6 @@ static const spec_field fields[] = {
 
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity),
-      .meaning = "acceleration of gravity, down the axis" },
+      USUAL(1.0, 30.0), SLIP("cm/s2", 0.01), .meaning = "acceleration of gravity, down the axis" },
 };
 const spec_table heap_fields = { fields, sizeof fields / sizeof fields[0] };

@@ -5,6 +5,7 @@
 #include "dem_rules.h"
 #include "drum_process.h"
 #include "heap_process.h"
+#include "scene_warnings.h"
 #include "standing_rules.h"
 
 #define LEAST_TUBE_DIAMETERS 5.0 /* of the largest particle: narrower tubes jam */
@@ -12,6 +13,7 @@
 #define USUAL_PLATE_DIAMETERS 2.0
 #define USUAL_FILL_DIAMETERS 2.0
 #define USUAL_LIFT_SHARE 0.02 /* of sqrt(g D) */
+#define FAST_LIFT_SHARE 0.3   /* of it, too */
 #define USUAL_RIM_SHARE 0.5   /* of the largest particle */
 /* Room over the bed for the random start, which is looser. */
 #define TUBE_OVER_BED 1.3
@@ -80,7 +82,7 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
     standing_derive_scene(inputs, scene, seed_if_missing, problems);
     derive_tube(inputs, scene, problems);
     derive_plate(inputs, scene, problems);
-    scene_derive_contact(inputs, largest_impact(inputs, scene), scene, problems);
+    spec->expected_overlap = scene_derive_contact(inputs, largest_impact(inputs, scene), scene, problems);
     if (isnan(inputs->heap.seconds)) inputs->heap.seconds = standing_bed_height(scene) / scene->lift.speed + SECONDS_AFTER_LIFTING;
     spec->duration = inputs->heap.seconds;
     standing_complete(spec, "/inputs/duration/at_most_seconds", problems);
@@ -101,6 +103,26 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     return heap;
 }
 
+/* A tube that is pulled away lets its particles fall. */
+static void warn(const job_spec *spec, problem_list *warnings)
+{
+    const double fast = FAST_LIFT_SHARE * sqrt(spec->drum.gravity * spec->drum.diameter);
+    if (spec->drum.lift.speed > fast)
+        problem_list_add(
+            warnings, "/inputs/tube/lift_speed",
+            "is %.4g m/s, at which the bed falls rather than flows out; the heap is that of a slow lift up to %.3g m/s here",
+            spec->drum.lift.speed, fast);
+    scene_warn(spec, warnings);
+}
+
+static void understand(const job_spec *spec, json_t *words)
+{
+    char time[TIME_IN_WORDS_SIZE];
+    time_in_words(spec->duration, time);
+    scene_understand(spec, words);
+    json_object_set_new(words, "duration", json_sprintf("at most %s from when the tube starts to rise", time));
+}
+
 const process_type heap_process = {
     .name = "heap",
     .title = "Heap below a raised tube",
@@ -110,5 +132,7 @@ const process_type heap_process = {
     .inputs_at = offsetof(job_spec, inputs),
     .apply_rules = apply_rules,
     .estimate = estimate,
+    .warn = warn,
+    .understand = understand,
     .results = &heap_result_fields,
 };

@@ -107,6 +107,7 @@ typedef struct job_spec {
     drum_inputs inputs;          /* as asked for */
     dem_drum_definition drum;    /* the scene, complete: stiffness, time step and particle count derived */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
+    double expected_overlap;     /* of the hardest impact, likewise; follows from the stiffness where that was given */
     double duration;             /* s from when rotation, filling or lifting starts; at most, where the run ends by itself */
     double until_standard_error; /* degrees; 0: none asked for */
     double sample_interval;      /* s between frames of measurement */
@@ -143,6 +144,14 @@ char *job_spec_to_brief(const job_spec *spec);
 /* machine: how fast this one is; NULL takes cautious built-in figures. */
 job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine);
 json_t *job_estimate_to_json(const job_estimate *estimate);
+
+/* What can be run but was hardly meant so, in the words of problems: a pointer and what is there (job_warnings.c). */
+void job_spec_warn(const job_spec *spec, const calibration *machine, problem_list *warnings);
+/* [{"field": pointer, "text": ...}]: of such a list, and of a job's. New references; NULL: no memory. */
+json_t *job_warnings_to_json(const problem_list *warnings);
+json_t *job_spec_warnings(const job_spec *spec, const calibration *machine);
+/* What the inputs come to in other words: revolutions a minute, Froude number, ... New reference; NULL: no memory. */
+json_t *job_spec_understood(const job_spec *spec, const calibration *machine);
 
 /* OGC process description with every input's JSON Schema, unit, range and default, made from the same table
  * of fields that the parser uses. NULL for an unknown process. New reference. */

@@ -21,12 +21,20 @@ struct process_type {
     void (*apply_rules)(job_spec *spec, uint64_t seed_if_missing, problem_list *problems);
     /* machine: how fast this one is; NULL takes cautious built-in figures. */
     job_estimate (*estimate)(const job_spec *spec, const calibration *machine);
+    /* Adds warnings of combinations that were hardly meant; NULL: there are none. Of single inputs the table knows. */
+    void (*warn)(const job_spec *spec, problem_list *warnings);
+    /* Adds to an object what the inputs come to in other words. */
+    void (*understand)(const job_spec *spec, json_t *words);
 
     const result_table *results;
 };
 
 extern const process_type *const process_types[];        /* ends with NULL */
 const process_type *process_type_find(const char *name); /* NULL: unknown */
+
+/* "1.5 hours" */
+enum { TIME_IN_WORDS_SIZE = 40 };
+void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE]); /* job_warnings.c */
 
 /* The names of all, for messages: "drum", "fill", ... */
 void process_type_names(char *text, size_t size);

@@ -19,6 +19,8 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
 #define AT_SPHERE(member) .offset = offsetof(dem_cluster_sphere, member)
 #define RANGE(low, high) .minimum = (low), .maximum = (high)
+#define USUAL(low, high) .usual_low = (low), .usual_high = (high)
+#define SLIP(unit, factor) .slip_unit = (unit), .slip_factor = (factor)
 #define OPEN_RANGE(low, high) .minimum = (low), .minimum_open = true, .maximum = (high)
 
 /* As they would stand in a table, but for the backslashes. */
@@ -36,13 +38,13 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
     { SPEC_SPHERES, "position", FIELD_PLACE, .required = true, .unit = "m", RANGE(-1.0, 1.0), .fallback = NAN, AT_SPHERE(position), \
       .meaning = "centre of the sphere, in any frame of the cluster's own" }, \
     { SPEC_SPHERES, "diameter", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SPHERE(diameter), \
-      .meaning = "diameter of this sphere. Default: the particle's diameter" }, \
+      USUAL(1e-4, 0.05), SLIP("cm", 0.01), .meaning = "diameter of this sphere. Default: the particle's diameter" }, \
     { SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .spared_by = "shape", .unit = "m", RANGE(1e-5, 1.0), \
       .fallback = NAN, AT_SPECIES(diameter), \
-      .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
+      USUAL(1e-4, 0.05), SLIP("cm", 0.01), .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
                  "cluster has its own" }, \
     { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), \
-      .meaning = "density of the particle itself, not of the bed" }, \
+      USUAL(30.0, 23000.0), SLIP("g/cm3", 1000.0), .meaning = "density of the particle itself, not of the bed" }, \
     { SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share), \
       .meaning = "share of the particles, by what share_by says; all shares sum to 1. Default: equal shares" }, \
     { SPEC_INPUTS, "share_by", FIELD_CHOICE, .unit = "", .choices = share_choices, AT(share_by), \
@@ -54,7 +56,7 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
       .meaning = "walton-braun: latching spring and incremental friction; spring-dashpot: linear springs and dashpots; " \
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
-      .meaning = "coefficient of friction between particles" }, \
+      USUAL(0.0, 1.5), .meaning = "coefficient of friction between particles" }, \
     { SPEC_CONTACT, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(rolling_friction), \
       .meaning = "coefficient of rolling friction between particles: a contact bears a moment of it times the normal force " \
                  "times the effective radius. Default: none" }, \

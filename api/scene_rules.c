@@ -142,8 +142,8 @@ static void derive_unloading(const drum_inputs *inputs, const collision *worst, 
             inputs->unloading_slope, scene->contact.restitution, most, LEAST_RESTITUTION);
 }
 
-/* Loading stiffness K1, and from it the time step. */
-static void derive_linear(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+/* Loading stiffness K1, and from it the time step. Returns the largest overlap expected, as a share of the smallest diameter. */
+static double derive_linear(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
 {
     const double least = dem_stiffness_for_overlap(worst->speed, worst->heaviest, MOST_OVERLAP * worst->smallest);
     if (inputs->stiffness < least)
@@ -157,11 +157,12 @@ static void derive_linear(const drum_inputs *inputs, const collision *worst, dem
             : dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest);
     if (inputs->unloading == 1.0 && scene->contact.law == DEM_WALTON_BRAUN) derive_unloading(inputs, worst, scene, problems);
     scene->time_step = dem_time_step(scene->contact.stiffness, worst->lightest, scene->contact.restitution);
+    return worst->speed * sqrt(worst->heaviest / scene->contact.stiffness) / worst->smallest;
 }
 
 /* Young's modulus E, the same for particles and wall, hence E* = E/(2 (1 - nu^2)); and from it the time step. What is
  * reported as stiffness is the chord of the Hertzian curve up to the largest overlap expected. */
-static void derive_hertzian(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+static double derive_hertzian(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
 {
     const double radius = 0.5 * worst->largest, plane_strain = 2 * (1 - inputs->poissons_ratio * inputs->poissons_ratio);
     const double least =
@@ -179,11 +180,13 @@ static void derive_hertzian(const drum_inputs *inputs, const collision *worst, d
     scene->contact.particle = scene->contact.wall = (dem_elasticity){ effective * plane_strain, inputs->poissons_ratio };
     scene->contact.stiffness = 4.0 / 3.0 * effective * sqrt(radius * overlap);
     scene->time_step = dem_hertz_time_step(effective, worst->lightest, 0.25 * worst->smallest, worst->speed);
+    return overlap / worst->smallest;
 }
 
-void scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems)
+double scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems)
 {
-    const dem_contact_law law = (dem_contact_law)inputs->contact_law;
+    const dem_contact_law law =
+        inputs->contact_law > 0.0 ? (dem_contact_law)inputs->contact_law : DEM_WALTON_BRAUN; /* not of NaN */
     const collision worst = { scene_of_species(scene, dem_species_mass, true),
                               scene_of_species(scene, dem_species_contact_mass, false),
                               scene_of_species(scene, dem_species_smallest_sphere, false),
@@ -208,7 +211,7 @@ void scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_dr
                          "is %g Pa, but this law takes stiffness (N/m) or "
                          "maximum_overlap; youngs_modulus is for hertz-mindlin",
                          inputs->youngs_modulus);
-    (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
+    return (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
 }
 
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems)

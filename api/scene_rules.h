@@ -23,8 +23,8 @@ void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, probl
 void scene_check_every_species(const drum_inputs *inputs, const dem_drum_definition *scene, double count, problem_list *problems);
 void scene_check_size_ratio(const dem_drum_definition *scene, problem_list *problems);
 /* Stiffness and time step; species must be derived. impact_speed: m/s, the largest at which a particle meets what is
- * backed by others or by a wall. */
-void scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems);
+ * backed by others or by a wall. Returns the overlap of that impact, as a share of the smallest diameter. */
+double scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems);
 /* Steps, samples and snapshots, once all else is derived. duration: pointer to the input that bounds the run. */
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems);
 /* What is kept beside the scene itself: intervals, threads; and how it is stepped. */

@@ -1,5 +1,5 @@
 /* A table of a process's inputs: name, place, unit, range, default and meaning of each. It alone drives reading a
- * request, writing the canonical spec and describing the process, so the three can't disagree. */
+ * request, writing the canonical spec, describing the process and telling unusual values, so these can't disagree. */
 #ifndef SPEC_FIELDS_H
 #define SPEC_FIELDS_H
 
@@ -65,6 +65,9 @@ typedef struct spec_field {
     size_t count_offset;        /* lists: of the size_t that counts the entries */
     size_t entry_size;          /* lists: bytes from entry to entry; there is room for `maximum` */
     const char *meaning;
+    double usual_low, usual_high; /* what is outside was hardly meant; both 0: nothing is unusual */
+    const char *slip_unit;        /* the unit that numbers too large are often in by mistake; NULL: none */
+    double slip_factor;           /* of that unit in `unit` */
 } spec_field;
 
 typedef struct spec_table {

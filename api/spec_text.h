@@ -19,6 +19,9 @@ json_t *spec_inputs_write(const spec_table *table, const void *inputs);
 
 enum { LONGEST_POINTER = 256 };
 
+/* A warning for each number that its field's usual range does not hold (spec_unusual.c). */
+void spec_inputs_warn(const spec_table *table, const void *inputs, problem_list *warnings);
+
 /* A step of a JSON pointer, with ~ and / escaped (RFC 6901). */
 void pointer_to_member(char pointer[LONGEST_POINTER], const char *parent, const char *name);
 

@@ -91,9 +91,23 @@ static void add_estimate(const study_spec *study, const job_spec *spec, const ca
     if (one.memory_bytes > estimate->memory_bytes) estimate->memory_bytes = one.memory_bytes;
 }
 
+/* What is to be told of a study's jobs, and what of it its base has, too. */
+typedef struct told {
+    problem_list *all, of_base;
+} told;
+
+static void add_warnings(const study_spec *study, size_t index, const job_spec *spec, const calibration *machine, told *warnings)
+{
+    problem_list found;
+    if (!warnings->all || json_array_size(warnings->all->errors) >= ENOUGH_PROBLEMS || !problem_list_init(&found)) return;
+    job_spec_warn(spec, machine, &found);
+    tell_all(study, index, &found, &warnings->of_base, warnings->all);
+    problem_list_clear(&found);
+}
+
 /* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
-static void check_case(const study_spec *study, size_t index, const calibration *machine, const problem_list *of_base,
-                       study_estimate *estimate, problem_list *problems)
+static void check_case(const study_spec *study, size_t index, const calibration *machine, study_estimate *estimate, told *problems,
+                       told *warnings)
 {
     job_spec spec;
     problem_list found;
@@ -101,33 +115,40 @@ static void check_case(const study_spec *study, size_t index, const calibration 
     if (cases && !json_is_object(json_array_get(cases, index))) return; /* said already */
     json_t *request = study_job_request(study, index, study->repeats - 1);
     if (!request || !problem_list_init(&found)) {
-        add_once(problems, "", "could not be expanded: a case leads nowhere in the base, or out of memory");
+        add_once(problems->all, "", "could not be expanded: a case leads nowhere in the base, or out of memory");
         json_decref(request);
         return;
     }
     if (job_spec_parse_with(study->beds, NULL, request, 0, &spec, &found)) {
         add_estimate(study, &spec, machine, estimate);
+        add_warnings(study, index, &spec, machine, warnings);
         job_spec_clear(&spec);
     } else {
-        tell_all(study, index, &found, of_base, problems);
+        tell_all(study, index, &found, &problems->of_base, problems->all);
     }
     problem_list_clear(&found);
     json_decref(request);
 }
 
-bool study_check(const study_spec *study, const calibration *machine, study_estimate *estimate, problem_list *problems)
+bool study_check(const study_spec *study, const calibration *machine, study_estimate *estimate, problem_list *problems,
+                 problem_list *warnings)
 {
     *estimate = (study_estimate){ .jobs = 0.0 };
-    problem_list of_base;
+    told wrong = { .all = problems }, unusual = { .all = warnings };
     job_spec spec;
-    if (!problem_list_init(&of_base)) {
+    if (!problem_list_init(&wrong.of_base) || !problem_list_init(&unusual.of_base)) {
+        problem_list_clear(&wrong.of_base);
         problem_list_add(problems, "", "could not be checked: out of memory");
         return false;
     }
-    if (job_spec_parse_with(study->beds, NULL, json_object_get(study->document, "base"), 0, &spec, &of_base)) job_spec_clear(&spec);
+    if (job_spec_parse_with(study->beds, NULL, json_object_get(study->document, "base"), 0, &spec, &wrong.of_base)) {
+        job_spec_warn(&spec, machine, &unusual.of_base);
+        job_spec_clear(&spec);
+    }
     for (size_t i = 0; i < study->cases && json_array_size(problems->errors) < ENOUGH_PROBLEMS; i++)
-        check_case(study, i, machine, &of_base, estimate, problems);
-    problem_list_clear(&of_base);
+        check_case(study, i, machine, estimate, &wrong, &unusual);
+    problem_list_clear(&wrong.of_base);
+    problem_list_clear(&unusual.of_base);
     return problem_list_is_empty(problems);
 }
 

@@ -56,7 +56,8 @@ typedef struct study_estimate {
 
 /* study_check.c: reads every job. False: problems is not empty; it lists what is wrong, each thing once, with a pointer to the place
  * in the study that it comes from. */
-bool study_check(const study_spec *study, const calibration *machine, study_estimate *estimate, problem_list *problems);
+bool study_check(const study_spec *study, const calibration *machine, study_estimate *estimate, problem_list *problems,
+                 problem_list *warnings); /* of jobs, likewise; NULL: not wanted */
 json_t *study_estimate_to_json(const study_estimate *estimate);
 
 #endif

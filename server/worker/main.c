@@ -173,7 +173,9 @@ static json_t *check_document(const json_t *document, const calibration *machine
     job_spec spec;
     if (!job_spec_parse_with(&start_files, NULL, document, random_seed(), &spec, problems)) return NULL;
     const job_estimate estimate = job_spec_estimate(&spec, machine);
-    json_t *report = json_pack("{s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate));
+    json_t *report = json_pack("{s:o, s:o, s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate",
+                               job_estimate_to_json(&estimate), "understood", job_spec_understood(&spec, machine), "warnings",
+                               job_spec_warnings(&spec, machine));
     job_spec_clear(&spec);
     return report;
 }

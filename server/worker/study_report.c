@@ -26,10 +26,13 @@ json_t *study_report(const json_t *document, uint64_t seed_if_missing, const cal
     study_spec study;
     study_estimate estimate;
     json_t *report = NULL;
+    problem_list warnings;
+    problem_list_init(&warnings);
     study_spec_parse(document, &options, &study, problems);
-    if (study_check(&study, machine, &estimate, problems))
-        report = json_pack("{s:s, s:o, s:i, s:o}", "name", study.name, "cases", cases_of(&study), "repeats", study.repeats,
-                           "estimate", study_estimate_to_json(&estimate));
+    if (study_check(&study, machine, &estimate, problems, &warnings))
+        report = json_pack("{s:s, s:o, s:i, s:o, s:o}", "name", study.name, "cases", cases_of(&study), "repeats", study.repeats,
+                           "estimate", study_estimate_to_json(&estimate), "warnings", job_warnings_to_json(&warnings));
+    problem_list_clear(&warnings);
     study_spec_clear(&study);
     return report;
 }

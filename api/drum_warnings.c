@@ -1,0 +1,46 @@
+/* A drum that can be run, but was hardly meant so; and a drum in other words. */
+#include <math.h>
+#include <stdio.h>
+
+#include "dem_rules.h"
+#include "drum_process.h"
+#include "scene_warnings.h"
+
+/* The surface of a drum is straight below some 0.05, an S above, and none beyond 0.5 (cataracts). */
+#define FAST_FROUDE 0.2
+
+static double froude_of(const job_spec *spec)
+{
+    return froude_number(spec->drum.rotation_rate, 0.5 * spec->drum.diameter, spec->drum.gravity);
+}
+
+/* Revolutions a minute taken for radians a second make nine times the rate. */
+static void warn_of_rate(const job_spec *spec, problem_list *warnings)
+{
+    const double rate = spec->drum.rotation_rate, froude = froude_of(spec);
+    if (froude > FAST_FROUDE)
+        problem_list_add(warnings, "/inputs/drum/rotation_rate",
+                         "is %.6g rad/s, which is %.4g revolutions a minute and a Froude number of %.3g: %s; if %.6g revolutions a "
+                         "minute were meant, give %.6g rad/s",
+                         rate, revolutions_a_minute(rate), froude,
+                         froude >= 1.0 ? "the drum holds particles against its wall" : "the surface is no longer straight", rate,
+                         rate * 2.0 * DEM_PI / 60.0);
+}
+
+void drum_warn(const job_spec *spec, problem_list *warnings)
+{
+    warn_of_rate(spec, warnings);
+    scene_warn(spec, warnings);
+}
+
+void drum_understand(const job_spec *spec, json_t *words)
+{
+    char time[TIME_IN_WORDS_SIZE];
+    const double revolutions = spec->duration * fabs(spec->drum.rotation_rate) / (2.0 * DEM_PI);
+    time_in_words(spec->duration, time);
+    rotation_understand(spec->drum.rotation_rate, froude_of(spec), words);
+    scene_understand(spec, words);
+    json_object_set_new(words, "duration",
+                        json_sprintf("%s%.4g revolution%s, %s of rotation", spec->until_standard_error > 0.0 ? "at most " : "",
+                                     revolutions, revolutions > 0.99999 && revolutions < 1.00001 ? "" : "s", time));
+}

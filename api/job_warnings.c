@@ -1,0 +1,92 @@
+/* Warnings: what can be run, but was hardly meant so. And what a job's inputs come to in other words, for whoever wants to
+ * see at a glance that they were understood as they were meant. */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "process_type.h"
+#include "spec_text.h"
+
+#define LONG_JOB 28800.0 /* s: it is not done after a night */
+#define MANY_SNAPSHOT_BYTES 2e10
+
+void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE])
+{
+    static const struct {
+        double seconds;
+        const char *unit;
+    } units[] = { { 86400.0, "days" }, { 3600.0, "hours" }, { 60.0, "minutes" }, { 1.0, "s" }, { 1e-3, "ms" } };
+    const size_t last = sizeof units / sizeof units[0] - 1;
+    size_t u = 0;
+    while (u < last && seconds < 1.995 * units[u].seconds) u++;
+    if (seconds < 1.0 && u < last) u = last;
+    snprintf(text, TIME_IN_WORDS_SIZE, "%.3g %s", seconds / units[u].seconds, units[u].unit);
+}
+
+static const spec_field *input(const job_spec *spec, const char *name)
+{
+    return spec_field_find(spec->type->inputs, SPEC_INPUTS, name);
+}
+
+/* What the job asks of the machine. */
+static void warn_of_cost(const job_spec *spec, const calibration *machine, problem_list *warnings)
+{
+    const job_estimate cost = job_spec_estimate(spec, machine);
+    const double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    const int cores = machine ? machine->cores : calibration_built_in().cores;
+    char words[TIME_IN_WORDS_SIZE];
+    time_in_words(cost.wall_seconds, words);
+    if (spec->threads > cores)
+        problem_list_add(warnings, "/inputs/threads", "is %d, but this machine has %d core%s: more threads bring no speed",
+                         spec->threads, cores, cores == 1 ? "" : "s");
+    if (cost.wall_seconds > LONG_JOB)
+        problem_list_add(warnings, input(spec, "duration") ? "/inputs/duration" : "/inputs",
+                         "makes about %.3g steps, which take about %s on this machine", cost.steps, words);
+    if (memory > 0.0 && cost.memory_bytes > memory)
+        problem_list_add(warnings, "/inputs", "need about %.3g GB of memory, but this machine has %.3g GB",
+                         1e-9 * cost.memory_bytes, 1e-9 * memory);
+    if (cost.snapshot_bytes > MANY_SNAPSHOT_BYTES)
+        problem_list_add(warnings, "/inputs/snapshots/interval", "makes %.0f snapshots, about %.3g GB in all", cost.snapshots,
+                         1e-9 * cost.snapshot_bytes);
+}
+
+void job_spec_warn(const job_spec *spec, const calibration *machine, problem_list *warnings)
+{
+    spec_inputs_warn(spec->type->inputs, (const char *)spec + spec->type->inputs_at, warnings);
+    if (spec->type->warn) spec->type->warn(spec, warnings);
+    warn_of_cost(spec, machine, warnings);
+}
+
+json_t *job_warnings_to_json(const problem_list *warnings)
+{
+    json_t *list = json_array(), *warning;
+    size_t i;
+    json_array_foreach(warnings->errors, i, warning)
+    {
+        json_array_append_new(list, json_pack("{s:O, s:O}", "field", json_object_get(warning, "pointer"), "text",
+                                              json_object_get(warning, "detail")));
+    }
+    return list;
+}
+
+json_t *job_spec_warnings(const job_spec *spec, const calibration *machine)
+{
+    problem_list warnings;
+    if (!problem_list_init(&warnings)) return NULL;
+    job_spec_warn(spec, machine, &warnings);
+    json_t *list = job_warnings_to_json(&warnings);
+    problem_list_clear(&warnings);
+    return list;
+}
+
+json_t *job_spec_understood(const job_spec *spec, const calibration *machine)
+{
+    json_t *words = json_object();
+    const job_estimate cost = job_spec_estimate(spec, machine);
+    char text[TIME_IN_WORDS_SIZE];
+    if (spec->type->understand) spec->type->understand(spec, words);
+    time_in_words(cost.wall_seconds, text);
+    json_object_set_new(words, "wall_time", json_sprintf("about %s", text));
+    return words;
+}

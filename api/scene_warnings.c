@@ -1,0 +1,37 @@
+#include "scene_warnings.h"
+
+#include <math.h>
+
+#include "dem_rules.h"
+#include "scene_rules.h"
+
+#define SOFT_OVERLAP 0.05 /* of the smallest diameter: the most that maximum_overlap can ask for */
+
+double froude_number(double rotation_rate, double radius, double gravity)
+{
+    return rotation_rate * rotation_rate * radius / gravity;
+}
+
+double revolutions_a_minute(double rotation_rate) { return rotation_rate * 60.0 / (2.0 * DEM_PI); }
+
+void rotation_understand(double rotation_rate, double froude, json_t *words)
+{
+    json_object_set_new(words, "rotation_rate_rpm", json_real(revolutions_a_minute(rotation_rate)));
+    json_object_set_new(words, "froude_number", json_real(froude));
+}
+
+void scene_understand(const job_spec *spec, json_t *words)
+{
+    json_object_set_new(words, "diameter_ratio",
+                        json_real(spec->drum.diameter / scene_of_species(&spec->drum, scene_species_width, true)));
+}
+
+void scene_warn(const job_spec *spec, problem_list *warnings)
+{
+    const drum_inputs *inputs = &spec->inputs;
+    const double overlap = spec->expected_overlap;
+    if (isnan(inputs->maximum_overlap) && overlap > SOFT_OVERLAP)
+        problem_list_add(warnings, isnan(inputs->stiffness) ? "/inputs/contact/youngs_modulus" : "/inputs/contact/stiffness",
+                         "is so soft that overlaps of %.2g of the smallest diameter are to be expected; angles are good up to %g",
+                         overlap, SOFT_OVERLAP);
+}
