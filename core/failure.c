@@ -1,5 +1,7 @@
 #include "failure.h"
 
+#include "lost.h"
+
 /* what: its particles are spheres; the failure that is kept has the particles that these are, or are a part of. */
 static dem_status fail(dem_scene *scene, const dem_failure *what)
 {
@@ -15,6 +17,18 @@ static dem_status fail(dem_scene *scene, const dem_failure *what)
     return what->status;
 }
 
+/* The same advice for each container, by its name. */
+#define FOR_EACH_CONTAINER(before, after)                                                                                          \
+    {                                                                                                                              \
+        [DEM_DRUM] = before "drum" after, [DEM_CYLINDER] = before "cylinder" after, [DEM_TUBE_ON_PLATE] = before "heap" after      \
+    }
+static const char *const too_soft_for_speeds[] =
+    FOR_EACH_CONTAINER("the contacts are too soft for the speeds in this ",
+                       ": a larger stiffness (or a smaller maximum_overlap) keeps particles inside the wall");
+static const char *const too_soft_for_loads[] =
+    FOR_EACH_CONTAINER("the stiffness is too small for the loads and speeds in this ",
+                       ": give a larger stiffness, or a smaller maximum_overlap and let it be chosen");
+
 /* What a place has to keep, by the wall that it would be beyond. NULL quantity: it is inside. */
 typedef struct bound {
     double value, limit;
@@ -22,8 +36,9 @@ typedef struct bound {
 } bound;
 
 /* Inline: every sphere is looked at, and often. */
-WIDE_INLINE bound bound_broken(const dem_scene *scene, const double x[3])
+WIDE_INLINE bound bound_broken(const dem_scene *scene, size_t i)
 {
+    const double *x = sphere_place(&scene->spheres, i);
     const container *c = &scene->drum;
     const double rho2 = x[0] * x[0] + x[1] * x[1];
     /* Written so that a NaN fails each of them. */
@@ -36,8 +51,7 @@ WIDE_INLINE bound bound_broken(const dem_scene *scene, const double x[3])
         if (w->kind == WALL_PLANE && !(wall_seen_from(w, x).distance > 0))
             return (bound){ wall_seen_from(w, x).distance, 0,
                             c->kind == DEM_DRUM ? "distance before the end wall" : "height above the floor" };
-        /* what left the plate falls beside it */
-        if (w->kind == WALL_DISC && rho2 < w->radius * w->radius && !(x[2] > w->low))
+        if (w->kind == WALL_DISC && lost_came_through_plate(scene, i))
             return (bound){ x[2], w->low, "height above the plate" };
         if (w->kind == WALL_BAR && rho2 > c->bars_from * c->bars_from && !(wall_seen_from(w, x).distance > 0))
             return (bound){ wall_seen_from(w, x).distance, 0, "distance before a lifter" };
@@ -60,7 +74,7 @@ static void check_places_of_part(void *context, int part, int parts)
     size_t i = contact_parts_begin(own, s->mobile_count, part, parts);
     for (; i < end; i++) {
         const vector4 v = s->velocity[i];
-        if (!bound_broken(scene, sphere_place(s, i)).quantity && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
+        if (!bound_broken(scene, i).quantity && fabs(v[0]) + fabs(v[1]) + fabs(v[2]) < 1e6) continue;
         if (!particle_is_lost(scene, particle_of_sphere(s, i))) break;
     }
     work->wrong[part] = i;
@@ -77,7 +91,7 @@ dem_status failure_check_places(dem_scene *scene)
         if (i == contact_parts_begin(&scene->neighbors.parts, s->mobile_count, part + 1, parts)) continue;
         const double *x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
-        bound broken = bound_broken(scene, x);
+        bound broken = bound_broken(scene, i);
         if (!broken.quantity) broken = (bound){ sqrt(x[0] * x[0] + x[1] * x[1]), scene->drum.radius, "distance from the axis" };
         const bool escaped =
             isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]) && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
@@ -89,8 +103,7 @@ dem_status failure_check_places(dem_scene *scene)
             .limit = broken.limit,
             .quantity = broken.quantity,
             .unit = "m",
-            .likely_cause = "the contacts are too soft for the speeds in this container: a larger stiffness (or a smaller "
-                            "maximum_overlap) keeps particles inside the wall",
+            .likely_cause = too_soft_for_speeds[scene->drum.kind],
         };
         return fail(scene, &what);
     }
@@ -107,8 +120,7 @@ static dem_status overlap_failure(dem_scene *scene, int32_t i, int32_t j, double
         .limit = limit,
         .quantity = "overlap",
         .unit = "m",
-        .likely_cause = "the stiffness is too small for the loads and speeds in this drum: give a larger stiffness, or "
-                        "a smaller maximum_overlap and let it be chosen",
+        .likely_cause = too_soft_for_loads[scene->drum.kind],
     };
     return fail(scene, &what);
 }

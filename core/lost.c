@@ -55,6 +55,36 @@ void lost_clear(dem_scene *scene)
     free(scene->is_lost);
 }
 
+static bool is_beneath_plate(const dem_scene *scene, size_t i)
+{
+    const double *x = sphere_place(&scene->spheres, i), edge = 0.5 * scene->definition.plate.diameter;
+    return !(x[2] > 0) && x[0] * x[0] + x[1] * x[1] < edge * edge;
+}
+
+bool lost_came_through_plate(const dem_scene *scene, size_t i)
+{
+    const double way = fabs(scene->spheres.velocity[i][2]) * scene->definition.time_step;
+    return is_beneath_plate(scene, i) && !(way < sphere_radius(&scene->spheres, i));
+}
+
+/* A plate has a thickness in which nobody fits: who reaches beneath it does not come back, nor hang on to its edge. */
+static bool has_tipped_over(const dem_scene *scene, size_t p)
+{
+    const spheres *s = &scene->spheres;
+    size_t first = p, end = p + 1;
+    if (p >= s->single_count) {
+        const cluster_body *body = &s->clusters.body[p - s->single_count];
+        first = (size_t)body->first_sphere;
+        end = first + s->clusters.shape[body->species].sphere_count;
+    }
+    bool beneath = false;
+    for (size_t i = first; i < end; i++) {
+        if (lost_came_through_plate(scene, i)) return false; /* a failure, which is found and told elsewhere */
+        beneath = beneath || is_beneath_plate(scene, i);
+    }
+    return beneath || particle_place(s, p)[2] < -2 * particle_reach(s, p);
+}
+
 static void lose(dem_scene *scene, size_t p)
 {
     scene->is_lost[p] = true;
@@ -64,10 +94,9 @@ static void lose(dem_scene *scene, size_t p)
 void lost_look(dem_scene *scene)
 {
     if (!scene->is_lost || scene->step_count % STEPS_BETWEEN_LOOKS) return;
-    const spheres *s = &scene->spheres;
-    const size_t before = scene->lost_count, n = particles_count(s);
+    const size_t before = scene->lost_count, n = particles_count(&scene->spheres);
     for (size_t p = 0; p < n; p++)
-        if (!scene->is_lost[p] && particle_place(s, p)[2] < -2 * particle_reach(s, p)) lose(scene, p);
+        if (!scene->is_lost[p] && has_tipped_over(scene, p)) lose(scene, p);
     for (size_t k = before; k < scene->lost_count; k++) lay_down(scene, (size_t)scene->lost[k]);
     if (scene->lost_count > before) neighbor_list_invalidate(&scene->neighbors);
 }

@@ -6,10 +6,10 @@ const char *dem_status_text(dem_status status)
     case DEM_OK: return "ok";
     case DEM_NO_MEMORY: return "out of memory";
     case DEM_BAD_PARAMETER: return "a parameter is out of its range";
-    case DEM_DOES_NOT_FIT: return "the particles do not fit into the drum";
+    case DEM_DOES_NOT_FIT: return "the particles do not fit into their container";
     case DEM_NOT_A_NUMBER: return "a particle's position is not a number";
     case DEM_OVERLAP_TOO_LARGE: return "an overlap is beyond half of the smaller radius";
-    case DEM_PARTICLE_ESCAPED: return "a particle left the drum";
+    case DEM_PARTICLE_ESCAPED: return "a particle left its container";
     case DEM_NEVER_SETTLED: return "the bed did not come to rest";
     case DEM_TOO_FEW_FRAMES: return "too few frames to measure";
     case DEM_STATE_MISMATCH: return "the saved state is not whole, or belongs to another definition";

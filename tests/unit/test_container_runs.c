@@ -190,6 +190,33 @@ static void what_falls_off_a_plate_is_lost_and_counted(void **unused)
     dem_scene_free(scene);
 }
 
+/* Dumbbells tip over the edge: the sphere that is past it falls, and swings beneath the plate while the other is above. */
+static void clusters_that_tip_over_the_edge_of_a_plate_are_lost(void **unused)
+{
+    (void)unused;
+    for (uint64_t seed = 1; seed <= 3; seed++) {
+        dem_drum_definition d = bed_in(4);
+        d.seed = seed;
+        d.particle_count = 120;
+        d.species[0].cluster =
+            (dem_cluster){ .sphere_count = 2, .sphere = { { .diameter = 0.002 }, { { 0.002 }, .diameter = 0.002 } } };
+        d.time_step /= 2;
+        dem_scene *scene = bed_scene(&d);
+        while (dem_scene_time(scene) < 0.4) run(scene, 500);
+        const double edge = 0.5 * d.plate.diameter;
+        size_t below = 0;
+        for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
+            const double *x = sphere_place(&scene->spheres, i);
+            const bool is_lost = particle_is_lost(scene, particle_of_sphere(&scene->spheres, i));
+            below += x[2] < -0.02;
+            if (!is_lost && hypot(x[0], x[1]) < edge) CHECK_BETWEEN(x[2], 0, 0.1);
+        }
+        assert_int_equal(below, 2 * dem_scene_lost_count(scene));
+        CHECK_BETWEEN((double)below, 20, 240);
+        dem_scene_free(scene);
+    }
+}
+
 /* ---- the same bits ---- */
 
 static bool same_bits(const dem_scene *a, const dem_scene *b)
@@ -258,6 +285,7 @@ int main(void)
         cmocka_unit_test(no_contact_with_a_wall_is_missed_at_any_step),
         cmocka_unit_test(a_rising_tube_lets_particles_out_beneath_it_alone),
         cmocka_unit_test(what_falls_off_a_plate_is_lost_and_counted),
+        cmocka_unit_test(clusters_that_tip_over_the_edge_of_a_plate_are_lost),
         cmocka_unit_test(every_container_gives_the_same_bits_however_it_is_run),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -229,6 +229,37 @@ static void a_particle_beyond_any_wall_has_escaped(void **unused)
     check_escape(&d, (double[]){ 0.035, 0, 0 }, (double[]){ 1000, 0, 0 }, "distance before a lifter");
 }
 
+/* Past the edge at 2.7 mm from it, its radius is 2: it touches nothing, and the plate is above it 2 ms later. */
+static void a_sphere_that_goes_around_the_edge_and_beneath_the_plate_is_lost(void **unused)
+{
+    (void)unused;
+    const dem_drum_definition d = container_definition(DEM_TUBE_ON_PLATE, 1);
+    dem_scene *scene = container_scene(&d);
+    put(scene, (double[]){ 0.101, 0, -0.0025 }, (double[]){ -0.6, 0, -0.1 }, NULL);
+    assert_int_equal(dem_scene_lost_count(scene), 0);
+    go_on(scene, 300);
+    assert_int_equal(dem_scene_lost_count(scene), 1);
+    dem_scene_free(scene);
+}
+
+static void a_failure_names_its_own_container(void **unused)
+{
+    (void)unused;
+    static const char *const name[] = { [DEM_DRUM] = "drum", [DEM_CYLINDER] = "cylinder", [DEM_TUBE_ON_PLATE] = "heap" };
+    for (int kind = DEM_DRUM; kind <= DEM_TUBE_ON_PLATE; kind++) {
+        const dem_drum_definition d = container_definition(kind, 1);
+        dem_scene *scene = container_scene(&d);
+        put(scene, (double[]){ 0, 0, 0.01 }, (double[]){ kind == DEM_DRUM ? 9000 : 0, 0, -3000 }, NULL);
+        assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
+        const char *cause = dem_scene_failure(scene)->likely_cause;
+        for (int k = DEM_DRUM; k <= DEM_TUBE_ON_PLATE; k++)
+            if ((strstr(cause, name[k]) != NULL) != (k == kind)) fail_msg("of a %s it is said: %s", name[kind], cause);
+        dem_scene_free(scene);
+    }
+    assert_null(strstr(dem_status_text(DEM_PARTICLE_ESCAPED), "drum"));
+    assert_null(strstr(dem_status_text(DEM_DOES_NOT_FIT), "drum"));
+}
+
 static void a_container_that_cannot_be_is_refused(void **unused)
 {
     (void)unused;
@@ -264,6 +295,8 @@ int main(void)
         cmocka_unit_test(a_turning_end_wall_drives_a_sphere_by_coulombs_impulse),
         cmocka_unit_test(a_lifter_carries_a_ball_up_until_its_face_is_level),
         cmocka_unit_test(a_particle_beyond_any_wall_has_escaped),
+        cmocka_unit_test(a_sphere_that_goes_around_the_edge_and_beneath_the_plate_is_lost),
+        cmocka_unit_test(a_failure_names_its_own_container),
         cmocka_unit_test(a_container_that_cannot_be_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
