@@ -43,12 +43,17 @@
 #define JOB_PROFILE_FILE "profile.json"
 #define JOB_LOG_FILE "log.txt"
 
+/* Signals on which either program saves what it has and leaves in good order: all that end a program from outside, but for
+ * SIGKILL and those that tell of its own faults. Batch systems warn by some of them. The real-time signals are meant, too. */
+#define JOB_STOP_SIGNALS                                                                                                           \
+    SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM, SIGVTALRM, SIGPROF, SIGPOLL, SIGPWR, SIGSTKFLT
+
 /* How `repose run` ends. */
 enum worker_exit {
     WORKER_DONE = 0,
     WORKER_FAULT = 1, /* our own bug or a missing file */
     WORKER_BAD_SPEC = 2,
-    WORKER_STOPPED = 3,   /* SIGTERM: checkpoint written, to be continued (or dismissed: the daemon knows which) */
+    WORKER_STOPPED = 3,   /* JOB_STOP_SIGNALS: checkpoint written, to be continued (or dismissed: the daemon knows which) */
     WORKER_NUMERICAL = 4, /* the failure event says what, where, when */
     WORKER_DISK = 5
 };

@@ -13,7 +13,7 @@
 
 static const char usage[] = "reposed: virtual rotary-drum tests over HTTP\n"
                             "\n"
-                            "  reposed serve [options]     run the service until SIGTERM, SIGINT or SIGHUP\n"
+                            "  reposed serve [options]     run the service until SIGTERM, SIGINT or the like\n"
                             "  reposed --help | --version\n"
                             "\n"
                             "  --host ADDRESS       where to listen (127.0.0.1); beyond loopback needs --token-file\n"
@@ -134,7 +134,8 @@ enum config_outcome config_read(config *settings, int argc, char **argv)
         return CONFIG_SHOWN;
     }
     if (strcmp(command, "serve") != 0) {
-        fprintf(stderr, "reposed: say \"reposed serve\"; see reposed --help\n");
+        if (*command) fprintf(stderr, "reposed: \"%s\" is not a command; say \"reposed serve\"\n", command);
+        fputs(usage, stderr);
         return CONFIG_WRONG;
     }
     if (!beside_program(settings->worker, "repose") || !beside_program(settings->web, "../web")

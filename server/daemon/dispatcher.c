@@ -24,14 +24,16 @@
 
 enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8 };
 
-/* A closed terminal sends SIGHUP; under nohup it is ignored, and a blocked signal would come through all the same. */
+/* Under nohup SIGHUP is ignored, and a blocked signal would come through all the same. */
 void dispatcher_end_signals(sigset_t *ends)
 {
-    struct sigaction hang_up;
+    static const int signals[] = { JOB_STOP_SIGNALS };
+    struct sigaction action;
     sigemptyset(ends);
-    sigaddset(ends, SIGTERM);
-    sigaddset(ends, SIGINT);
-    if (sigaction(SIGHUP, NULL, &hang_up) == 0 && hang_up.sa_handler != SIG_IGN) sigaddset(ends, SIGHUP);
+    for (size_t s = 0; s < sizeof signals / sizeof signals[0]; s++)
+        if (signals[s] != SIGHUP || (sigaction(SIGHUP, NULL, &action) == 0 && action.sa_handler != SIG_IGN))
+            sigaddset(ends, signals[s]);
+    for (int real_time = SIGRTMIN; real_time <= SIGRTMAX; real_time++) sigaddset(ends, real_time);
 }
 
 bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job)

@@ -45,7 +45,7 @@ typedef struct job_dispatcher {
     _Atomic int running;
 } job_dispatcher;
 
-/* The signals that end the daemon in good order: SIGTERM, SIGINT, SIGHUP. To be blocked in all threads. */
+/* The signals that end the daemon in good order: JOB_STOP_SIGNALS. To be blocked in all threads. */
 void dispatcher_end_signals(sigset_t *ends);
 bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job);
 void dispatcher_clear(job_dispatcher *dispatcher);

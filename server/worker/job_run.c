@@ -48,12 +48,32 @@ static void request_stop(int signal_number)
     stop_requested = 1;
 }
 
+static const int stop_signals[] = { JOB_STOP_SIGNALS };
+enum { STOP_SIGNALS = sizeof stop_signals / sizeof stop_signals[0] };
+
+static void all_stop_signals(sigset_t *set)
+{
+    sigemptyset(set);
+    for (size_t s = 0; s < STOP_SIGNALS; s++) sigaddset(set, stop_signals[s]);
+    for (int real_time = SIGRTMIN; real_time <= SIGRTMAX; real_time++) sigaddset(set, real_time);
+}
+
+void job_run_hold_signals(void)
+{
+    sigset_t held;
+    all_stop_signals(&held);
+    sigprocmask(SIG_BLOCK, &held, NULL);
+}
+
 void job_run_catch_signals(void)
 {
-    struct sigaction action = { .sa_handler = request_stop, .sa_flags = SA_RESTART };
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGINT, &action, NULL);
-    if (signal(SIGHUP, SIG_IGN) != SIG_IGN) sigaction(SIGHUP, &action, NULL); /* nohup has it ignored */
+    struct sigaction before, action = { .sa_handler = request_stop, .sa_flags = SA_RESTART };
+    sigset_t caught;
+    all_stop_signals(&caught);
+    for (int number = 1; number <= SIGRTMAX; number++)
+        if (sigismember(&caught, number) == 1 && sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)
+            sigaction(number, &action, NULL); /* what is ignored stays so: nohup does that to SIGHUP */
+    sigprocmask(SIG_UNBLOCK, &caught, NULL);
     /* A limit on the size of files is then a write that fails, like a full disk. */
     signal(SIGXFSZ, SIG_IGN);
     signal(SIGPIPE, SIG_IGN);

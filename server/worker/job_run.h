@@ -30,7 +30,9 @@ enum worker_exit job_run(const job_spec *spec, const char *folder, const run_opt
 /* What a person at a terminal reads of a result. folder: as the user named it. */
 void job_run_summarize(const job_spec *spec, const json_t *result, const char *folder);
 
-/* From now on SIGTERM and SIGINT ask for a checkpoint and the end of job_run with WORKER_STOPPED. */
+/* From now on JOB_STOP_SIGNALS ask for a checkpoint and the end of job_run with WORKER_STOPPED. Those that are held wait
+ * until they are caught, also where another program takes over in between. */
+void job_run_hold_signals(void);
 void job_run_catch_signals(void);
 bool job_run_is_asked_to_stop(void);
 

@@ -25,25 +25,30 @@
 
 enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
 
-static const char help[] =
-    "repose run SPEC --out DIR     run the test that the file SPEC describes (\"-\": stdin)\n"
-    "    --threads N               instead of those of the spec; results do not depend on it\n"
-    "    --attempt N               of a job that was begun before (default 1)\n"
-    "    --checkpoint-seconds S    between checkpoints (default 30)\n"
-    "    --json                    print the results as JSON\n"
-    "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"
-    "    --isa avx512|avx2|plain   the instruction set to use (default: the best that the processor has); results do not\n"
+#define HELP_RUN                                                                                                                   \
+    "repose run SPEC --out DIR     run the test that the file SPEC describes (\"-\": stdin)\n"                                      \
+    "    --threads N               instead of those of the spec; results do not depend on it\n"                                     \
+    "    --attempt N               of a job that was begun before (default 1)\n"                                                    \
+    "    --checkpoint-seconds S    between checkpoints (default 30); the first comes after 3 s\n"                                   \
+    "    --json                    print the results as JSON\n"                                                                     \
+    "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"                 \
+    "    --isa avx512|avx2|plain   the instruction set to use (default: the best that the processor has); results do not\n"         \
     "                              depend on it. Also of check and calibrate\n"
-    "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"
-    "                              memory; or every problem it has. Of a study: its cases and what it costs\n"
-    "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"
+#define HELP_CHECK                                                                                                                 \
+    "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"               \
+    "                              memory; or every problem it has. Of a study: its cases and what it costs\n"                      \
+    "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"             \
     "                              else in the user's cache alone)\n"
-    "repose calibrate              measure this machine's speed where that was not yet done; --data DIR as above\n"
-    "repose --help | --version\n"
-    "\n"
-    "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"
-    "of another SPEC in DIR are never overwritten.\n"
-    "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk.\n";
+#define HELP_CALIBRATE                                                                                                             \
+    "repose calibrate              measure this machine's speed where that was not yet done; --data DIR as with check;\n"           \
+    "                              --json prints the whole of it\n"
+#define HELP_EXIT                                                                                                                  \
+    "\n"                                                                                                                           \
+    "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"        \
+    "of another SPEC in DIR are never overwritten.\n"                                                                              \
+    "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk.\n"
+
+static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE "repose COMMAND --help | --help | --version\n" HELP_EXIT;
 
 static const char no_spec[] = "give one SPEC file";
 
@@ -52,6 +57,7 @@ typedef struct command_line {
     const char *isa; /* NULL: the best there is */
     int threads;     /* 0: those of the spec */
     bool json;
+    bool help; /* that alone is asked for */
     run_options run;
 } command_line;
 
@@ -94,11 +100,12 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         { "profile", no_argument, NULL, 'p' },
         { "data", required_argument, NULL, 'd' },
         { "isa", required_argument, NULL, 'i' },
+        { "help", no_argument, NULL, 'h' },
         { NULL, 0, NULL, 0 },
     };
     *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
     bool good = true;
-    for (int option; good && (option = getopt_long(argc, argv, "o:", options, NULL)) != -1;) {
+    for (int option; good && (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         switch (option) {
         case 'o': line->out = optarg; break;
         case 't': good = read_whole("threads", optarg, MOST_THREADS, &line->threads); break;
@@ -106,6 +113,7 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         case 'c': good = read_seconds("checkpoint-seconds", optarg, &line->run.checkpoint_seconds); break;
         case 'j': line->json = true; break;
         case 'p': line->run.profile = true; break;
+        case 'h': line->help = true; return WORKER_DONE;
         case 'd': line->data = optarg; break;
         case 'i':
             line->isa = optarg;
@@ -125,6 +133,12 @@ static uint64_t random_seed(void)
     uint64_t seed = 0;
     if (getrandom(&seed, sizeof seed, 0) != (ssize_t)sizeof seed) worker_warn("no random seed from the system: taking 0");
     return seed;
+}
+
+static enum worker_exit show(const char *text)
+{
+    fputs(text, stdout);
+    return WORKER_DONE;
 }
 
 /* Where the spec has no seed: that of the run in the folder, so that the same SPEC and DIR are the same run. */
@@ -192,6 +206,7 @@ static enum worker_exit check(int argc, char **argv, char *word)
     command_line line;
     enum worker_exit exit = read_command_line(argc, argv, &line);
     if (exit != WORKER_DONE) return exit;
+    if (line.help) return show(HELP_CHECK);
     if (!line.spec) return refuse_usage(no_spec, NULL);
     if (!take_over(&line, "single", word, argv)) return WORKER_FAULT; /* whose speed is told */
     calibration machine;
@@ -216,6 +231,7 @@ static enum worker_exit calibrate_here(int argc, char **argv, char *word)
     bool is_new;
     const enum worker_exit exit = read_command_line(argc, argv, &line);
     if (exit != WORKER_DONE) return exit;
+    if (line.help) return show(HELP_CALIBRATE);
     if (line.spec) return refuse_usage("not understood", line.spec);
     if (!take_over(&line, "single", word, argv)) return WORKER_FAULT;
     if (!calibrate(line.data, &machine, &is_new)) return WORKER_FAULT;
@@ -254,11 +270,13 @@ static enum worker_exit run(int argc, char **argv, char *word)
     command_line line;
     job_spec spec;
     enum worker_exit exit = read_command_line(argc, argv, &line);
+    if (exit == WORKER_DONE && line.help) return show(HELP_RUN HELP_EXIT);
     if (exit == WORKER_DONE && !line.spec) exit = refuse_usage(no_spec, NULL);
     if (exit == WORKER_DONE && !line.out) exit = refuse_usage("say where to write: --out DIR", NULL);
     if (exit == WORKER_DONE && strcmp(line.spec, "-") == 0 && !variant_keep_stdin()) exit = WORKER_FAULT;
     if (exit == WORKER_DONE) exit = load_spec(line.spec, line.out, &spec);
     if (exit != WORKER_DONE) return exit;
+    job_run_hold_signals();
     if (!take_over(&line, spec.inputs.precision > 0 ? "double" : "single", word, argv)) {
         job_spec_clear(&spec);
         return WORKER_FAULT;
@@ -272,7 +290,7 @@ static enum worker_exit run(int argc, char **argv, char *word)
     if (*spec.inputs.start.file) line.run.start = realpath(spec.inputs.start.file, start);
     exit = job_run(&spec, line.out, &line.run);
     if (line.run.on_terminal) terminal_end_progress();
-    if (exit == WORKER_DONE && (line.json || line.run.on_terminal)) print_result(&line, &spec);
+    if (exit == WORKER_DONE) print_result(&line, &spec);
     if (exit == WORKER_DONE && line.run.profile && !line.json) print_profile();
     job_spec_clear(&spec);
     return exit;
@@ -280,13 +298,17 @@ static enum worker_exit run(int argc, char **argv, char *word)
 
 int main(int argc, char **argv)
 {
-    char *word = argc > 1 ? argv[1] : (char[]){ "--help" };
-    if (argc > 1) argv[1] = argv[0];
+    if (argc < 2) {
+        fputs(help, stderr);
+        return WORKER_BAD_SPEC;
+    }
+    char *word = argv[1];
+    argv[1] = argv[0];
     int exit = WORKER_DONE;
     if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1, word);
     else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1, word);
     else if (strcmp(word, "calibrate") == 0) exit = calibrate_here(argc - 1, argv + 1, word);
-    else if (strcmp(word, "--help") == 0) fputs(help, stdout);
+    else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) exit = show(help);
     else if (strcmp(word, "--version") == 0) puts("repose " REPOSED_VERSION);
     else exit = refuse_usage("not a command", word);
     /* After a failed write HDF5's own cleaning up at exit crashes: leave without it. */

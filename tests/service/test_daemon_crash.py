@@ -117,7 +117,7 @@ def test_a_killed_daemon_takes_its_workers_along_and_its_successor_goes_on(fake)
     assert [info["attempt"] for info in infos] == [2, 2, 1]
 
 
-@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, signal.SIGHUP, signal.SIGUSR1])
 def test_a_stop_in_good_order_uses_up_no_attempt(fake, how):
     job = fake.submit(fake="slow", seconds="3")
     running(fake, job)

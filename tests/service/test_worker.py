@@ -1,6 +1,7 @@
 """`repose` by itself: specs checked, a run from spec to result, and what survives when it is interrupted."""
 import json
 import math
+import pathlib
 import resource
 import signal
 import subprocess
@@ -202,6 +203,31 @@ def test_another_seed_gives_another_run(whole, tmp_path):
     assert result(tmp_path / "job")["repose"]["angle_deg"] != result(whole[0])["repose"]["angle_deg"]
 
 
+def test_the_angle_is_printed_also_where_nobody_sits_at_a_terminal(whole):
+    folder, _ = whole
+    code, stdout, _ = run(folder.parent / "request.json", folder)  # complete: says what came out
+    repose = result(folder)["repose"]
+    assert code == 0 and f"{repose['angle_deg']:.2f} +- {repose['standard_error_deg']:.2f} degrees" in stdout
+    assert "\r" not in stdout and "\033" not in stdout
+
+
+@pytest.mark.parametrize("program, commands", [("repose", ("run", "check", "calibrate")), ("reposed", ("serve",))])
+def test_help_is_on_stdout_and_a_word_too_few_is_a_mistake(program, commands):
+    def call(*words):
+        done = subprocess.run([str(pathlib.Path(REPOSE).with_name(program)), *words], capture_output=True, text=True, timeout=20)
+        return done.returncode, done.stdout, done.stderr
+
+    code, out, _ = call("--help")
+    assert code == 0 and all(f"{program} {command}" in out for command in commands)
+    assert call() == (2, "", out)
+    for command in commands:
+        for word in ("--help", "-h"):
+            code, text, complaint = call(command, word)
+            assert (code, complaint) == (0, "") and f"{program} {command}" in text
+    code, nothing, complaint = call("walk")
+    assert code == 2 and nothing == "" and "walk" in complaint
+
+
 # --- interrupted runs
 
 def expect_as_if_never_interrupted(out, whole_out):
@@ -254,6 +280,38 @@ def test_sigterm_saves_a_checkpoint_and_ends_with_3(whole, tmp_path):
     assert run(spec, out, "--attempt", 2)[0] == 0
     assert events(out, "start")[1]["step"] == last["step"]
     expect_as_if_never_interrupted(out, whole[0])
+
+
+OUTSIDE = (set(range(1, 32)) | set(range(signal.SIGRTMIN, signal.SIGRTMAX + 1))) - {
+    signal.SIGKILL, signal.SIGSTOP, signal.SIGTSTP, signal.SIGTTIN, signal.SIGTTOU,  # end or stop whatever we do
+    signal.SIGABRT, signal.SIGBUS, signal.SIGFPE, signal.SIGILL, signal.SIGSEGV, signal.SIGSYS, signal.SIGTRAP}  # faults of its own
+HARMLESS = {signal.SIGCHLD, signal.SIGCONT, signal.SIGURG, signal.SIGWINCH, signal.SIGPIPE, signal.SIGXFSZ}
+
+
+def test_no_signal_from_outside_ends_a_run_without_a_checkpoint(tmp_path):
+    endless = small(duration={"seconds": 2000.0}, snapshots={"interval": 0})
+    spec, running = write_spec(tmp_path, endless), {}
+    for number in sorted(OUTSIDE - HARMLESS)[:13] + [signal.SIGRTMIN, signal.SIGRTMAX]:
+        running[number] = start(spec, tmp_path / str(int(number)), "--checkpoint-seconds", 3600,
+                                preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL))
+    for number, worker in running.items():
+        wait_until(lambda: events(tmp_path / str(int(number)), "start"))
+        for harmless in HARMLESS:
+            worker.send_signal(harmless)
+        worker.send_signal(number)
+    for number, worker in running.items():
+        worker.communicate(timeout=60)
+        assert worker.returncode == 3, number
+        assert events(tmp_path / str(int(number)))[-1]["event"] == "checkpoint", number
+
+
+def test_a_signal_that_is_ignored_stays_ignored(tmp_path):
+    spec = write_spec(tmp_path, small(duration={"seconds": 0.05}))
+    worker = start(spec, tmp_path / "job", preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_IGN))
+    wait_until(lambda: events(tmp_path / "job", "start"))
+    worker.send_signal(signal.SIGHUP)
+    worker.communicate(timeout=60)
+    assert worker.returncode == 0
 
 
 def test_sigterm_while_the_bed_settles_is_no_loss_either(whole, tmp_path):
