@@ -60,7 +60,7 @@ static json_t *read_label(const json_t *label, problem_list *problems)
         problem_list_add(problems, "/label", "has %zu members; must have at most %d", json_object_size(label), MOST_LABELS);
     const char *name;
     json_t *value;
-    json_object_foreach((json_t *)label, name, value) check_label(name, value, problems);
+    json_object_foreach((json_t *)label, name, value) if (!problem_list_is_full(problems)) check_label(name, value, problems);
     return json_deep_copy(label);
 }
 

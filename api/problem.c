@@ -25,6 +25,11 @@ void problem_list_clear(problem_list *problems)
 
 bool problem_list_is_empty(const problem_list *problems) { return problems->errors && json_array_size(problems->errors) == 0; }
 
+bool problem_list_is_full(const problem_list *problems)
+{
+    return !problems->errors || json_array_size(problems->errors) >= MOST_PROBLEMS;
+}
+
 /* Of a text that quotes what a client sent, perhaps cut within a character, what is UTF-8: JSON can hold nothing else.
  * New reference. */
 static json_t *text_json(const char *text)
@@ -51,7 +56,7 @@ static json_t *text_json(const char *text)
 
 void problem_list_add(problem_list *problems, const char *pointer, const char *format, ...)
 {
-    if (!problems->errors || json_array_size(problems->errors) >= MOST_PROBLEMS) return;
+    if (problem_list_is_full(problems)) return;
     char detail[LONGEST_DETAIL];
     va_list arguments;
     va_start(arguments, format);

@@ -13,6 +13,8 @@ typedef struct problem_list {
 bool problem_list_init(problem_list *problems);
 void problem_list_clear(problem_list *problems);
 bool problem_list_is_empty(const problem_list *problems);
+/* Nothing more would be kept: whoever looks at much can stop looking. */
+bool problem_list_is_full(const problem_list *problems);
 /* printf-like; pointer as in "/inputs/drum/diameter". A list that is full (100) drops the rest. */
 void problem_list_add(problem_list *problems, const char *pointer, const char *format, ...) __attribute__((format(printf, 3, 4)));
 

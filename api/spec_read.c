@@ -47,33 +47,37 @@ static void range_text(const spec_field *field, char *text, size_t size)
              field->unit && *field->unit ? " " : "", field->unit ? field->unit : "");
 }
 
-static double read_number(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
+/* Why it can't be used. */
+static void refuse_number(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
 {
     const bool integer = field->kind == FIELD_INTEGER;
+    const double number = json_number_value(value);
+    const bool low = field->minimum_open ? number <= field->minimum : number < field->minimum;
     char seen[LONGEST_VALUE], range[120];
     json_value_text(value, seen, sizeof seen);
     range_text(field, range, sizeof range);
-    if (!json_is_number(value)) {
+    const char *space = *field->unit ? " " : "";
+    if (!json_is_number(value))
         problem_list_add(problems, pointer, "is %s; must be %s in %s", seen, integer ? "a whole number" : "a number", range);
-        return NAN;
-    }
-    const double number = json_number_value(value);
-    const bool low = field->minimum_open ? number <= field->minimum : number < field->minimum;
-    if (low || !(number <= field->maximum)) {
-        problem_list_add(problems, pointer, "is %s%s%s; must be in %s", seen, *field->unit ? " " : "", field->unit, range);
-        return NAN;
-    }
-    if (integer && number != floor(number)) {
+    else if (low || !(number <= field->maximum))
+        problem_list_add(problems, pointer, "is %s%s%s; must be in %s", seen, space, field->unit, range);
+    else if (integer && number != floor(number))
         problem_list_add(problems, pointer, "is %s; must be a whole number in %s", seen, range);
-        return NAN;
-    }
-    /* Below the smallest normal double digits are already lost: such a number is a slip, not a wish. */
-    if (number != 0.0 && fabs(number) < 2.2250738585072014e-308) {
-        problem_list_add(problems, pointer, "is %s%s%s; too close to 0 to be kept, must be in %s", seen, *field->unit ? " " : "",
-                         field->unit, range);
-        return NAN;
-    }
-    return number == 0.0 ? 0.0 : number; /* -0 would be another text for the same input */
+    else /* below the smallest normal double digits are already lost: such a number is a slip, not a wish */
+        problem_list_add(problems, pointer, "is %s%s%s; too close to 0 to be kept, must be in %s", seen, space, field->unit, range);
+}
+
+/* Nothing is written in words before something is wrong: a bed of ten thousand particles has ten times as many numbers. */
+static double read_number(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
+{
+    const double number = json_number_value(value);
+    const bool high_enough = field->minimum_open ? number > field->minimum : number >= field->minimum;
+    const bool whole_where_asked = field->kind != FIELD_INTEGER || number == floor(number);
+    const bool kept = number == 0.0 || fabs(number) >= 2.2250738585072014e-308; /* the smallest normal double */
+    if (json_is_number(value) && high_enough && number <= field->maximum && whole_where_asked && kept)
+        return number == 0.0 ? 0.0 : number; /* -0 would be another text for the same input */
+    refuse_number(field, value, pointer, problems);
+    return NAN;
 }
 
 static double read_choice(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
@@ -100,6 +104,7 @@ static void refuse_unknown_inputs(const spec_table *table, spec_group group, con
     json_t *value;
     json_object_foreach((json_t *)object, name, value)
     {
+        if (problem_list_is_full(problems)) return;
         if (spec_field_find(table, group, name)) continue;
         if (strlen(name) > LONGEST_MEMBER_NAME) {
             problem_list_add(problems, pointer, "has an unknown member with a name of %zu bytes", strlen(name));
@@ -129,6 +134,7 @@ void refuse_unknown_members(const json_t *object, const char *pointer, const cha
     json_t *value;
     json_object_foreach((json_t *)object, name, value)
     {
+        if (problem_list_is_full(problems)) return;
         size_t k = 0;
         while (known[k] && strcmp(known[k], name) != 0) k++;
         if (known[k]) continue;
@@ -168,7 +174,7 @@ static void read_list(const spec_table *table, const spec_field *field, const js
         problem_list_add(problems, pointer, "could not be read: out of memory");
         return;
     }
-    for (size_t s = 0; s < count; s++) {
+    for (size_t s = 0; s < count && !problem_list_is_full(problems); s++) {
         char entry[LONGEST_POINTER];
         snprintf(entry, sizeof entry, "%.200s/%zu", pointer, s);
         const json_t *object = json_array_get(list, s);
@@ -242,11 +248,11 @@ static void read_text(const spec_field *field, const json_t *value, const char *
     *text = '\0';
     if (!value && !field->required) return;
     const size_t length = json_string_length(value);
-    json_value_text(value, seen, sizeof seen);
-    if (!json_is_string(value))
+    if (!json_is_string(value)) {
+        json_value_text(value, seen, sizeof seen);
         problem_list_add(problems, pointer, "is %s; must be a text of %g to %g bytes", value ? seen : "missing", field->minimum,
                          field->maximum);
-    else if ((double)length < field->minimum || (double)length > field->maximum)
+    } else if ((double)length < field->minimum || (double)length > field->maximum)
         problem_list_add(problems, pointer, "has %zu bytes; must have %g to %g", length, field->minimum, field->maximum);
     else memcpy(text, json_string_value(value), length + 1);
 }
@@ -256,10 +262,10 @@ static void read_place(const spec_field *field, const json_t *value, const char 
 {
     const size_t numbers = field->kind == FIELD_TURN ? 4 : 3;
     char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
-    range_text(field, range, sizeof range);
     for (size_t c = 0; c < numbers; c++) place[c] = field->required ? NAN : field->fallback;
     if (!value && !field->required) return;
     if (json_array_size(value) != numbers) {
+        range_text(field, range, sizeof range);
         json_value_text(value, seen, sizeof seen);
         if (json_is_array(value)) snprintf(seen, sizeof seen, "a list of %zu", json_array_size(value));
         problem_list_add(problems, pointer, "is %s; must be a list of %s numbers, each in %s", value ? seen : "missing",

@@ -8,6 +8,7 @@
 #include "dem_cluster.h"
 #include "process_type.h"
 #include "spec_text.h"
+#include "start_overlap.h"
 #include "status_info.h"
 
 /* Of the smaller diameter: as far as spheres may overlap when a run begins, the most that maximum_overlap can ask for. */
@@ -63,6 +64,13 @@ json_t *start_find(job_spec *spec, problem_list *problems)
 
 /* --- particles given one by one --- */
 
+static void refuse_species(size_t particle, double species, size_t kinds, problem_list *problems)
+{
+    char pointer[80];
+    snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/species", particle);
+    problem_list_add(problems, pointer, "is %g; must be in [0, %zu]: particles has %zu kinds", species, kinds - 1, kinds);
+}
+
 bool start_count_particles(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
 {
     const start_inputs *start = &inputs->start;
@@ -71,12 +79,8 @@ bool start_count_particles(const drum_inputs *inputs, dem_drum_definition *drum,
     if (start->particle_count == 0) return false;
     for (size_t p = 0; p < start->particle_count; p++) {
         const double species = start->particles[p].species;
-        char pointer[80];
-        snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/species", p);
-        if (species >= (double)inputs->species_count)
-            problem_list_add(problems, pointer, "is %g; must be in [0, %zu]: particles has %zu kinds", species,
-                             inputs->species_count - 1, inputs->species_count);
-        else if (species >= 0) of_species[(size_t)species] += 1.0;
+        if (species < (double)inputs->species_count) of_species[(size_t)species] += 1.0;
+        else if (!isnan(species)) refuse_species(p, species, inputs->species_count, problems);
     }
     for (size_t s = 0; s < inputs->species_count; s++) {
         char pointer[60];
@@ -94,11 +98,6 @@ bool start_count_particles(const drum_inputs *inputs, dem_drum_definition *drum,
     drum->fill_fraction = dem_fill_of_particles(drum->diameter, drum->length, count, drum->species, drum->species_count);
     return true;
 }
-
-typedef struct placed_sphere {
-    double x[3], radius;
-    size_t particle;
-} placed_sphere;
 
 /* Not one that was refused. */
 static bool has_place(const start_particle *particle, const dem_drum_definition *drum)
@@ -120,14 +119,15 @@ static placed_sphere *all_spheres(const start_inputs *start, const dem_drum_defi
         if (!has_place(particle, drum)) continue;
         const dem_species *species = &drum->species[(size_t)particle->species];
         const size_t of_each = species->cluster.sphere_count;
-        for (size_t k = 0; k < (of_each ? of_each : 1); k++, next++) {
+        for (size_t k = 0; k < (of_each ? of_each : 1); k++) {
             double r[3] = { 0 };
             if (of_each && !isnan(particle->orientation[0]))
                 dem_turn(particle->orientation, species->cluster.sphere[k].position, r);
             else if (of_each) memcpy(r, species->cluster.sphere[k].position, sizeof r);
-            *next = (placed_sphere){ .radius = 0.5 * (of_each ? species->cluster.sphere[k].diameter : species->diameter),
-                                     .particle = p };
-            for (int c = 0; c < 3; c++) next->x[c] = particle->position[c] + r[c];
+            placed_sphere s = { .radius = 0.5 * (of_each ? species->cluster.sphere[k].diameter : species->diameter),
+                                .particle = p };
+            for (int c = 0; c < 3; c++) s.x[c] = particle->position[c] + r[c];
+            if (s.radius > 0.0 && !isnan(s.x[0] + s.x[1] + s.x[2])) *next++ = s; /* one without a size was refused */
         }
     }
     *count = spheres ? (size_t)(next - spheres) : 0;
@@ -140,6 +140,7 @@ static void check_inside(const placed_sphere *s, const dem_drum_definition *drum
     const double room = 0.5 * drum->diameter - s->radius + most;
     /* across periodic ends a cluster may reach by its own size */
     const double along = drum->ends.are_walls ? 0.5 * drum->length - s->radius + most : drum->length;
+    if (!(from_axis > room) && !(fabs(s->x[2]) > along)) return;
     char pointer[80];
     snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/position", s->particle);
     if (from_axis > room)
@@ -151,42 +152,22 @@ static void check_inside(const placed_sphere *s, const dem_drum_definition *drum
                          2 * s->radius, s->x[2], -along, along);
 }
 
-static int by_x(const void *a, const void *b)
+static void tell_overlap(const placed_pair *pair, problem_list *problems)
 {
-    const placed_sphere *p = a, *q = b;
-    if (p->x[0] != q->x[0]) return p->x[0] > q->x[0] ? 1 : -1;
-    return (p->particle > q->particle) - (p->particle < q->particle);
-}
-
-/* m; negative: apart. Along the axis across the periodic ends, too. */
-static double overlap_of(const placed_sphere *a, const placed_sphere *b, const dem_drum_definition *drum)
-{
-    double z = a->x[2] - b->x[2];
-    if (!drum->ends.are_walls) z = remainder(z, drum->length);
-    const double x = a->x[0] - b->x[0], y = a->x[1] - b->x[1];
-    return a->radius + b->radius - sqrt(x * x + y * y + z * z);
+    char pointer[80];
+    snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/position", pair->high);
+    problem_list_add(problems, pointer, "overlaps particle %zu by %.3g m; must be at most %.3g m, %g of the smaller diameter",
+                     pair->low, pair->overlap, pair->most, MOST_START_OVERLAP);
 }
 
 static void check_overlaps(placed_sphere *spheres, size_t count, const dem_drum_definition *drum, problem_list *problems)
 {
-    size_t found = 0;
-    double largest = 0.0;
-    for (size_t i = 0; i < count; i++) largest = fmax(largest, spheres[i].radius);
-    qsort(spheres, count, sizeof *spheres, by_x);
-    for (size_t i = 0; i < count; i++) {
-        for (size_t j = i + 1; j < count && spheres[j].x[0] - spheres[i].x[0] < spheres[i].radius + largest; j++) {
-            const placed_sphere *a = &spheres[i], *b = &spheres[j];
-            const double overlap = overlap_of(a, b, drum), most = MOST_START_OVERLAP * 2 * fmin(a->radius, b->radius);
-            if (a->particle == b->particle || !(overlap > most) || ++found > ENOUGH_OVERLAPS) continue;
-            const size_t low = a->particle < b->particle ? a->particle : b->particle, high = a->particle + b->particle - low;
-            char pointer[80];
-            snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/position", high);
-            problem_list_add(problems, pointer,
-                             "overlaps particle %zu by %.3g m; must be at most %.3g m, %g of the smaller diameter", low, overlap,
-                             most, MOST_START_OVERLAP);
-        }
-    }
-    if (found > ENOUGH_OVERLAPS) problem_list_add(problems, "/inputs/start/particles", "have %zu such overlaps in all", found);
+    placed_pair pair[ENOUGH_OVERLAPS + 1];
+    const double period = !drum->ends.are_walls && drum->length > 0.0 ? drum->length : 0.0;
+    const size_t found = start_overlaps_find(spheres, count, period, MOST_START_OVERLAP, pair, ENOUGH_OVERLAPS + 1);
+    for (size_t k = 0; k < found && k < ENOUGH_OVERLAPS; k++) tell_overlap(&pair[k], problems);
+    if (found > ENOUGH_OVERLAPS)
+        problem_list_add(problems, "/inputs/start/particles", "overlap in more than these %d pairs", ENOUGH_OVERLAPS);
 }
 
 void start_check_particles(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
@@ -198,7 +179,7 @@ void start_check_particles(const drum_inputs *inputs, const dem_drum_definition 
         problem_list_add(problems, "/inputs/start/particles", "could not be looked at: out of memory");
         return;
     }
-    for (size_t i = 0; i < count; i++) check_inside(&spheres[i], drum, problems);
+    for (size_t i = 0; i < count && !problem_list_is_full(problems); i++) check_inside(&spheres[i], drum, problems);
     check_overlaps(spheres, count, drum, problems);
     free(spheres);
 }
