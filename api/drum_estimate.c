@@ -47,14 +47,14 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
-    const calibration_load load = { .spheres = spheres + lining_spheres(drum),
-                                    .of_particle = spheres / particles,
-                                    .law = drum->contact.law,
-                                    .friction = drum->contact.friction,
-                                    .rolling_friction = dem_has_rolling_friction(drum),
-                                    .in_double = spec->inputs.precision > 0,
-                                    .threads = drum->threads };
-    estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &load);
+    estimate.load = (calibration_load){ .spheres = spheres + lining_spheres(drum),
+                                        .of_particle = spheres / particles,
+                                        .law = drum->contact.law,
+                                        .friction = drum->contact.friction,
+                                        .rolling_friction = dem_has_rolling_friction(drum),
+                                        .in_double = spec->inputs.precision > 0,
+                                        .threads = drum->threads };
+    estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &estimate.load);
     estimate.memory_bytes =
         dem_memory_estimate(spheres + lining_spheres(drum)) + frame_bytes * spec->duration / spec->sample_interval;
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);

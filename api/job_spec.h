@@ -71,8 +71,8 @@ typedef struct drum_inputs {
     double poissons_ratio;
     double wall_friction, wall_rolling_friction, end_friction, lining_diameter, lining_pitch;
     double lifter_count, lifter_height, lifter_width, lifter_friction; /* NaN: no lifters */
-    double revolutions, seconds, until_standard_error; /* one of the three */
-    double at_most_revolutions;                        /* beside the last */
+    double revolutions, seconds, until_standard_error;                 /* one of the three */
+    double at_most_revolutions;                                        /* beside the last */
     double snapshot_interval, sample_interval;
     double seed, threads, gravity, corrector_passes;
     double precision; /* 0: single, 1: double */
@@ -122,6 +122,7 @@ typedef struct job_spec {
 typedef struct job_estimate {
     double particles, steps, wall_seconds, memory_bytes, snapshots, snapshot_bytes;
     double simulated_seconds, time_step, stiffness; /* settling included; s; N/m */
+    calibration_load load;                          /* what each step has to do; no spheres: the process has no steps */
 } job_estimate;
 
 /* Reads {"process"?, "inputs", "label"?}. process: NULL takes the document's own "process" (default "drum").

@@ -75,14 +75,14 @@ job_estimate standing_estimate(const job_spec *spec, const calibration *machine,
         .snapshots = spec->snapshot_interval > 0.0 ? floor(seconds / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / scene->time_step);
-    const calibration_load load = { .spheres = share_inside * spheres,
-                                    .of_particle = spheres / particles,
-                                    .law = scene->contact.law,
-                                    .friction = scene->contact.friction,
-                                    .rolling_friction = dem_has_rolling_friction(scene),
-                                    .in_double = spec->inputs.precision > 0,
-                                    .threads = scene->threads };
-    estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &load);
+    estimate.load = (calibration_load){ .spheres = share_inside * spheres,
+                                        .of_particle = spheres / particles,
+                                        .law = scene->contact.law,
+                                        .friction = scene->contact.friction,
+                                        .rolling_friction = dem_has_rolling_friction(scene),
+                                        .in_double = spec->inputs.precision > 0,
+                                        .threads = scene->threads };
+    estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &estimate.load);
     estimate.memory_bytes = dem_memory_estimate(spheres) + FRAME_BYTES * spec->duration / spec->sample_interval;
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;

@@ -108,17 +108,16 @@ store_status store_check_queue(job_store *store, int64_t jobs)
 }
 
 static store_status insert_row(job_store *store, const job_spec *spec, const char *id, const char *text, const char *label,
-                               const study_place *place, const calibration *machine)
+                               const study_place *place, const job_estimate *estimate)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
-    const job_estimate estimate = job_spec_estimate(spec, machine);
     return sql_run(
         store->writer, NULL,
         "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
         "study,study_case,study_repeat) VALUES(?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
         "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11))",
-        "ttttiddtiii", id, spec->process, label, text, (int64_t)spec->threads, estimate.wall_seconds, estimate.memory_bytes, now,
+        "ttttiddtiii", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes, now,
         place->study, place->index, place->repeat);
 }
 
@@ -126,8 +125,11 @@ store_status store_insert_job(job_store *store, const job_spec *spec, const char
                               const calibration *machine)
 {
     char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
-    store_status status = label ? insert_row(store, spec, id, text, label, place, machine) : STORE_FAILED;
-    if (status == STORE_OK) status = process_inputs_insert(store->writer, sqlite3_last_insert_rowid(store->writer), spec);
+    const job_estimate estimate = job_spec_estimate(spec, machine);
+    store_status status = label ? insert_row(store, spec, id, text, label, place, &estimate) : STORE_FAILED;
+    const int64_t number = sqlite3_last_insert_rowid(store->writer);
+    if (status == STORE_OK) status = process_inputs_insert(store->writer, number, spec);
+    if (status == STORE_OK) status = store_insert_load(store, number, &estimate, machine);
     free(label);
     return status;
 }

@@ -48,6 +48,8 @@ typedef struct study_place {
 bool store_bring_start(job_store *store, const job_spec *spec, const char *id);
 store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
                               const calibration *machine);
+/* machine_speed.c, between begin and end: what its steps have to do, for when it has run. */
+store_status store_insert_load(job_store *store, int64_t job, const job_estimate *estimate, const calibration *machine);
 /* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */
 store_status store_check_queue(job_store *store, int64_t jobs);
 store_status store_read_text(job_store *store, const char *sql, const char *id, char **text);

@@ -30,22 +30,17 @@ static calibration calibration_of_file(const data_folder *data)
     return machine;
 }
 
-/* What a step took over what was to be expected of it; NaN where the specification is no longer understood. */
-static double ratio_of_run(const char *text, double seconds_a_step, const calibration *machine)
+/* What a step took over what was to be expected of it. */
+static double ratio_of_run(sqlite3_stmt *row, const calibration *machine)
 {
-    problem_list problems;
-    if (!problem_list_init(&problems)) return NAN;
-    json_t *document = json_loads(text, 0, NULL);
-    job_spec spec;
-    double ratio = NAN;
-    if (document && job_spec_parse(NULL, document, 0, &spec, &problems)) {
-        const job_estimate estimate = job_spec_estimate(&spec, machine);
-        ratio = seconds_a_step * estimate.steps / estimate.wall_seconds;
-        job_spec_clear(&spec);
-    }
-    json_decref(document);
-    problem_list_clear(&problems);
-    return ratio;
+    const calibration_load load = { .spheres = sqlite3_column_double(row, 1),
+                                    .of_particle = sqlite3_column_double(row, 2),
+                                    .law = (dem_contact_law)sqlite3_column_int(row, 3),
+                                    .friction = sqlite3_column_double(row, 4),
+                                    .rolling_friction = sqlite3_column_int(row, 5),
+                                    .in_double = sqlite3_column_int(row, 6),
+                                    .threads = sqlite3_column_int(row, 7) };
+    return sqlite3_column_double(row, 0) / (sqlite3_column_double(row, 8) * calibration_seconds_a_step(machine, &load));
 }
 
 static int ascending(const void *a, const void *b)
@@ -55,27 +50,38 @@ static int ascending(const void *a, const void *b)
 }
 
 /* The median of the latest runs, so that one odd run does not decide. Runs from before the calibration may have been
- * another program's. */
+ * another program's. An index holds the runs that are long enough, so that nine rows are read of however many. */
 static double correction_of_runs(sqlite3 *reader, const calibration *machine)
 {
     double ratio[RUNS];
     size_t count = 0;
     sqlite3_stmt *statement =
         sql_prepare(reader,
-                    "SELECT job.spec, r.wall_seconds/r.steps FROM run_result r JOIN job ON job.number=r.job"
-                    " WHERE r.steps>0 AND r.wall_seconds>" LEAST_SECONDS " AND job.finished>?1 ORDER BY r.job DESC LIMIT 9",
+                    "SELECT r.seconds, l.spheres, l.of_particle, l.law, l.friction, l.rolling_friction, l.in_double, l.threads,"
+                    " l.factor FROM (SELECT job, wall_seconds/steps AS seconds FROM run_result"
+                    "  WHERE steps>0 AND wall_seconds>" LEAST_SECONDS " ORDER BY job DESC LIMIT 9) r"
+                    " JOIN job_load l ON l.job=r.job JOIN job ON job.number=r.job WHERE job.finished>?1 AND l.law BETWEEN 0 AND 2",
                     "t", machine->made);
     if (!statement) return 1.0;
     int code;
     while ((code = sqlite3_step(statement)) == SQLITE_ROW && count < RUNS) {
-        const double one =
-            ratio_of_run((const char *)sqlite3_column_text(statement, 0), sqlite3_column_double(statement, 1), machine);
-        if (one > 0.0) ratio[count++] = one;
+        const double one = ratio_of_run(statement, machine);
+        if (one > 0.0 && isfinite(one)) ratio[count++] = one;
     }
     sql_finish(statement, code);
     if (count == 0) return 1.0;
     qsort(ratio, count, sizeof *ratio, ascending);
     return fmin(fmax(ratio[count / 2], LEAST_CORRECTION), MOST_CORRECTION);
+}
+
+store_status store_insert_load(job_store *store, int64_t job, const job_estimate *estimate, const calibration *machine)
+{
+    const calibration_load *load = &estimate->load;
+    const double factor = estimate->wall_seconds / (estimate->steps * calibration_seconds_a_step(machine, load));
+    if (!(load->spheres > 0.0) || !isfinite(factor)) return STORE_OK; /* no steps, nothing to learn from */
+    return sql_run(store->writer, NULL, "INSERT INTO job_load VALUES(?,?,?,?,?,?,?,?,?)", "iddidiiid", job, load->spheres,
+                   load->of_particle, (int64_t)load->law, load->friction, (int64_t)load->rolling_friction, (int64_t)load->in_double,
+                   (int64_t)load->threads, factor);
 }
 
 void store_read_calibration(job_store *store, calibration *machine)
