@@ -1,9 +1,10 @@
 /* Read-only SQL of a user, as JSON or CSV. */
+#include <math.h>
 #include <string.h>
 
 #include "handlers.h"
 
-enum { QUERY_BYTES = 8 << 20, QUERY_ROWS = 10000 };
+enum { QUERY_BYTES = 8 << 20, QUERY_ROWS = 10000, QUERY_CSV_BYTES = 32 << 20 };
 
 typedef struct query_table {
     text_buffer out;
@@ -22,7 +23,9 @@ static void add_value(query_table *table, const query_value *value)
 {
     switch (value->kind) {
     case QUERY_INTEGER: text_buffer_print(&table->out, "%lld", (long long)value->integer); break;
-    case QUERY_REAL: text_buffer_add_number(&table->out, value->real); break;
+    case QUERY_REAL:
+        if (!table->csv || isfinite(value->real)) text_buffer_add_number(&table->out, value->real);
+        break;
     case QUERY_TEXT:
         if (table->csv) text_buffer_add_csv_field(&table->out, value->text, value->length);
         else if (is_utf8(value)) text_buffer_add_json_string(&table->out, value->text, value->length);
@@ -45,9 +48,11 @@ static void add_row(query_table *table, int64_t row, const query_value *values, 
 static bool take_row(void *context, int64_t row, const query_value *values, int count)
 {
     query_table *table = context;
+    if (row == 0) table->out.length = 0;
     const size_t length = table->out.length;
-    if (row <= QUERY_ROWS) add_row(table, row, values, count);
-    table->truncated = row > QUERY_ROWS || table->out.failed;
+    const bool fits = table->csv || row <= QUERY_ROWS;
+    if (fits) add_row(table, row, values, count);
+    table->truncated = !fits || table->out.failed;
     if (row > 0 && table->out.failed && length > 0) { /* the cap: give what is whole */
         table->out.failed = false;
         table->out.length = length;
@@ -78,12 +83,19 @@ void run_query(api_service *service, const http_request *request, http_response 
                                  : "parameter sql is missing; for example /query?sql=select+friction,angle_deg+from+run_summary");
         return;
     }
-    text_buffer_init(&table.out, QUERY_BYTES);
+    text_buffer_init(&table.out, table.csv ? QUERY_CSV_BYTES : QUERY_BYTES);
     char problem[400];
-    const query_status status = store_query(service->store, sql, take_row, &table, problem, sizeof problem);
+    const query_status status = store_query(service->store, sql, &request->client, take_row, &table, problem, sizeof problem);
     if (status != QUERY_OK) {
         text_buffer_clear(&table.out);
         respond_query_failure(response, status, problem);
+        return;
+    }
+    if (table.csv && table.truncated) { /* a table without its end could not be told from a whole one */
+        text_buffer_clear(&table.out);
+        http_respond_problem(response, 400, NULL, "The answer is too long",
+                             "as CSV it has more than %d MB; ask for it in parts, with ORDER BY, LIMIT and OFFSET",
+                             QUERY_CSV_BYTES >> 20);
         return;
     }
     table.out.limit += 64; /* the end always fits */

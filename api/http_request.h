@@ -10,6 +10,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "client_watch.h"
 #include "problem.h"
 
 enum { HTTP_PARAMETERS = 16, HTTP_SEGMENTS = 2, HTTP_SEGMENT_SIZE = 65 };
@@ -29,6 +30,7 @@ typedef struct http_request {
     size_t body_length;
     double waited; /* s that this request has already been kept waiting for a change */
     bool may_wait; /* false: answer at once (the daemon is leaving) */
+    client_watch client;
 } http_request;
 
 typedef struct http_response {

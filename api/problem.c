@@ -69,7 +69,8 @@ void problem_list_add(problem_list *problems, const char *pointer, const char *f
 
 json_t *problem_json(int http_status, const char *type, const char *title, const char *detail, const problem_list *errors)
 {
-    json_t *document = json_pack("{s:s, s:s, s:i, s:o}", "type", type, "title", title, "status", http_status, "detail", text_json(detail));
+    json_t *document =
+        json_pack("{s:s, s:s, s:i, s:o}", "type", type, "title", title, "status", http_status, "detail", text_json(detail));
     if (!document || !errors || !errors->errors) return document;
     if (json_object_set(document, "errors", errors->errors) != 0) {
         json_decref(document);

@@ -8,6 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "client_watch.h"
 #include "study_spec.h"
 
 typedef struct job_store job_store;
@@ -145,9 +146,10 @@ typedef struct query_value {
     const char *text;
     size_t length;
 } query_value;
-/* row 0 holds the column names as texts, the rows follow. False stops, which is no error. */
+/* row 0 holds the column names as texts, the rows follow; another row 0: all of it comes once more, from the beginning.
+ * False stops, which is no error. */
 typedef bool query_visitor(void *context, int64_t row, const query_value *values, int count);
-query_status store_query(job_store *store, const char *sql, query_visitor *visit, void *context, char *problem,
-                         size_t problem_size);
+query_status store_query(job_store *store, const char *sql, const client_watch *client, query_visitor *visit, void *context,
+                         char *problem, size_t problem_size);
 
 #endif

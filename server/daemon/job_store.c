@@ -29,12 +29,11 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
     bool good = store->writer != NULL;
     for (; good && store->readers_free < STORE_READERS; store->readers_free++)
         good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
-    if (good) good = (store->query = database_open_reader(path)) != NULL;
+    if (good) good = (store->query = database_open_reader(path)) != NULL && query_connection_restrict(store);
     if (!good) {
         store_close(store);
         return NULL;
     }
-    query_connection_restrict(store->query);
     return store;
 }
 

@@ -8,6 +8,7 @@
 
 #include "data_folder.h"
 #include "event_tail.h"
+#include "query_functions.h"
 #include "store.h"
 
 enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
@@ -23,6 +24,7 @@ struct job_store {
     sqlite3 *reader[STORE_READERS]; /* the first readers_free are free */
     int readers_free;
     sqlite3 *query; /* for users' SQL alone: it has an authorizer and limits; the slow lane is its only thread */
+    query_watch query_watch;
 };
 
 job_store *store_open(data_folder *data, int64_t queue_limit);
@@ -95,7 +97,7 @@ store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec 
 /* result_tables.c: spreads the results document over the tables; between begin and end. */
 store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document);
 
-/* query.c: the limits and the authorizer of users' SQL. */
-void query_connection_restrict(sqlite3 *database);
+/* query.c: the limits, the authorizer and the functions of users' SQL, on store->query. False: no memory. */
+bool query_connection_restrict(job_store *store);
 
 #endif

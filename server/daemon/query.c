@@ -11,13 +11,15 @@
 #include "database.h"
 #include "job_store.h"
 #include "log.h"
-#include "query_functions.h"
+#include "query_cost.h"
 
+enum { LONGEST_SQL = 20000 };
 #define QUERY_SECONDS 2.0
-#define STEPS_BETWEEN_LOOKS 1000 /* of the virtual machine, some tens of microseconds */
+#define STEPS_BETWEEN_LOOKS 200 /* of the virtual machine, some microseconds where each is short */
 
 static const char tables[] =
-    " job job_count study study_case drum_input fill_input heap_input granule_input result granule_result repose_result regime_result"
+    " job job_count study study_case drum_input fill_input heap_input granule_input result granule_result repose_result "
+    "regime_result"
     " segregation_result packing_result drive_result surface_result fill_result heap_result run_result sample"
     " snapshot run_summary sqlite_master sqlite_schema json_each json_tree ";
 static const char functions[] =
@@ -54,24 +56,36 @@ static int authorize(void *context, int action, const char *first, const char *s
     }
 }
 
-void query_connection_restrict(sqlite3 *database)
+static int is_past(void *watch) { return query_watch_is_over(watch); }
+
+bool query_connection_restrict(job_store *store)
 {
+    sqlite3 *database = store->query;
     static const int limits[][2] = {
-        { SQLITE_LIMIT_LENGTH, 256 << 10 }, { SQLITE_LIMIT_SQL_LENGTH, 20000 },   { SQLITE_LIMIT_COLUMN, 200 },
-        { SQLITE_LIMIT_EXPR_DEPTH, 100 },   { SQLITE_LIMIT_COMPOUND_SELECT, 20 }, { SQLITE_LIMIT_VDBE_OP, 50000 },
-        { SQLITE_LIMIT_FUNCTION_ARG, 100 }, { SQLITE_LIMIT_ATTACHED, 0 },         { SQLITE_LIMIT_VARIABLE_NUMBER, 16 },
-        { SQLITE_LIMIT_TRIGGER_DEPTH, 1 },  { SQLITE_LIMIT_WORKER_THREADS, 0 },
+        { SQLITE_LIMIT_LENGTH, QUERY_LONGEST_TEXT },
+        { SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL + 10 },
+        { SQLITE_LIMIT_COLUMN, 200 },
+        { SQLITE_LIMIT_EXPR_DEPTH, 100 },
+        { SQLITE_LIMIT_COMPOUND_SELECT, 20 },
+        { SQLITE_LIMIT_VDBE_OP, 50000 },
+        { SQLITE_LIMIT_FUNCTION_ARG, 100 },
+        { SQLITE_LIMIT_ATTACHED, 0 },
+        { SQLITE_LIMIT_VARIABLE_NUMBER, 16 },
+        { SQLITE_LIMIT_TRIGGER_DEPTH, 1 },
+        { SQLITE_LIMIT_WORKER_THREADS, 0 },
     };
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) sqlite3_limit(database, limits[i][0], limits[i][1]);
     sqlite3_db_config(database, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
-    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, NULL);
+    /* The schema is our own, and its columns that are computed from others use functions, which this lets them do;
+     * what they and the views call is looked up in the lists above like the rest. */
+    sqlite3_db_config(database, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 1, NULL);
     sqlite3_db_config(database, SQLITE_DBCONFIG_ENABLE_LOAD_EXTENSION, 0, NULL);
     /* Their first use declares them, which the authorizer would refuse. */
     sqlite3_exec(database, "SELECT 1 FROM json_each('[]'), json_tree('[]')", NULL, NULL, NULL);
     sqlite3_set_authorizer(database, authorize, NULL);
+    sqlite3_progress_handler(database, STEPS_BETWEEN_LOOKS, is_past, &store->query_watch);
+    return query_functions_install(database, &store->query_watch);
 }
-
-static int is_past(void *deadline) { return monotonic_seconds() > *(const double *)deadline; }
 
 /* Spaces, semicolons and comments after a statement are none. */
 static bool holds_statement(sqlite3 *database, const char *sql)
@@ -112,7 +126,7 @@ static query_value value_of(sqlite3_stmt *row, int column)
     }
 }
 
-static int walk(sqlite3_stmt *statement, query_visitor *visit, void *context)
+static int walk(sqlite3_stmt *statement, query_watch *watch, query_visitor *visit, void *context)
 {
     query_value values[200];
     const int count = sqlite3_column_count(statement);
@@ -125,28 +139,61 @@ static int walk(sqlite3_stmt *statement, query_visitor *visit, void *context)
     for (int64_t row = 1; more && (code = sqlite3_step(statement)) == SQLITE_ROW; row++) {
         for (int i = 0; i < count; i++) values[i] = value_of(statement, i);
         more = visit(context, row, values, count);
+        if (more && query_watch_is_over(watch)) return SQLITE_INTERRUPT;
     }
     return more ? code : SQLITE_DONE;
 }
 
-query_status store_query(job_store *store, const char *sql, query_visitor *visit, void *context, char *problem, size_t problem_size)
+/* Runs with texts of at most so many bytes; the limit is then as it was. */
+static int walk_within(sqlite3_stmt *statement, int longest, query_watch *watch, query_visitor *visit, void *context)
 {
-    double deadline = monotonic_seconds() + QUERY_SECONDS;
+    sqlite3 *database = sqlite3_db_handle(statement);
+    const int before = sqlite3_limit(database, SQLITE_LIMIT_LENGTH, longest);
+    const int code = walk(statement, watch, visit, context);
+    sqlite3_limit(database, SQLITE_LIMIT_LENGTH, before);
+    return code;
+}
+
+static void write_problem(int code, sqlite3 *database, int longest, char *problem, size_t size)
+{
+    if (code == SQLITE_INTERRUPT) snprintf(problem, size, "it ran for %.0f s, which is the limit", QUERY_SECONDS);
+    else if (code == SQLITE_TOOBIG)
+        snprintf(problem, size,
+                 "it works on a text or row of more than %d bytes; name the columns that are wanted, or fetch a long"
+                 " specification from /jobs/{id}/spec",
+                 longest);
+    else snprintf(problem, size, "%s", sqlite3_errmsg(database));
+}
+
+static query_status status_of(int code)
+{
+    return code == SQLITE_DONE                           ? QUERY_OK
+           : code == SQLITE_INTERRUPT                    ? QUERY_TOO_SLOW
+           : code == SQLITE_IOERR || code == SQLITE_BUSY ? QUERY_UNAVAILABLE
+                                                         : QUERY_REFUSED;
+}
+
+query_status store_query(job_store *store, const char *sql, const client_watch *client, query_visitor *visit, void *context,
+                         char *problem, size_t problem_size)
+{
+    const double now = monotonic_seconds();
+    store->query_watch = (query_watch){ .deadline = now + QUERY_SECONDS, .looked = now, .client = client };
     snprintf(problem, problem_size, "%s", "");
-    if (!query_functions_install(store->query, &deadline)) return QUERY_UNAVAILABLE;
-    sqlite3_progress_handler(store->query, STEPS_BETWEEN_LOOKS, is_past, &deadline);
-    sqlite3_stmt *statement = prepare_one(store->query, sql, problem, problem_size);
-    query_status status = QUERY_REFUSED;
-    if (statement) {
-        const int code = walk(statement, visit, context);
-        status = code == SQLITE_DONE                                             ? QUERY_OK
-                 : (code & 0xff) == SQLITE_INTERRUPT                             ? QUERY_TOO_SLOW
-                 : (code & 0xff) == SQLITE_IOERR || (code & 0xff) == SQLITE_BUSY ? QUERY_UNAVAILABLE
-                                                                                 : QUERY_REFUSED;
-        if (status == QUERY_TOO_SLOW) snprintf(problem, problem_size, "it ran for %.0f s, which is the limit", QUERY_SECONDS);
-        else if (status != QUERY_OK) snprintf(problem, problem_size, "%s", sqlite3_errmsg(store->query));
-        sqlite3_finalize(statement);
+    if (strlen(sql) > LONGEST_SQL) {
+        snprintf(problem, problem_size, "it has %zu bytes; may have %d", strlen(sql), LONGEST_SQL);
+        return QUERY_REFUSED;
     }
-    sqlite3_progress_handler(store->query, 0, NULL, NULL);
-    return status;
+    sqlite3_stmt *statement = prepare_one(store->query, sql, problem, problem_size);
+    int longest = statement ? query_longest_text(store->query, sql) : 0;
+    if (!statement) return QUERY_REFUSED;
+    int code = longest > 0 ? walk_within(statement, longest, &store->query_watch, visit, context) & 0xff : SQLITE_ERROR;
+    const int stored = code == SQLITE_TOOBIG ? query_longest_stored_text(store->query, sql) : 0;
+    if (stored > longest) {
+        longest = stored;
+        sqlite3_reset(statement);
+        code = walk_within(statement, longest, &store->query_watch, visit, context) & 0xff;
+    }
+    if (code != SQLITE_DONE) write_problem(code, store->query, longest, problem, problem_size);
+    sqlite3_finalize(statement);
+    return status_of(code);
 }

@@ -8,15 +8,29 @@
 #include "log.h"
 
 enum { LONGEST_PATTERN = 100 };
+#define SECONDS_BETWEEN_LOOKS 0.05 /* at the client */
+
+bool query_watch_is_over(query_watch *watch)
+{
+    const double now = monotonic_seconds();
+    if (now > watch->deadline) return true;
+    if (now - watch->looked < SECONDS_BETWEEN_LOOKS) return false;
+    watch->looked = now;
+    if (client_has_left(watch->client)) watch->deadline = 0.0;
+    return watch->deadline == 0.0;
+}
+
+bool query_call_is_in_time(sqlite3_context *call)
+{
+    if (!query_watch_is_over(sqlite3_user_data(call))) return true;
+    sqlite3_result_error_code(call, SQLITE_INTERRUPT);
+    return false;
+}
 
 /* Also true where an argument is NULL: so is the answer then. */
 static bool is_over(sqlite3_context *call, int count, sqlite3_value **values)
 {
-    const double *deadline = sqlite3_user_data(call);
-    if (monotonic_seconds() > *deadline) {
-        sqlite3_result_error_code(call, SQLITE_INTERRUPT);
-        return true;
-    }
+    if (!query_call_is_in_time(call)) return true;
     for (int i = 0; i < count; i++)
         if (sqlite3_value_type(values[i]) == SQLITE_NULL) return true;
     return false;
@@ -88,19 +102,38 @@ static void refuse_trim(sqlite3_context *call, int count, sqlite3_value **values
     sqlite3_result_error(call, "trim, ltrim and rtrim take one argument here: they remove spaces", -1);
 }
 
-bool query_functions_install(sqlite3 *database, const double *deadline)
+static const struct {
+    const char *name;
+    int arguments;
+    void (*function)(sqlite3_context *, int, sqlite3_value **);
+} ours[] = {
+    { "like", 2, like },
+    { "like", 3, like },
+    { "glob", 2, glob },
+    { "instr", 2, instr },
+    { "replace", 3, replace },
+    { "printf", -1, query_printf },
+    { "format", -1, query_printf },
+    { "trim", 2, refuse_trim },
+    { "ltrim", 2, refuse_trim },
+    { "rtrim", 2, refuse_trim },
+};
+
+bool query_function_is_ours(const char *name, size_t length)
 {
-    static const struct {
-        const char *name;
-        int arguments;
-        void (*function)(sqlite3_context *, int, sqlite3_value **);
-    } ours[] = { { "like", 2, like },       { "like", 3, like },        { "glob", 2, glob },         { "instr", 2, instr },
-                 { "replace", 3, replace }, { "trim", 2, refuse_trim }, { "ltrim", 2, refuse_trim }, { "rtrim", 2, refuse_trim } };
+    for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++)
+        if (ours[i].function != refuse_trim && strlen(ours[i].name) == length && memcmp(ours[i].name, name, length) == 0)
+            return true;
+    return false;
+}
+
+bool query_functions_install(sqlite3 *database, query_watch *watch)
+{
     bool good = true;
     for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++)
         good = good
-               && sqlite3_create_function(database, ours[i].name, ours[i].arguments, SQLITE_UTF8 | SQLITE_DETERMINISTIC,
-                                          (void *)deadline, ours[i].function, NULL, NULL)
+               && sqlite3_create_function(database, ours[i].name, ours[i].arguments, SQLITE_UTF8 | SQLITE_DETERMINISTIC, watch,
+                                          ours[i].function, NULL, NULL)
                       == SQLITE_OK;
     return good;
 }

@@ -4,8 +4,28 @@
 
 #include <sqlite3.h>
 #include <stdbool.h>
+#include <stddef.h>
 
-/* deadline: monotonic seconds; read at every call, so it must live as long as statements run. False: no memory. */
-bool query_functions_install(sqlite3 *database, const double *deadline);
+#include "client_watch.h"
+
+/* Until when the statement that runs may do so. */
+typedef struct query_watch {
+    double deadline, looked;    /* monotonic s; when the client was last looked at */
+    const client_watch *client; /* lent for one statement */
+} query_watch;
+
+bool query_watch_is_over(query_watch *watch);
+
+/* watch: looked at in every call, so it must live as long as the connection. False: no memory. */
+bool query_functions_install(sqlite3 *database, query_watch *watch);
+
+/* It looks at the clock, and SQLite's own function of this name is not called. */
+bool query_function_is_ours(const char *name, size_t length);
+
+/* Within a call; false: it has been answered with an error. */
+bool query_call_is_in_time(sqlite3_context *call);
+
+/* query_printf.c */
+void query_printf(sqlite3_context *call, int count, sqlite3_value **values);
 
 #endif
