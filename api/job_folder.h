@@ -22,9 +22,11 @@
  *   snapshots/000000.hdf ...   written as .tmp, closed, fsynced, renamed; never changed after
  *   snapshots.hdf.series       opens them in ParaView as one time series
  *   fields.hdf                 a drum's fields over the cross-section, averaged over the run; before result.json
- *   checkpoint.hdf             newest full state
+ *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
  *   result.json                the document of GET /jobs/{id}/results; written last, by rename. A worker that finds
  *                              it, of the same spec, has nothing to do and ends with 0
+ *   result.json.sum            its checksum (checksum.h), written just before it; spec.json has one where a worker wrote it.
+ *                              All .hdf files end in such a line. What does not fit its checksum is not believed
  *   profile.json               what the time went into, where `repose run --profile` was asked for it
  *   log.txt                    the worker's stderr
  */
@@ -39,7 +41,9 @@
 #define JOB_SERIES_FILE "snapshots.hdf.series"
 #define JOB_FIELDS_FILE "fields.hdf"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
+#define JOB_EARLIER_CHECKPOINT_FILE "checkpoint.before.hdf"
 #define JOB_RESULT_FILE "result.json"
+#define JOB_RESULT_SUM_FILE JOB_RESULT_FILE ".sum"
 #define JOB_PROFILE_FILE "profile.json"
 #define JOB_LOG_FILE "log.txt"
 

@@ -3,6 +3,8 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <jansson.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +13,11 @@
 #include <sys/statvfs.h>
 #include <unistd.h>
 
+#include "checksum.h"
 #include "job_folder.h"
 #include "log.h"
+
+enum { LARGEST_RESULT = 16 << 20, LONGEST_LINE = 64 };
 
 static bool ends_in_tmp(const char *name)
 {
@@ -97,13 +102,21 @@ static bool write_durably(int folder, const char *name, const char *text)
     return good && renameat(folder, temporary, folder, name) == 0 && fsync(folder) == 0;
 }
 
+/* The table's copy rules: this one may have been damaged since it was written. */
+static bool has_spec(const data_folder *data, const char *id, const char *spec)
+{
+    char *text = job_file_read(data, id, JOB_SPEC_FILE, strlen(spec));
+    const bool same = text && strcmp(text, spec) == 0;
+    free(text);
+    return same;
+}
+
 bool job_folder_create(const data_folder *data, const char *id, const char *spec)
 {
     if (mkdirat(data->jobs, id, 0700) != 0 && errno != EEXIST) return false;
     const int folder = job_folder_open(data, id);
     if (folder < 0) return false;
-    const bool good =
-        faccessat(folder, JOB_SPEC_FILE, R_OK, 0) == 0 || (write_durably(folder, JOB_SPEC_FILE, spec) && fsync(data->jobs) == 0);
+    const bool good = has_spec(data, id, spec) || (write_durably(folder, JOB_SPEC_FILE, spec) && fsync(data->jobs) == 0);
     const int reason = errno;
     close(folder);
     errno = reason;
@@ -158,6 +171,53 @@ void job_folder_discard(const data_folder *data, const char *id)
     unlinkat(data->jobs, id, AT_REMOVEDIR); /* refuses unless empty */
 }
 
+static void gone_name(const char *id, char name[64]) { snprintf(name, 64, "%s.gone", id); }
+
+void job_folder_put_aside(const data_folder *data, const char *id)
+{
+    char gone[64];
+    gone_name(id, gone);
+    renameat(data->jobs, id, data->jobs, gone); /* where that fails it is removed under its own name */
+}
+
+/* All in it, down to `depth` further folders; never through a symbolic link. */
+static void empty_folder(int folder, int depth, const atomic_bool *stopping)
+{
+    DIR *list = fdopendir(dup(folder));
+    if (!list) return;
+    rewinddir(list);
+    for (const struct dirent *entry; !*stopping && (entry = readdir(list)) != NULL;) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        if (unlinkat(folder, entry->d_name, 0) == 0 || depth == 0) continue;
+        const int inner = openat(folder, entry->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        if (inner < 0) continue;
+        empty_folder(inner, depth - 1, stopping);
+        close(inner);
+        unlinkat(folder, entry->d_name, AT_REMOVEDIR);
+    }
+    closedir(list);
+}
+
+static bool remove_folder(const data_folder *data, const char *name, const atomic_bool *stopping)
+{
+    enum { DEEPEST = 8 };
+    const int folder = openat(data->jobs, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder < 0) return errno == ENOENT || (errno != EMFILE && errno != ENFILE && unlinkat(data->jobs, name, 0) == 0);
+    /* A worker holds this lock to its end, and would go on writing here. */
+    const bool is_free = flock(folder, LOCK_EX | LOCK_NB) == 0;
+    if (is_free) empty_folder(folder, DEEPEST, stopping);
+    close(folder);
+    return is_free && unlinkat(data->jobs, name, AT_REMOVEDIR) == 0;
+}
+
+bool job_folder_remove(const data_folder *data, const char *id, const atomic_bool *stopping)
+{
+    char gone[64];
+    gone_name(id, gone);
+    const bool aside = remove_folder(data, gone, stopping); /* first, so that its name is free */
+    return remove_folder(data, id, stopping) && aside;
+}
+
 int job_folder_open(const data_folder *data, const char *id)
 {
     return openat(data->jobs, id, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -193,10 +253,27 @@ char *job_file_read(const data_folder *data, const char *id, const char *name, s
     return text;
 }
 
+char *job_result_read(const data_folder *data, const char *id)
+{
+    char *text = job_file_read(data, id, JOB_RESULT_FILE, LARGEST_RESULT);
+    char *line = text ? job_file_read(data, id, JOB_RESULT_SUM_FILE, LONGEST_LINE) : NULL;
+    /* A worker of another kind may write none. */
+    const int file = line ? -1 : job_file_open(data, id, NULL, JOB_RESULT_SUM_FILE);
+    const bool fits = line ? checksum_line_fits(line, strlen(line), text, strlen(text)) : file < 0 && errno == ENOENT;
+    json_t *result = text && fits ? json_loads(text, 0, NULL) : NULL;
+    const bool whole = json_is_object(result);
+    json_decref(result);
+    if (file >= 0) close(file);
+    free(line);
+    if (whole) return text;
+    free(text);
+    return NULL;
+}
+
 double data_folder_free_bytes(const data_folder *data)
 {
     struct statvfs disk;
-    return fstatvfs(data->jobs, &disk) == 0 ? (double)disk.f_bavail * (double)disk.f_frsize : 0.0;
+    return fstatvfs(data->jobs, &disk) == 0 ? (double)disk.f_bavail * (double)disk.f_frsize : NAN;
 }
 
 bool data_folder_sync(const data_folder *data) { return syncfs(data->jobs) == 0; }

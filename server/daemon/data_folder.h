@@ -2,6 +2,7 @@
 #ifndef DATA_FOLDER_H
 #define DATA_FOLDER_H
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -16,8 +17,8 @@ typedef struct data_folder {
 bool data_folder_open(data_folder *data, const char *path);
 void data_folder_close(data_folder *data);
 
-/* Makes jobs/<id> with this spec.json, all of it safe on the disk on return; keeps a folder that has it already.
- * False: errno says why. */
+/* Makes jobs/<id> with this spec.json, all of it safe on the disk on return; keeps a folder that has it already, but not a
+ * spec.json that says something else. False: errno says why. */
 bool job_folder_create(const data_folder *data, const char *id, const char *spec);
 /* Gives jobs/<id>, made if need be, another job's file as start.hdf: a second name for it, or a copy where the file system has
  * no such thing. Safe on the disk after job_folder_create or
@@ -26,12 +27,19 @@ bool job_folder_add_start(const data_folder *data, const char *id, const char *f
 /* Takes back what job_folder_create made; leaves anything else. */
 void job_folder_discard(const data_folder *data, const char *id);
 
+/* The folder of a job that is deleted: first it gets another name, by which nobody looks for it, then all in it is removed.
+ * False: something is left, also while a worker that has not gone yet has the folder's lock, or after *stopping. */
+void job_folder_put_aside(const data_folder *data, const char *id);
+bool job_folder_remove(const data_folder *data, const char *id, const atomic_bool *stopping);
+
 int job_folder_open(const data_folder *data, const char *id); /* descriptor, -1 */
 /* A file of the folder, or with `folder` not NULL of that folder in it; never through a symbolic link. */
 int job_file_open(const data_folder *data, const char *id, const char *folder, const char *name);
 /* Whole text of a file up to `limit` bytes, for free(); NULL: not there, or larger. */
 char *job_file_read(const data_folder *data, const char *id, const char *name, size_t limit);
+/* result.json as the worker wrote it, an object, for free(); NULL: not there, or not whole. */
+char *job_result_read(const data_folder *data, const char *id);
 bool data_folder_sync(const data_folder *data); /* all that was written so far is safe on the disk */
-double data_folder_free_bytes(const data_folder *data);
+double data_folder_free_bytes(const data_folder *data); /* NaN: not known */
 
 #endif

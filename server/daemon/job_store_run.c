@@ -14,7 +14,7 @@
 
 #define FENCE " WHERE number=? AND attempt=? AND status='running'"
 
-enum { LARGEST_RESULT = 16 << 20, LONGEST_DELAY = 3600 /* s; no job is put off for longer */ };
+enum { LONGEST_DELAY = 3600 /* s; no job is put off for longer */ };
 
 static double unix_seconds(void)
 {
@@ -253,12 +253,10 @@ static store_status recover_one(job_store *store, job_claim *claim)
 {
     const store_status recorded = record_left_events(store, claim);
     if (recorded != STORE_OK) return recorded;
-    char *document = job_file_read(store->data, claim->id, JOB_RESULT_FILE, LARGEST_RESULT);
-    json_t *parsed = document ? json_loads(document, 0, NULL) : NULL;
-    const store_status status = parsed ? store_record_success(store, claim, document)
-                                       : store_put_back(store, claim, true, 0.0, "the daemon stopped while it ran");
-    log_line("job %s: left running by an earlier daemon; %s", claim->id, parsed ? "its result is there" : "put back");
-    json_decref(parsed);
+    char *document = job_result_read(store->data, claim->id);
+    const store_status status = document ? store_record_success(store, claim, document)
+                                         : store_put_back(store, claim, true, 0.0, "the daemon stopped while it ran");
+    log_line("job %s: left running by an earlier daemon; %s", claim->id, document ? "its result is there" : "put back");
     free(document);
     return status;
 }

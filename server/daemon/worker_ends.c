@@ -16,7 +16,7 @@
 #include "job_folder.h"
 #include "log.h"
 
-enum { LARGEST_RESULT = 16 << 20, LOG_TAIL = 600 };
+enum { LOG_TAIL = 600 };
 #define PAUSE_AFTER_FULL_DISK 30.0 /* s */
 
 /* The last line the worker wrote to its log, for messages. */
@@ -53,25 +53,6 @@ static store_status fail(job_dispatcher *dispatcher, worker_slot *slot, const ch
     return status;
 }
 
-static store_status succeed(job_dispatcher *dispatcher, worker_slot *slot)
-{
-    char *document = job_file_read(dispatcher->store->data, slot->claim.id, JOB_RESULT_FILE, LARGEST_RESULT);
-    json_t *results = document ? json_loads(document, 0, NULL) : NULL;
-    store_status status;
-    if (json_is_object(results)) {
-        status = store_record_success(dispatcher->store, &slot->claim, document);
-        if (status == STORE_OK) {
-            dispatcher->ended[JOB_SUCCESSFUL]++;
-            log_line("job %s: done", slot->claim.id);
-        }
-    } else {
-        status = fail(dispatcher, slot, "the worker ended well but left no readable result.json");
-    }
-    json_decref(results);
-    free(document);
-    return status;
-}
-
 static store_status put_back(job_dispatcher *dispatcher, worker_slot *slot, bool uses_attempt, double delay, const char *why)
 {
     const store_status status = store_put_back(dispatcher->store, &slot->claim, uses_attempt, delay, why);
@@ -81,6 +62,28 @@ static store_status put_back(job_dispatcher *dispatcher, worker_slot *slot, bool
         else dispatcher->put_back++;
         log_line("job %s: %s; %s", slot->claim.id, why, was_last ? "no attempt is left" : "put back into the queue");
     }
+    return status;
+}
+
+/* Where its bytes are not those that the worker wrote, the next attempt makes it anew. */
+static store_status succeed(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    char *document = job_result_read(dispatcher->store->data, slot->claim.id);
+    const int file = document ? -1 : job_file_open(dispatcher->store->data, slot->claim.id, NULL, JOB_RESULT_SUM_FILE);
+    store_status status;
+    if (document) {
+        status = store_record_success(dispatcher->store, &slot->claim, document);
+        if (status == STORE_OK) {
+            dispatcher->ended[JOB_SUCCESSFUL]++;
+            log_line("job %s: done", slot->claim.id);
+        }
+    } else if (file >= 0) {
+        status = put_back(dispatcher, slot, true, 0.0, "its result.json does not fit its checksum");
+    } else {
+        status = fail(dispatcher, slot, "the worker ended well but left no readable result.json");
+    }
+    if (file >= 0) close(file);
+    free(document);
     return status;
 }
 

@@ -47,6 +47,7 @@ bool checkpoint_write(const checkpoint *saved, const char *params)
 {
     hdf_file file;
     hdf_create(&file, JOB_CHECKPOINT_FILE);
+    file.before = JOB_EARLIER_CHECKPOINT_FILE;
     hdf_add_group(&file, "/run");
     add_number(&file, "/run", "format", FORMAT);
     hdf_add_text_attribute(&file, "/run", "params_json", params, H5T_CSET_UTF8);
@@ -75,7 +76,7 @@ static bool read_state_array(hid_t file, size_t place, dem_state_array *array)
     array->name = hdf_read_text_attribute(file, path, "name");
     const size_t count = array->rows * array->columns;
     array->data = calloc(count ? count : 1, element_size(array->element));
-    return array->name && array->data && (count == 0 || hdf_read_array(file, path, memory_type(array->element), array->data));
+    return array->name && array->data && hdf_read_exactly(file, path, memory_type(array->element), count, array->data);
 }
 
 bool checkpoint_read_state(hid_t file, dem_state *state)
@@ -97,34 +98,56 @@ static bool read_frames(hid_t file, checkpoint *saved)
     if (saved->next_sample < 0 || rows != (size_t)saved->next_sample) return false;
     const size_t count = rows * saved->frame_width;
     saved->frames = calloc(count ? count : 1, sizeof *saved->frames);
-    return saved->frames && (count == 0 || hdf_read_array(file, "/frames", H5T_NATIVE_DOUBLE, saved->frames));
+    return saved->frames && hdf_read_exactly(file, "/frames", H5T_NATIVE_DOUBLE, count, saved->frames);
 }
 
-static bool read_run(hid_t file, checkpoint *saved, const char *params)
+static bool is_of(hid_t file, const char *params)
 {
     int64_t format;
     if (!hdf_read_integer_attribute(file, "/run", "format", &format) || format != FORMAT) return false;
     char *written = hdf_read_text_attribute(file, "/run", "params_json");
     const bool same = written && strcmp(written, params) == 0;
     free(written);
-    return same && hdf_read_integer_attribute(file, "/run", "next_sample", &saved->next_sample)
+    return same;
+}
+
+static bool read_run(hid_t file, checkpoint *saved)
+{
+    return hdf_read_integer_attribute(file, "/run", "next_sample", &saved->next_sample)
            && hdf_read_integer_attribute(file, "/run", "next_snapshot", &saved->next_snapshot)
            && hdf_read_real_attribute(file, "/run", "wall_seconds", &saved->wall_seconds)
            && hdf_read_real_attribute(file, "/run", "time_step", &saved->time_step)
            && hdf_read_real_attribute(file, "/run", "stiffness", &saved->stiffness);
 }
 
-bool checkpoint_read(checkpoint *saved, const char *params)
+file_state checkpoint_read(checkpoint *saved, const char *name, const char *params)
 {
+    file_state state;
     memset(saved, 0, sizeof *saved);
-    const hid_t file = H5Fopen(JOB_CHECKPOINT_FILE, H5F_ACC_RDONLY, H5P_DEFAULT);
-    const bool read =
-        file >= 0 && read_run(file, saved, params) && read_frames(file, saved) && checkpoint_read_state(file, &saved->state);
-    if (file >= 0) H5Fclose(file);
-    if (read) return true;
-    worker_warn("%s can't be read or is of another run: starting anew", JOB_CHECKPOINT_FILE);
-    checkpoint_clear(saved);
-    return false;
+    const hid_t file = hdf_open_sealed(name, &state);
+    if (file >= 0) {
+        const bool read =
+            is_of(file, params) && read_run(file, saved) && read_frames(file, saved) && checkpoint_read_state(file, &saved->state);
+        if (!read) state = FILE_DAMAGED;
+        H5Fclose(file);
+    }
+    if (state == FILE_DAMAGED) worker_warn("%s is damaged or of another run, and is not used", name);
+    if (state != FILE_WHOLE) checkpoint_clear(saved);
+    return state;
+}
+
+bool checkpoint_is_of(const char *params)
+{
+    static const char *const names[] = { JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE };
+    bool same = false;
+    for (size_t k = 0; k < 2 && !same; k++) {
+        file_state state;
+        const hid_t file = hdf_open_sealed(names[k], &state);
+        if (file < 0) continue;
+        same = is_of(file, params);
+        H5Fclose(file);
+    }
+    return same;
 }
 
 void checkpoint_clear_state(dem_state *state)

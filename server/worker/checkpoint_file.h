@@ -1,4 +1,4 @@
-/* checkpoint.hdf: everything a run needs to go on bit for bit after its worker has died. */
+/* checkpoint.hdf, and the one before it: everything a run needs to go on bit for bit after its worker has died. */
 #ifndef CHECKPOINT_FILE_H
 #define CHECKPOINT_FILE_H
 
@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "dem.h"
+#include "file_seal.h"
 
 typedef struct checkpoint {
     int64_t next_sample, next_snapshot; /* numbers of those not yet taken */
@@ -17,13 +18,16 @@ typedef struct checkpoint {
     dem_state state;
 } checkpoint;
 
-/* params: the canonical spec. The file of before stays whole until the new one is safe. */
+/* params: the canonical spec. The file of before is kept as JOB_EARLIER_CHECKPOINT_FILE. */
 bool checkpoint_write(const checkpoint *saved, const char *params);
 
-/* False when it can't be read or is of another spec (logged). The checkpoint then owns its
- * frames and the state's arrays. */
-bool checkpoint_read(checkpoint *saved, const char *params);
+/* name: one of the two. FILE_DAMAGED: also where it is of another spec (logged). Where it is FILE_WHOLE the checkpoint then
+ * owns its frames and the state's arrays. */
+file_state checkpoint_read(checkpoint *saved, const char *name, const char *params);
 void checkpoint_clear(checkpoint *saved);
+
+/* Whether there is a checkpoint of this spec. */
+bool checkpoint_is_of(const char *params);
 
 /* The scene's state alone, of any run's checkpoint that is open. False: not whole; to be cleared either way. */
 bool checkpoint_read_state(hid_t file, dem_state *state);

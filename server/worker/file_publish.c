@@ -31,12 +31,25 @@ static bool sync_path(const char *path, int flags)
     return close(fd) == 0 && synced;
 }
 
-bool file_publish(const char *name)
+/* A second name first, so that there is always a file NAME; where the file system has none, the one name. */
+static bool keep(const char *name, const char *before)
+{
+    char second[PATH_MAX];
+    snprintf(second, sizeof second, "%s.tmp", before);
+    unlink(second);
+    if (link(name, second) == 0) return rename(second, before) == 0;
+    return errno == ENOENT || rename(name, before) == 0;
+}
+
+bool file_publish(const char *name) { return file_publish_keeping(name, NULL); }
+
+bool file_publish_keeping(const char *name, const char *before)
 {
     char temporary[PATH_MAX], folder[PATH_MAX];
     snprintf(temporary, sizeof temporary, "%s.tmp", name);
     snprintf(folder, sizeof folder, "%s", name);
-    if (sync_path(temporary, O_RDWR) && rename(temporary, name) == 0 && sync_path(dirname(folder), O_RDONLY | O_DIRECTORY))
+    if (sync_path(temporary, O_RDWR) && (!before || keep(name, before)) && rename(temporary, name) == 0
+        && sync_path(dirname(folder), O_RDONLY | O_DIRECTORY))
         return true;
     file_log_write_failure(name, strerror(errno));
     unlink(temporary);

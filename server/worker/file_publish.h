@@ -10,6 +10,8 @@
 
 /* NAME.tmp, already written and closed, becomes NAME. */
 bool file_publish(const char *name);
+/* The same, and a file that was NAME before becomes BEFORE; NULL: it is gone. There is one of the two at any moment. */
+bool file_publish_keeping(const char *name, const char *before);
 bool file_write(const char *name, const char *text, size_t length);
 
 /* The whole file, with a \0 after it; to be freed. NULL: not there or not readable (logged unless not there). */

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "file_publish.h"
+#include "file_seal.h"
 #include "worker_log.h"
 
 enum { ROWS_OF_A_CHUNK = 16384, GZIP_LEVEL = 4 };
@@ -159,10 +160,10 @@ bool hdf_publish(hdf_file *file)
     /* On a full disk this is where the failure shows: the file's content is written now. */
     if (file->file >= 0 && H5Fclose(file->file) < 0) file->failed = true;
     file->file = H5I_INVALID_HID;
-    if (!file->failed) return file_publish(file->name);
     char temporary[PATH_MAX];
     snprintf(temporary, sizeof temporary, "%s.tmp", file->name);
+    if (!file->failed && file_seal(temporary)) return file_publish_keeping(file->name, file->before);
     unlink(temporary);
-    file_log_write_failure(file->name, "HDF5 reports the errors above");
+    if (file->failed) file_log_write_failure(file->name, "HDF5 reports the errors above");
     return false;
 }

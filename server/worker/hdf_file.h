@@ -12,7 +12,8 @@ void hdf_init(void);
 typedef struct hdf_file {
     hid_t file;
     bool failed;
-    const char *name; /* final name; written as name.tmp */
+    const char *name;   /* final name; written as name.tmp */
+    const char *before; /* name that the file of before keeps; NULL: it is replaced */
 } hdf_file;
 
 typedef enum hdf_packing { HDF_PLAIN, HDF_COMPRESSED } hdf_packing;
@@ -37,7 +38,7 @@ void hdf_add_integers_attribute(hdf_file *file, const char *path, const char *na
 void hdf_add_reals_attribute(hdf_file *file, const char *path, const char *name, const double *numbers, size_t count);
 void hdf_add_real_attribute(hdf_file *file, const char *path, const char *name, double number);
 
-/* Closes, syncs and renames to the final name; false if anything failed since hdf_create. */
+/* Closes, seals (file_seal.h), syncs and renames to the final name; false if anything failed since hdf_create. */
 bool hdf_publish(hdf_file *file);
 
 #endif

@@ -9,8 +9,8 @@
 
 #include "drum_run.h"
 #include "failure_report.h"
+#include "file_seal.h"
 #include "fill_run.h"
-#include "file_publish.h"
 #include "granule_run.h"
 #include "heap_run.h"
 #include "json_text.h"
@@ -18,6 +18,8 @@
 #include "run_summary.h"
 #include "start_file.h"
 #include "worker_log.h"
+
+enum { LONGEST_RESULT = 16 << 20 };
 
 typedef struct job_runner {
     const char *process;
@@ -87,24 +89,43 @@ enum worker_exit job_run_write_result(event_log *events, json_t *document)
     json_decref(document);
     if (!text) return failure_report(events, DEM_NO_MEMORY, NULL);
     /* The events must be safe before the file that says all is done. */
-    const bool written = event_log_sync(events) && file_write(JOB_RESULT_FILE, text, strlen(text));
+    const bool written = event_log_sync(events) && file_write_sealed(JOB_RESULT_FILE, text, strlen(text));
     free(text);
     return written ? WORKER_DONE : failure_report_disk(events, JOB_RESULT_FILE);
 }
 
+/* FILE_WHOLE: an object that is as it was written. */
+static file_state look_at_result(void)
+{
+    size_t length;
+    file_state state;
+    char *text = file_read_sealed(JOB_RESULT_FILE, LONGEST_RESULT, &length, &state);
+    json_t *result = text ? json_loadb(text, length, 0, NULL) : NULL;
+    if (state == FILE_WHOLE && !json_is_object(result)) state = FILE_DAMAGED;
+    json_decref(result);
+    free(text);
+    return state;
+}
+
 static enum worker_exit run_in_folder(const job_runner *runner, const job_context *job, const char *text)
 {
-    const bool complete = access(JOB_RESULT_FILE, F_OK) == 0;
-    if (complete && !run_folder_is_of(text)) {
+    const file_state result = look_at_result();
+    const folder_owner owner = run_folder_owner(text, job->params);
+    if (result == FILE_UNREADABLE || owner == FOLDER_UNREADABLE) return WORKER_DISK;
+    if (result != FILE_ABSENT && owner == FOLDER_OF_ANOTHER) {
         worker_warn("the folder holds the results of another spec, which are kept: name another folder or remove this one");
         return WORKER_BAD_SPEC;
     }
-    if (!run_folder_claim(text, job->events)) return WORKER_DISK;
-    if (!complete && job->options->start && !start_file_bring(job->options->start)) return WORKER_DISK;
-    if (complete) {
+    if (!run_folder_claim(owner, text, job->events)) return WORKER_DISK;
+    if (result == FILE_WHOLE) {
         worker_log("%s is there already: this run is complete", JOB_RESULT_FILE);
         return WORKER_DONE;
     }
+    if (result == FILE_DAMAGED) {
+        worker_warn("%s is damaged and is made anew", JOB_RESULT_FILE);
+        unlink(JOB_RESULT_FILE);
+    }
+    if (job->options->start && !start_file_bring(job->options->start)) return WORKER_DISK;
     return runner->run(job);
 }
 

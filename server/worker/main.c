@@ -11,6 +11,7 @@
 
 #include "calibrate.h"
 #include "file_publish.h"
+#include "file_seal.h"
 #include "hdf_file.h"
 #include "job_run.h"
 #include "json_text.h"
@@ -26,21 +27,21 @@
 enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
 
 #define HELP_RUN                                                                                                                   \
-    "repose run SPEC --out DIR     run the test that the file SPEC describes (\"-\": stdin)\n"                                      \
-    "    --threads N               instead of those of the spec; results do not depend on it\n"                                     \
-    "    --attempt N               of a job that was begun before (default 1)\n"                                                    \
-    "    --checkpoint-seconds S    between checkpoints (default 30); the first comes after 3 s\n"                                   \
-    "    --json                    print the results as JSON\n"                                                                     \
-    "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"                 \
-    "    --isa avx512|avx2|plain   the instruction set to use (default: the best that the processor has); results do not\n"         \
+    "repose run SPEC --out DIR     run the test that the file SPEC describes (\"-\": stdin)\n"                                     \
+    "    --threads N               instead of those of the spec; results do not depend on it\n"                                    \
+    "    --attempt N               of a job that was begun before (default 1)\n"                                                   \
+    "    --checkpoint-seconds S    between checkpoints (default 30); the first comes after a tenth of it\n"                        \
+    "    --json                    print the results as JSON\n"                                                                    \
+    "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"                \
+    "    --isa avx512|avx2|plain   the instruction set to use (default: the best that the processor has); results do not\n"        \
     "                              depend on it. Also of check and calibrate\n"
 #define HELP_CHECK                                                                                                                 \
-    "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"               \
-    "                              memory; or every problem it has. Of a study: its cases and what it costs\n"                      \
-    "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"             \
+    "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"              \
+    "                              memory; or every problem it has. Of a study: its cases and what it costs\n"                     \
+    "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"            \
     "                              else in the user's cache alone)\n"
 #define HELP_CALIBRATE                                                                                                             \
-    "repose calibrate              measure this machine's speed where that was not yet done; --data DIR as with check;\n"           \
+    "repose calibrate              measure this machine's speed where that was not yet done; --data DIR as with check;\n"          \
     "                              --json prints the whole of it\n"
 #define HELP_EXIT                                                                                                                  \
     "\n"                                                                                                                           \
@@ -146,7 +147,11 @@ static uint64_t seed_if_missing(const char *folder)
 {
     char path[PATH_MAX];
     snprintf(path, sizeof path, "%s/" JOB_SPEC_FILE, folder ? folder : "");
-    json_t *earlier = folder ? json_load_file(path, 0, NULL) : NULL;
+    size_t length;
+    file_state state;
+    char *text = folder ? file_read_sealed(path, SPEC_FILE_LONGEST, &length, &state) : NULL;
+    json_t *earlier = text ? json_loadb(text, length, 0, NULL) : NULL;
+    free(text);
     const json_t *seed = json_object_get(json_object_get(earlier, "inputs"), "seed");
     const uint64_t chosen = json_is_integer(seed) ? (uint64_t)json_integer_value(seed) : random_seed();
     json_decref(earlier);

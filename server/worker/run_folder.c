@@ -8,8 +8,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "checkpoint_file.h"
 #include "file_publish.h"
+#include "file_seal.h"
 #include "job_folder.h"
+#include "json_text.h"
 #include "spec_file.h"
 #include "worker_log.h"
 
@@ -51,29 +54,50 @@ static void remove_snapshots(void)
     closedir(entries);
 }
 
-bool run_folder_is_of(const char *params)
+/* The spec.json of the folder, canonical; to be freed. NULL: *state tells why. */
+static char *spec_of_folder(file_state *state)
 {
+    size_t length;
     job_spec spec;
     problem_list problems;
-    if (access(JOB_SPEC_FILE, F_OK) != 0 || !problem_list_init(&problems)) return false;
-    bool same = false;
-    if (spec_file_load(JOB_SPEC_FILE, NULL, 0, &spec, &problems)) {
-        char *text = job_spec_to_text(&spec);
-        same = text && strcmp(text, params) == 0;
-        free(text);
+    char *text = NULL, *written = file_read_sealed(JOB_SPEC_FILE, SPEC_FILE_LONGEST, &length, state);
+    if (!written || !problem_list_init(&problems)) {
+        free(written);
+        return NULL;
+    }
+    json_t *document = json_text_load(written, length, &problems);
+    if (document && job_spec_parse(NULL, document, 0, &spec, &problems)) {
+        text = job_spec_to_text(&spec);
         job_spec_clear(&spec);
     }
+    if (!text) *state = FILE_DAMAGED;
+    json_decref(document);
     problem_list_clear(&problems);
-    return same;
+    free(written);
+    return text;
 }
 
-bool run_folder_claim(const char *params, event_log *events)
+folder_owner run_folder_owner(const char *params, const char *brief)
 {
-    if (run_folder_is_of(params)) return true;
-    unlink(JOB_RESULT_FILE);
-    unlink(JOB_CHECKPOINT_FILE);
-    unlink(JOB_START_FILE);
-    unlink(JOB_SERIES_FILE);
-    remove_snapshots();
-    return event_log_empty(events) && file_write(JOB_SPEC_FILE, params, strlen(params));
+    file_state state;
+    char *text = spec_of_folder(&state);
+    const bool same = text && strcmp(text, params) == 0;
+    free(text);
+    if (same) return FOLDER_OURS;
+    if (state == FILE_UNREADABLE) return FOLDER_UNREADABLE;
+    return state == FILE_DAMAGED && checkpoint_is_of(brief) ? FOLDER_OURS_BY_CHECKPOINT : FOLDER_OF_ANOTHER;
+}
+
+bool run_folder_claim(folder_owner owner, const char *params, event_log *events)
+{
+    static const char *const leftovers[] = { JOB_RESULT_FILE, JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE, JOB_START_FILE,
+                                             JOB_SERIES_FILE };
+    if (owner == FOLDER_OURS) return true;
+    if (owner == FOLDER_UNREADABLE) return false;
+    if (owner == FOLDER_OF_ANOTHER) {
+        for (size_t k = 0; k < sizeof leftovers / sizeof leftovers[0]; k++) unlink(leftovers[k]);
+        remove_snapshots();
+        if (!event_log_empty(events)) return false;
+    }
+    return file_write_sealed(JOB_SPEC_FILE, params, strlen(params));
 }

@@ -10,11 +10,19 @@
  * Leftovers of a worker that died while writing are removed. */
 bool run_folder_enter(const char *folder, event_log *events);
 
-/* In the folder: its spec.json says the same as params, a canonical spec. */
-bool run_folder_is_of(const char *params);
+/* Whose results and checkpoints the folder holds, in which the worker is. */
+typedef enum folder_owner {
+    FOLDER_OURS,
+    FOLDER_OURS_BY_CHECKPOINT, /* spec.json is damaged, but there is a checkpoint of this run */
+    FOLDER_OF_ANOTHER,         /* or of nobody */
+    FOLDER_UNREADABLE          /* now; logged */
+} folder_owner;
 
-/* Makes the folder that of the run `params` (canonical spec). What another run has left there is removed: it could
- * not be told from this run's. */
-bool run_folder_claim(const char *params, event_log *events);
+/* params: the canonical spec. brief: what a checkpoint carries of it. */
+folder_owner run_folder_owner(const char *params, const char *brief);
+
+/* Makes the folder, of this owner, that of the run `params`. What another run has left there is removed: it could not be
+ * told from this run's. */
+bool run_folder_claim(folder_owner owner, const char *params, event_log *events);
 
 #endif

@@ -1,5 +1,5 @@
 /* The life of an attempt at a scene:
- *     continue from the checkpoint of the job folder if there is one of this spec
+ *     continue from the checkpoint of the job folder if there is one of this spec, or from the one before it
  *     until the end: take the frames and snapshots that are due, save a checkpoint now and then, advance
  *     measure the results from the table of frames; result.json is the last thing written
  * Frames and snapshots are due at steps counted from the start of the test (schedule.h), so that an attempt which
@@ -8,6 +8,7 @@
 
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -22,6 +23,7 @@
 #include "worker_log.h"
 
 #define SERIES_SECONDS 2.0       /* between rewrites of a long series */
+#define FIRST_CHECKPOINT 0.1     /* of the time between checkpoints, so that little is lost of a run that is short */
 #define SERIES_ALWAYS_BELOW 1000 /* snapshots: a short series is rewritten after each */
 
 /* Takes over `members`, which follow the event's name, step and time. */
@@ -179,7 +181,7 @@ static enum worker_exit save_checkpoint(scene_run *r)
     /* First the events: a checkpoint must not count samples that the log could still lose. */
     const bool written = event_log_sync(r->events) && checkpoint_write(&saved, r->params);
     dem_state_clear(&saved.state);
-    r->last_checkpoint = monotonic_seconds();
+    r->next_checkpoint = monotonic_seconds() + r->options->checkpoint_seconds;
     if (!written) return fail_for_disk(r, JOB_CHECKPOINT_FILE);
     return add_event(r, "checkpoint", json_pack("{s:i}", "attempt", r->options->attempt)) ? WORKER_DONE : WORKER_DISK;
 }
@@ -213,7 +215,7 @@ static enum worker_exit run_to_the_end(scene_run *r)
             return exit == WORKER_DONE ? WORKER_STOPPED : exit;
         }
         run_profile_lap_begin(&r->profile);
-        if (monotonic_seconds() - r->last_checkpoint >= r->options->checkpoint_seconds) exit = save_checkpoint(r);
+        if (monotonic_seconds() >= r->next_checkpoint) exit = save_checkpoint(r);
         run_profile_lap(&r->profile, RUN_CHECKPOINTS);
         if (exit != WORKER_DONE) return exit;
         const dem_status status = advance(r);
@@ -279,12 +281,13 @@ static bool write_profile(const scene_run *r)
     return written;
 }
 
-/* Takes up where the checkpoint of an earlier attempt left off; false: there is none that can be used, and the scene
- * may be half restored. */
-static bool resume(scene_run *r, double *earlier_seconds)
+/* Takes up where the checkpoint `name` of an earlier attempt left off. Where it is not FILE_WHOLE the scene may be half
+ * restored. */
+static file_state resume(scene_run *r, const char *name, double *earlier_seconds)
 {
     checkpoint saved;
-    if (!checkpoint_read(&saved, r->params)) return false;
+    const file_state state = checkpoint_read(&saved, name, r->params);
+    if (state != FILE_WHOLE) return state;
     /* Another version of the program may derive other numbers from the same inputs. */
     const bool fits = saved.time_step == r->spec->drum.time_step && saved.stiffness == r->spec->drum.contact.stiffness
                       && saved.frame_width == r->frame_width && saved.next_sample <= r->plan.samples && saved.next_snapshot >= 0
@@ -296,10 +299,10 @@ static bool resume(scene_run *r, double *earlier_seconds)
         r->next_snapshot = saved.next_snapshot;
         *earlier_seconds = saved.wall_seconds;
     } else {
-        worker_warn("the checkpoint can't be used (%s): starting anew", dem_status_text(status));
+        worker_warn("%s can't be used (%s)", name, dem_status_text(status));
     }
     checkpoint_clear(&saved);
-    return status == DEM_OK;
+    return status == DEM_OK ? FILE_WHOLE : FILE_DAMAGED;
 }
 
 /* A new scene, in place of the one there may be. */
@@ -331,17 +334,34 @@ static enum worker_exit end_again(scene_run *r)
     return exit;
 }
 
+/* The scene from the newest checkpoint that is sound, which is the newest from now on, or a new one. */
+static enum worker_exit prepare(scene_run *r, bool *resumed, double *earlier_seconds)
+{
+    static const char *const names[] = { JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE };
+    dem_status status = DEM_OK;
+    *resumed = false;
+    for (size_t k = 0; k < 2 && !*resumed; k++) {
+        if (access(names[k], F_OK) != 0) continue;
+        status = prepare_scene(r, false);
+        if (status != DEM_OK) return fail(r, status);
+        const file_state state = resume(r, names[k], earlier_seconds);
+        if (state == FILE_UNREADABLE) return fail_for_disk(r, names[k]);
+        *resumed = state == FILE_WHOLE;
+        if (*resumed && k > 0) rename(names[k], names[0]);
+        if (!*resumed) worker_warn("starting anew%s", k == 0 ? " from the checkpoint before, if there is one" : "");
+    }
+    if (!*resumed) status = prepare_scene(r, true);
+    return status == DEM_OK ? WORKER_DONE : fail(r, status);
+}
+
 static enum worker_exit begin(scene_run *r)
 {
     double earlier_seconds = 0.0;
-    const bool has_checkpoint = access(JOB_CHECKPOINT_FILE, F_OK) == 0;
-    dem_status status = prepare_scene(r, !has_checkpoint);
-    if (status != DEM_OK) return fail(r, status);
-    const bool resumed = has_checkpoint && resume(r, &earlier_seconds);
-    if (has_checkpoint && !resumed) status = prepare_scene(r, true);
-    if (status != DEM_OK) return fail(r, status);
+    bool resumed;
+    const enum worker_exit prepared = prepare(r, &resumed, &earlier_seconds);
+    if (prepared != WORKER_DONE) return prepared;
     progress_init(&r->progress, r->spec, &r->plan, r->scene, earlier_seconds);
-    r->last_checkpoint = monotonic_seconds();
+    r->next_checkpoint = monotonic_seconds() + FIRST_CHECKPOINT * r->options->checkpoint_seconds;
     r->phase = dem_scene_phase(r->scene);
     run_profile_begin(&r->profile, r->scene);
     const job_estimate estimate = job_spec_estimate(r->spec, NULL);
@@ -371,6 +391,7 @@ enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
         exit = save_checkpoint(&r); /* another run may start from here */
     if (exit == WORKER_DONE && !write_profile(&r)) exit = fail_for_disk(&r, JOB_PROFILE_FILE);
     if (exit == WORKER_DONE) exit = write_result(&r);
+    if (exit == WORKER_DONE) unlink(JOB_EARLIER_CHECKPOINT_FILE); /* whatever happens to the newest now, the result is there */
     if (exit == WORKER_DONE) worker_log("done in %.1f s", progress_wall_seconds(&r.progress));
     dem_scene_free(r.scene);
     free(r.frames);

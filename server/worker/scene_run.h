@@ -42,7 +42,7 @@ struct scene_run {
     size_t tally_size;
     int64_t next_sample, next_snapshot;
     const char *ended_by;                /* NULL: not yet, or by its time */
-    double last_checkpoint, last_series; /* s, monotonic */
+    double next_checkpoint, last_series; /* s, monotonic */
     dem_phase phase;                     /* the last one logged */
     progress progress;
     run_profile profile;

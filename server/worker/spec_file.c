@@ -7,13 +7,11 @@
 #include "file_publish.h"
 #include "json_text.h"
 
-enum { LONGEST_SPEC = 20000000 }; /* a bed of ten thousand particles, each in full, is some 6 MB */
-
 json_t *spec_file_read(const char *name, problem_list *problems)
 {
     size_t length;
     errno = 0;
-    char *text = file_read(name, LONGEST_SPEC, &length);
+    char *text = file_read(name, SPEC_FILE_LONGEST, &length);
     if (!text) {
         problem_list_add(problems, "", "can't read %.200s: %s", name, errno ? strerror(errno) : "it is longer than 20 MB");
         return NULL;

@@ -4,6 +4,8 @@
 
 #include "job_spec.h"
 
+enum { SPEC_FILE_LONGEST = 20000000 }; /* a bed of ten thousand particles, each in full, is some 6 MB */
+
 /* The JSON of a file of at most 20 MB. New reference; NULL: problems say why. */
 json_t *spec_file_read(const char *name, problem_list *problems);
 

@@ -20,13 +20,12 @@
 
 /* --- a file named in a spec --- */
 
-static bool is_there(hid_t file, const char *path) { return H5Lexists(file, path, H5P_DEFAULT) > 0; }
-
 static json_t *spec_of_file(const char *name)
 {
-    const hid_t file = H5Fopen(name, H5F_ACC_RDONLY, H5P_DEFAULT);
+    file_state state;
+    const hid_t file = hdf_open_sealed(name, &state);
     if (file < 0) return NULL;
-    const bool ours = is_there(file, "run") && (is_there(file, "state") || is_there(file, "VTKHDF"));
+    const bool ours = hdf_is_there(file, "run") && (hdf_is_there(file, "state") || hdf_is_there(file, "VTKHDF"));
     char *text = ours ? hdf_read_text_attribute(file, "/run", "params_json") : NULL;
     json_t *document = text ? json_loads(text, JSON_REJECT_DUPLICATES, NULL) : NULL;
     free(text);
@@ -42,8 +41,9 @@ static json_t *find_file(void *context, const start_inputs *start, double *parti
     problem_list none;
     job_spec made_by;
     if (!origin) {
+        static const char strange[] = "is no snapshot or checkpoint of a run, is damaged, or was written by an earlier version";
         problem_list_add(problems, "/inputs/start/file", "is \"%.300s\", which %s", start->file,
-                         access(start->file, R_OK) == 0 ? "is no snapshot or checkpoint of a run" : strerror(errno));
+                         access(start->file, R_OK) == 0 ? strange : strerror(errno));
         return NULL;
     }
     /* A bed that was itself placed particle by particle does not tell its number here: the spec must. */
@@ -113,7 +113,7 @@ static bool read_snapshot(hid_t file, snapshot_arrays *s)
     s->spin = read_column(file, "/VTKHDF/PointData/angular_velocity", H5T_NATIVE_FLOAT, sizeof(float), 3 * s->count, &good);
     s->species = read_column(file, "/VTKHDF/PointData/species", H5T_NATIVE_INT32, sizeof(int32_t), s->count, &good);
     s->cluster = read_column(file, "/VTKHDF/PointData/cluster", H5T_NATIVE_INT32, sizeof(int32_t), s->count, &good);
-    if (good && is_there(file, "/VTKHDF/PointData/orientation"))
+    if (good && hdf_is_there(file, "/VTKHDF/PointData/orientation"))
         s->orientation = read_column(file, "/VTKHDF/PointData/orientation", H5T_NATIVE_FLOAT, sizeof(float), 4 * s->count, &good);
     return good && hdf_read_exactly(file, "/VTKHDF/FieldData/drum_angle", H5T_NATIVE_DOUBLE, 1, &s->turned);
 }
@@ -169,13 +169,15 @@ static dem_status place_snapshot(const snapshot_arrays *s, const dem_drum_defini
 
 static dem_status start_from_file(const job_spec *spec, dem_scene *scene)
 {
-    const hid_t file = H5Fopen(JOB_START_FILE, H5F_ACC_RDONLY, H5P_DEFAULT);
+    file_state found;
+    const hid_t file = hdf_open_sealed(JOB_START_FILE, &found);
     dem_status status = DEM_STATE_MISMATCH;
     if (file < 0) {
-        worker_warn("%s, from which the run is to start, can't be opened", JOB_START_FILE);
+        worker_warn("%s, from which the run is to start, is %s", JOB_START_FILE,
+                    found == FILE_ABSENT ? "not there" : "damaged, can't be read, or was written by an earlier version");
         return status;
     }
-    if (is_there(file, "state")) {
+    if (hdf_is_there(file, "state")) {
         dem_state state;
         if (checkpoint_read_state(file, &state)) status = dem_scene_continue(scene, &state);
         checkpoint_clear_state(&state);
