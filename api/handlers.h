@@ -30,6 +30,8 @@ bool find_job(api_service *service, const http_request *request, http_response *
  * asked. And of tables: is CSV asked for? False: an unknown format, and the response says so. */
 json_t *list_link(const http_request *request, const char *rel, int64_t cursor);
 bool read_format(const http_request *request, http_response *response, bool *csv);
+/* The query of GET /jobs (job_filter.c). False: *problem says what is wrong with it. */
+bool read_job_filter(const http_request *request, job_filter *filter, char *problem, size_t size);
 /* Shared between handlers that take a document. parse_body: NULL, and the response says why. */
 json_t *parse_body(const http_request *request, http_response *response);
 uint64_t choose_seed(void);

@@ -6,7 +6,7 @@
 #include "handlers.h"
 #include "status_info.h"
 
-enum { JOBS_DEFAULT_LIMIT = 50, JOBS_HIGHEST_LIMIT = 500, LONGEST_WAIT = 60 };
+enum { LONGEST_WAIT = 60 };
 
 void respond_store_failure(http_response *response, store_status status, const char *wanted)
 {
@@ -76,40 +76,6 @@ void dismiss_job(api_service *service, const http_request *request, http_respons
     job_record_clear(&job);
 }
 
-static bool read_statuses(const char *text, unsigned *statuses, char *problem, size_t size)
-{
-    *statuses = 0;
-    while (text && *text) {
-        const size_t length = strcspn(text, ",");
-        job_status status;
-        if (!job_status_parse(text, length, &status)) {
-            snprintf(problem, size,
-                     "parameter status is \"%.40s\"; must be accepted, running, successful, failed, dismissed, or several with "
-                     "commas between",
-                     text);
-            return false;
-        }
-        *statuses |= 1U << status;
-        text += length;
-        text += *text == ',';
-    }
-    return true;
-}
-
-static bool read_filter(const http_request *request, job_filter *filter, char *problem, size_t size)
-{
-    filter->process = http_request_parameter(request, "processID");
-    filter->text = http_request_parameter(request, "q");
-    filter->study = http_request_parameter(request, "study");
-    if (filter->text && strlen(filter->text) > 100) {
-        snprintf(problem, size, "parameter q has %zu bytes; must have at most 100", strlen(filter->text));
-        return false;
-    }
-    return read_statuses(http_request_parameter(request, "status"), &filter->statuses, problem, size)
-           && http_request_integer(request, "limit", 1, JOBS_HIGHEST_LIMIT, JOBS_DEFAULT_LIMIT, &filter->limit, problem, size)
-           && http_request_integer(request, "cursor", 1, INT64_MAX, 0, &filter->before, problem, size);
-}
-
 typedef struct job_page {
     json_t *jobs;
     int64_t limit, last; /* number of the last job on the page */
@@ -155,10 +121,10 @@ json_t *list_link(const http_request *request, const char *rel, int64_t cursor)
     return link;
 }
 
-static json_t *counts_of_jobs(api_service *service)
+static json_t *counts_of_jobs(api_service *service, const job_filter *filter)
 {
     int64_t counts[JOB_STATUSES];
-    if (store_count_jobs(service->store, counts) != STORE_OK) return NULL;
+    if (store_count_listed(service->store, filter, counts) != STORE_OK) return NULL;
     json_t *object = json_object();
     for (int i = 0; i < JOB_STATUSES; i++) json_object_set_new(object, job_status_name((job_status)i), json_integer(counts[i]));
     return object;
@@ -168,14 +134,14 @@ void list_jobs(api_service *service, const http_request *request, http_response 
 {
     char problem[240];
     job_filter filter = { 0 };
-    if (!read_filter(request, &filter, problem, sizeof problem)) {
+    if (!read_job_filter(request, &filter, problem, sizeof problem)) {
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
         return;
     }
     job_page page = { .jobs = json_array(), .limit = filter.limit };
     filter.limit++; /* one more than asked for says whether there is a next page */
     const store_status status = store_list_jobs(service->store, &filter, add_job_to_page, &page);
-    json_t *counts = status == STORE_OK ? counts_of_jobs(service) : NULL;
+    json_t *counts = status == STORE_OK ? counts_of_jobs(service, &filter) : NULL;
     if (!counts) {
         json_decref(page.jobs);
         respond_store_failure(response, STORE_FAILED, "list the jobs");

@@ -14,9 +14,20 @@
 
 void list_processes(api_service *service, const http_request *request, http_response *response)
 {
-    (void)service, (void)request;
-    json_t *links = json_pack("[o]", link_to("self", "application/json", "/processes"));
-    http_respond_json(response, 200, json_pack("{s:o, s:o}", "processes", process_summaries(), "links", links));
+    (void)service;
+    char problem[160];
+    int64_t limit, after;
+    if (!http_request_integer(request, "limit", 1, INT64_MAX, INT64_MAX, &limit, problem, sizeof problem)
+        || !http_request_integer(request, "cursor", 1, INT64_MAX, 0, &after, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return;
+    }
+    json_t *all = process_summaries(), *page = json_array(), *links = json_pack("[o]", list_link(request, "self", 0));
+    const int64_t rest = (int64_t)json_array_size(all) - after;
+    for (int64_t p = 0; p < rest && p < limit; p++) json_array_append(page, json_array_get(all, (size_t)(after + p)));
+    if (limit < rest) json_array_append_new(links, list_link(request, "next", after + limit));
+    json_decref(all);
+    http_respond_json(response, 200, json_pack("{s:o, s:o}", "processes", page, "links", links));
 }
 
 static void respond_no_such_process(http_response *response, const char *process)

@@ -9,7 +9,7 @@ enum { SERIES_LIMIT = 10000, SERIES_BYTES = 64 << 20 };
 typedef struct series_page {
     text_buffer out;
     json_t *columns; /* CSV alone: names of the measures, from the first row */
-    const char *id;
+    const char *id, *base; /* base: of addresses */
     int64_t rows, limit, last;
     bool more;
 } series_page;
@@ -37,6 +37,7 @@ static bool open_series(api_service *service, const http_request *request, http_
     if (!find_job(service, request, response, &job)) return false;
     job_record_clear(&job);
     series->id = request->segment[0];
+    series->base = response->base;
     text_buffer_init(&series->out, SERIES_BYTES);
     return true;
 }
@@ -54,12 +55,12 @@ static void close_series(series_page *series, http_response *response, store_sta
 
 static void add_links(series_page *series, const char *name)
 {
-    text_buffer_print(&series->out, "],\"links\":[{\"rel\":\"self\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s\"}",
-                      series->id, name);
+    text_buffer_print(&series->out, "],\"links\":[{\"rel\":\"self\",\"type\":\"application/json\",\"href\":\"%s/jobs/%s/%s\"}",
+                      series->base, series->id, name);
     if (series->more)
         text_buffer_print(&series->out,
-                          ",{\"rel\":\"next\",\"type\":\"application/json\",\"href\":\"/jobs/%s/%s?after=%lld&limit=%lld\"}",
-                          series->id, name, (long long)series->last, (long long)series->limit);
+                          ",{\"rel\":\"next\",\"type\":\"application/json\",\"href\":\"%s/jobs/%s/%s?after=%lld&limit=%lld\"}",
+                          series->base, series->id, name, (long long)series->last, (long long)series->limit);
     text_buffer_print(&series->out, "]}");
 }
 
@@ -114,6 +115,7 @@ static bool add_sample_csv(void *context, const sample_row *row)
 bool read_format(const http_request *request, http_response *response, bool *csv)
 {
     const char *format = http_request_parameter(request, "format");
+    if (!format) format = http_request_parameter(request, "f");
     *csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv");
     if (!format || *csv || strcmp(format, "json") == 0) return true;
     http_respond_problem(response, 400, NULL, "Bad parameter", "parameter format is \"%.40s\"; must be json or csv", format);
@@ -141,8 +143,8 @@ static bool add_snapshot(void *context, const snapshot_row *row)
     text_buffer_print(&series->out, "%s{\"number\":%lld,\"step\":%lld,\"time\":", series->rows > 1 ? "," : "",
                       (long long)row->number, (long long)row->step);
     text_buffer_add_number(&series->out, row->time);
-    text_buffer_print(&series->out, ",\"bytes\":%lld,\"particles\":%lld,\"href\":\"/jobs/%s/snapshots/%06lld.hdf\"}",
-                      (long long)row->bytes, (long long)row->particles, series->id, (long long)row->number);
+    text_buffer_print(&series->out, ",\"bytes\":%lld,\"particles\":%lld,\"href\":\"%s/jobs/%s/snapshots/%06lld.hdf\"}",
+                      (long long)row->bytes, (long long)row->particles, series->base, series->id, (long long)row->number);
     return true;
 }
 

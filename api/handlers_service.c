@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include "handlers.h"
+#include "openapi_outline.h"
 #include "status_info.h"
 
 static bool send_page_file(api_service *service, const http_request *request, http_response *response, const char *name,
@@ -25,6 +26,9 @@ static json_t *landing_links(void)
         { "self", "application/json", "/" },
         { "alternate", "text/html", "/" },
         { "service-desc", "application/vnd.oai.openapi;version=3.1", "/api" },
+        /* The types that clients in use know; JSON is YAML, too. */
+        { "service-desc", "application/vnd.oai.openapi+json;version=3.0", "/api?f=json" },
+        { "service-desc", "application/vnd.oai.openapi;version=3.0", "/api?f=json" },
         { "http://www.opengis.net/def/rel/ogc/1.0/conformance", "application/json", "/conformance" },
         { "http://www.opengis.net/def/rel/ogc/1.0/processes", "application/json", "/processes" },
         { "http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json", "/jobs" },
@@ -43,7 +47,7 @@ static json_t *landing_links(void)
 /* A browser names text/html; curl's wildcard gets what a program can read. */
 void show_landing(api_service *service, const http_request *request, http_response *response)
 {
-    if (http_request_accepts(request, "text/html")
+    if (!http_request_parameter(request, "f") && http_request_accepts(request, "text/html")
         && send_page_file(service, request, response, "index.html", "text/html; charset=utf-8"))
         return;
     http_respond_json(response, 200,
@@ -62,8 +66,18 @@ void show_conformance(api_service *service, const http_request *request, http_re
     http_respond_json(response, 200, json_pack("{s:o}", "conformsTo", list));
 }
 
+static void show_outline(http_response *response)
+{
+    http_respond_json(response, 200, openapi_outline(response->base));
+    response->content_type = "application/vnd.oai.openapi+json;version=3.0";
+}
+
 void show_api(api_service *service, const http_request *request, http_response *response)
 {
+    if (http_request_parameter(request, "f")) {
+        show_outline(response);
+        return;
+    }
     const int file = open(service->api_file, O_RDONLY | O_CLOEXEC);
     if (file < 0)
         http_respond_problem(response, 404, NULL, "No OpenAPI document", "the file of --api-file can't be read: %s",

@@ -57,13 +57,12 @@ static const char *split_parameters(http_request *request, char *query)
 {
     for (char *rest = query, *pair; (pair = strsep(&rest, "&")) != NULL;) {
         if (*pair == '\0') continue;
-        if (request->parameter_count == HTTP_PARAMETERS) return "the query has more than 16 parameters";
+        if (request->parameter_count == HTTP_PARAMETERS) return "the query has more than 32 parameters";
         char *value = strchr(pair, '=');
         if (value) *value++ = '\0';
         else value = pair + strlen(pair);
         if (!decode(pair) || !decode(value))
             return "the query holds a broken percent code, a zero byte or bytes that are not UTF-8";
-        if (http_request_parameter(request, pair)) return "a query parameter is given twice";
         request->parameter[request->parameter_count++] = (http_parameter){ pair, value };
     }
     return NULL;
@@ -86,6 +85,19 @@ const char *http_request_parameter(const http_request *request, const char *name
     for (size_t i = 0; i < request->parameter_count; i++)
         if (strcmp(request->parameter[i].name, name) == 0) return request->parameter[i].value;
     return NULL;
+}
+
+bool http_request_values(const http_request *request, const char *name, http_value_taker *take, void *context)
+{
+    for (size_t i = 0; i < request->parameter_count; i++) {
+        if (strcmp(request->parameter[i].name, name) != 0) continue;
+        for (const char *value = request->parameter[i].value; *value;) {
+            const size_t length = strcspn(value, ",");
+            if (length > 0 && !take(context, value, length)) return false;
+            value += length + (value[length] == ',');
+        }
+    }
+    return true;
 }
 
 bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing, int64_t *value,

@@ -13,7 +13,7 @@
 #include "client_watch.h"
 #include "problem.h"
 
-enum { HTTP_PARAMETERS = 16, HTTP_SEGMENTS = 2, HTTP_SEGMENT_SIZE = 65 };
+enum { HTTP_PARAMETERS = 32, HTTP_SEGMENTS = 2, HTTP_SEGMENT_SIZE = 65, HTTP_BASE_SIZE = 320 };
 
 typedef struct http_parameter {
     const char *name, *value; /* decoded UTF-8 */
@@ -39,7 +39,8 @@ typedef struct http_response {
     char *body; /* owned; length bytes; NULL when a file is sent */
     int file;   /* owned descriptor, or -1: length bytes from offset are sent */
     uint64_t offset, length;
-    char location[160], etag[80], content_range[80];
+    char base[HTTP_BASE_SIZE]; /* "http://host:port", put before addresses that begin with /; "": they stay as they are */
+    char location[HTTP_BASE_SIZE + 160], etag[80], content_range[80];
     const char *cache_control, *allow, *preference_applied, *authenticate, *accept_ranges;
     int retry_after; /* s; 0: no such header */
     double wait;     /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */
@@ -47,7 +48,11 @@ typedef struct http_response {
 
 /* Splits a raw target in place into path and parameters. NULL when good, else what is wrong with it. */
 const char *http_request_split_target(http_request *request, char *target);
-const char *http_request_parameter(const http_request *request, const char *name); /* NULL: not given */
+const char *http_request_parameter(const http_request *request, const char *name); /* the first; NULL: not given */
+/* Calls take for each value of a parameter that may be given several times, with commas between values as well; an empty
+ * one is passed over. False: take refused one. */
+typedef bool http_value_taker(void *context, const char *value, size_t length);
+bool http_request_values(const http_request *request, const char *name, http_value_taker *take, void *context);
 /* Whole number in [low, high]; `missing` where the parameter is not given. False: *problem says what is wrong. */
 bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing, int64_t *value,
                           char *problem, size_t problem_size);

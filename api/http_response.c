@@ -25,8 +25,34 @@ void http_respond_text(http_response *response, int status, const char *content_
     response->length = text ? length : 0;
 }
 
+/* Clients follow an address as it is given to them. links: a list of objects with an href. */
+static void make_absolute(const char *base, json_t *links)
+{
+    size_t i;
+    json_t *link;
+    json_array_foreach(links, i, link)
+    {
+        const char *address = json_string_value(json_object_get(link, "href"));
+        if (address && *address == '/') json_object_set_new(link, "href", json_sprintf("%s%s", base, address));
+    }
+}
+
+/* What a user gave, as labels and inputs, is left as it is. */
+static void make_links_absolute(const char *base, const json_t *document)
+{
+    static const char *const lists[] = { "jobs", "studies", "processes" }; /* whose entries have links of their own */
+    make_absolute(base, json_object_get(document, "links"));
+    make_absolute(base, json_object_get(document, "snapshots"));
+    for (size_t l = 0; l < sizeof lists / sizeof lists[0]; l++) {
+        size_t i;
+        json_t *entry;
+        json_array_foreach(json_object_get(document, lists[l]), i, entry) make_absolute(base, json_object_get(entry, "links"));
+    }
+}
+
 void http_respond_json(http_response *response, int status, json_t *document)
 {
+    if (*response->base) make_links_absolute(response->base, document);
     char *text = document ? json_dumps(document, JSON_COMPACT | JSON_REAL_PRECISION(15)) : NULL;
     json_decref(document);
     http_respond_text(response, status, status >= 400 ? "application/problem+json" : "application/json", text,

@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "execute_request.h"
 #include "json_text.h"
 #include "process_type.h"
 #include "spec_text.h"
@@ -72,7 +73,7 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
 bool job_spec_parse_with(const start_source *beds, const char *process, const json_t *request, uint64_t seed_if_missing,
                          job_spec *spec, problem_list *problems)
 {
-    static const char *const known[] = { "process", "inputs", "label", NULL };
+    static const char *const known[] = { "process", "inputs", "label", "response", "outputs", "subscriber", NULL };
     memset(spec, 0, sizeof *spec);
     if (!json_is_object(request)) {
         problem_list_add(problems, "", "must be an object with \"inputs\" and, if wanted, \"label\"");
@@ -83,13 +84,17 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
     spec->type = read_process(process, request, problems);
     if (spec->type) spec->process = spec->type->name;
 
+    execute_request_check(request, spec->type, problems);
+
     const json_t *inputs = json_object_get(request, "inputs");
     if (inputs && !json_is_object(inputs)) {
         problem_list_add(problems, "/inputs", "must be an object");
     } else if (!inputs) {
         problem_list_add(problems, "/inputs", "is missing; must be an object");
     } else if (spec->type) { /* without a process nobody knows what its inputs are */
-        spec_inputs_read(spec->type->inputs, inputs, (char *)spec + spec->type->inputs_at, problems);
+        json_t *values = execute_request_inputs(inputs, problems);
+        spec_inputs_read(spec->type->inputs, values, (char *)spec + spec->type->inputs_at, problems);
+        json_decref(values);
         spec->type->apply_rules(spec, seed_if_missing, problems);
     }
 

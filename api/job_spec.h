@@ -125,7 +125,7 @@ typedef struct job_estimate {
     calibration_load load;                          /* what each step has to do; no spheres: the process has no steps */
 } job_estimate;
 
-/* Reads {"process"?, "inputs", "label"?}. process: NULL takes the document's own "process" (default "drum").
+/* Reads {"process"?, "inputs", "label"?} and what may be around them (execute_request.h). process: NULL takes the document's own "process" (default "drum").
  * False when there are problems, all of them listed; the spec is then cleared.
  * seed_if_missing: what to use where the request gives no seed (its low 53 bits). */
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);

@@ -49,21 +49,48 @@ const http_route *routes_match(const http_route *table, size_t count, http_reque
     return NULL;
 }
 
-static const char *unknown_parameter(const http_route *route, const http_request *request)
+/* Where the name stands in " limit status* ", with a star behind it where it may be given several times; NULL: nowhere. */
+static const char *find_parameter(const char *known, const char *name)
+{
+    const size_t length = strlen(name);
+    for (const char *at = known; length > 0 && (at = strstr(at, name)); at++)
+        if (at > known && at[-1] == ' ' && strchr(" *", at[length]) && at[length]) return at + length;
+    return NULL;
+}
+
+static bool is_given_before(const http_request *request, size_t i)
+{
+    for (size_t k = 0; k < i; k++)
+        if (strcmp(request->parameter[k].name, request->parameter[i].name) == 0) return true;
+    return false;
+}
+
+/* A misspelt filter would silently list everything; of two values one would silently not count. */
+static bool parameters_are_good(const http_route *route, const http_request *request, http_response *response)
 {
     for (size_t i = 0; i < request->parameter_count; i++) {
-        char wanted[48];
-        snprintf(wanted, sizeof wanted, " %.40s ", request->parameter[i].name);
-        if (!strstr(route->parameters, wanted)) return request->parameter[i].name;
+        const char *name = request->parameter[i].name, *end = find_parameter(route->parameters, name);
+        if (!end)
+            http_respond_problem(response, 400, NULL, "Unknown parameter", "query parameter \"%.40s\" is unknown here; known:%s",
+                                 name, route->parameters[0] ? route->parameters : " none");
+        else if (*end != '*' && is_given_before(request, i))
+            http_respond_problem(response, 400, NULL, "Bad parameter", "query parameter \"%.40s\" is given twice", name);
+        else if (strcmp(name, "f") == 0 && strcmp(request->parameter[i].value, "json") != 0)
+            http_respond_problem(response, 400, NULL, "Bad parameter", "parameter f is \"%.40s\"; must be json",
+                                 request->parameter[i].value);
+        else continue;
+        return false;
     }
-    return NULL;
+    return true;
 }
 
 void route_respond(const http_route *route, api_service *service, const http_request *request, http_response *response)
 {
-    const char *unknown = unknown_parameter(route, request);
-    if (unknown) /* a misspelt filter would silently list everything */
-        http_respond_problem(response, 400, NULL, "Unknown parameter", "query parameter \"%.40s\" is unknown here; known:%s",
-                             unknown, route->parameters[0] ? route->parameters : " none");
-    else route->handler(service, request, response);
+    if (request->host) snprintf(response->base, sizeof response->base, "http://%.300s", request->host);
+    if (parameters_are_good(route, request, response)) route->handler(service, request, response);
+    if (response->location[0] != '/') return;
+    const size_t length = strlen(response->location), before = strlen(response->base);
+    if (length + before >= sizeof response->location) return;
+    memmove(response->location + before, response->location, length + 1);
+    memcpy(response->location, response->base, before);
 }

@@ -10,7 +10,8 @@ typedef void route_handler(api_service *service, const http_request *request, ht
 typedef struct http_route {
     const char *method;     /* GET answers HEAD, too */
     const char *pattern;    /* "/jobs/{}/log": {} stands for one segment of at most 64 characters */
-    const char *parameters; /* " names " of the query parameters, each between spaces; others are refused */
+    const char *parameters; /* " names " of the query parameters, each between spaces; others are refused. With a
+                             * star where it may be given several times. f is json, wherever it is known */
     route_handler *handler;
     bool slow; /* may take seconds: answered apart, so that nothing else waits for it */
     bool open; /* needs no token */
@@ -21,7 +22,7 @@ extern const size_t route_count;
 
 /* The route for request->method and ->path, its segments filled in. NULL: the response says why not. */
 const http_route *routes_match(const http_route *table, size_t count, http_request *request, http_response *response);
-/* Refuses unknown parameters, then calls the handler. */
+/* Refuses unknown parameters, then calls the handler; its addresses then name the host that was asked. */
 void route_respond(const http_route *route, api_service *service, const http_request *request, http_response *response);
 
 #endif

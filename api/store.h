@@ -50,11 +50,15 @@ void job_record_clear(job_record *job);
 typedef bool job_visitor(void *context, const job_record *job);
 
 typedef struct job_filter {
-    unsigned statuses;   /* bit 1 << job_status; 0: all */
-    const char *process; /* NULL: all */
-    const char *text;    /* to be found in the id or the label; NULL: all */
-    const char *study;   /* id; NULL: all */
-    int64_t before;      /* only jobs with a smaller number; 0: all */
+    unsigned statuses;                                               /* bit 1 << job_status; 0: all */
+    bool by_process;                                                 /* only jobs of some processes: */
+    unsigned processes;                                              /* bit 1 << index in process_types */
+    bool by_type, type_is_process;                                   /* by_type: only jobs of that type, or none */
+    const char *text;                                                /* to be found in the id or the label; NULL: all */
+    const char *study;                                               /* id; NULL: all */
+    char created_from[JOB_TIME_SIZE], created_before[JOB_TIME_SIZE]; /* "": since ever, for ever */
+    double least_seconds, most_seconds; /* that a job has run, up to now or its end; NaN: whether it has or not */
+    int64_t before;                     /* only jobs with a smaller number; 0: all */
     int64_t limit;
 } job_filter;
 
@@ -68,6 +72,8 @@ store_status store_dismiss_job(job_store *store, const char *id);
 store_status store_find_job(job_store *store, const char *id, job_record *job);
 store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context); /* newest first */
 store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES]);
+/* Of those that the filter lets through, whatever their status: what it says of statuses does not count here, nor does the page. */
+store_status store_count_listed(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES]);
 
 typedef struct study_record {
     int64_t number; /* order of submission */

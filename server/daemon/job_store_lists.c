@@ -5,6 +5,7 @@
 
 #include "database.h"
 #include "job_store.h"
+#include "process_type.h"
 #include "text_buffer.h"
 
 /* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary. */
@@ -88,23 +89,73 @@ store_status store_find_job(job_store *store, const char *id, job_record *job)
     return status;
 }
 
-/* Only fixed pieces go into the SQL; what the user gave is bound. One status walks its index in order; for several
- * the + keeps the walk on the jobs themselves, newest first, where an index would need a sort of all it finds. */
+/* --- lists --- */
+
+/* "a,b" of what is in the set, each with quotes; false: the set is empty. */
+static bool write_set(text_buffer *sql, unsigned set, int count, const char *(*name)(int))
+{
+    bool any = false;
+    for (int i = 0; i < count; i++) {
+        if (!(set & (1U << i))) continue;
+        text_buffer_print(sql, "%s'%s'", any ? "," : "", name(i));
+        any = true;
+    }
+    return any;
+}
+
+static const char *name_of_status(int status) { return job_status_name((job_status)status); }
+static const char *name_of_process(int process) { return process_types[process]->name; }
+
+static int count_processes(void)
+{
+    int count = 0;
+    while (process_types[count]) count++;
+    return count;
+}
+
+/* s that a job has run. */
+#define SECONDS_RUN                                                                                                                \
+    "CASE WHEN job.status<>'accepted' THEN"                                                                                        \
+    " round(86400.0*(julianday(coalesce(job.finished,'now'))-julianday(job.started)),3) END"
+
+/* All but the statuses. Only fixed pieces go into the SQL; what the user gave is bound, by bind_filter. */
+static void write_condition(const job_filter *filter, text_buffer *sql)
+{
+    text_buffer_print(sql,
+                      " WHERE job.number<?1 AND (?2 IS NULL OR instr(lower(job.label), lower(?2)) OR instr(job.id, ?2)) AND %s",
+                      filter->study ? "job.study=(SELECT number FROM study WHERE id=?3)" : "?3 IS NULL");
+    if (filter->created_from[0] || filter->created_before[0])
+        text_buffer_print(sql, " AND job.created>=?4 AND (?5='' OR job.created<?5)");
+    else text_buffer_print(sql, " AND ?4=?5");
+    if (isnan(filter->least_seconds) && isnan(filter->most_seconds)) text_buffer_print(sql, " AND ?6 IS ?7");
+    else text_buffer_print(sql, " AND " SECONDS_RUN ">=coalesce(?6,0) AND " SECONDS_RUN "<=coalesce(?7,1e300)");
+    if (filter->by_type && !filter->type_is_process) text_buffer_print(sql, " AND 0");
+    if (!filter->by_process) return;
+    text_buffer_print(sql, " AND job.process IN (");
+    write_set(sql, filter->processes, count_processes(), name_of_process);
+    text_buffer_print(sql, ")");
+}
+
+static sqlite3_stmt *prepare_filtered(sqlite3 *reader, const text_buffer *sql, const job_filter *filter, int64_t before)
+{
+    if (sql->failed) return NULL;
+    return sql_prepare(reader, sql->text, "ittttddi", before, filter->text, filter->study, filter->created_from,
+                       filter->created_before, filter->least_seconds, filter->most_seconds, filter->limit);
+}
+
+/* One status walks its index in order; for several the + keeps the walk on the jobs themselves, newest first, where an
+ * index would need a sort of all it finds. */
 static void write_list_sql(const job_filter *filter, text_buffer *sql)
 {
     const bool single = (filter->statuses & (filter->statuses - 1U)) == 0U;
-    text_buffer_print(sql,
-                      SELECT_JOBS " WHERE job.number<?1 AND (?2 IS NULL OR job.process=?2)"
-                                  " AND (?3 IS NULL OR instr(lower(job.label), lower(?3)) OR instr(job.id, ?3))"
-                                  "%s",
-                      filter->study ? " AND job.study=(SELECT number FROM study WHERE id=?5)" : "");
-    const char *before = single ? " AND job.status=" : " AND +job.status IN (";
-    for (int i = 0; i < JOB_STATUSES; i++) {
-        if (!(filter->statuses & (1U << i))) continue;
-        text_buffer_print(sql, "%s'%s'", before, job_status_name((job_status)i));
-        before = ",";
+    text_buffer_print(sql, SELECT_JOBS);
+    write_condition(filter, sql);
+    if (filter->statuses) {
+        text_buffer_print(sql, single ? " AND job.status IN (" : " AND +job.status IN (");
+        write_set(sql, filter->statuses, JOB_STATUSES, name_of_status);
+        text_buffer_print(sql, ")");
     }
-    text_buffer_print(sql, "%s ORDER BY job.number DESC LIMIT ?4", single ? "" : ")");
+    text_buffer_print(sql, " ORDER BY job.number DESC LIMIT ?8");
 }
 
 store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context)
@@ -113,10 +164,7 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
     text_buffer_init(&sql, 8192);
     write_list_sql(filter, &sql);
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement =
-        sql.failed ? NULL
-                   : sql_prepare(reader, sql.text, filter->study ? "ittit" : "itti", filter->before ? filter->before : INT64_MAX,
-                                 filter->process, filter->text, filter->limit, filter->study);
+    sqlite3_stmt *statement = prepare_filtered(reader, &sql, filter, filter->before ? filter->before : INT64_MAX);
     store_status status = STORE_FAILED;
     if (statement) {
         int code;
@@ -126,6 +174,38 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
             fill_record(statement, &job);
             more = visit(context, &job);
             job_record_clear(&job);
+        }
+        status = sql_finish(statement, code);
+    }
+    store_return_reader(store, reader);
+    text_buffer_clear(&sql);
+    return status;
+}
+
+static bool lets_all_through(const job_filter *filter)
+{
+    return !filter->by_process && !filter->by_type && !filter->text && !filter->study && !filter->created_from[0]
+           && !filter->created_before[0] && isnan(filter->least_seconds) && isnan(filter->most_seconds);
+}
+
+store_status store_count_listed(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES])
+{
+    if (lets_all_through(filter)) return store_count_jobs(store, counts);
+    text_buffer sql;
+    text_buffer_init(&sql, 8192);
+    text_buffer_print(&sql, "SELECT job.status, count(*) FROM job");
+    write_condition(filter, &sql);
+    text_buffer_print(&sql, " GROUP BY job.status LIMIT max(?8, 5)");
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = prepare_filtered(reader, &sql, filter, INT64_MAX);
+    store_status status = STORE_FAILED;
+    memset(counts, 0, JOB_STATUSES * sizeof *counts);
+    if (statement) {
+        int code;
+        while ((code = sqlite3_step(statement)) == SQLITE_ROW) {
+            const char *name = (const char *)sqlite3_column_text(statement, 0);
+            job_status of;
+            if (job_status_parse(name, strlen(name), &of)) counts[of] = sqlite3_column_int64(statement, 1);
         }
         status = sql_finish(statement, code);
     }

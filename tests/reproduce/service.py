@@ -49,7 +49,7 @@ class Service:
     # --- asking ---
 
     def get(self, path):
-        answer = requests.get(self.url + path, timeout=90)
+        answer = requests.get(path if path.startswith("http") else self.url + path, timeout=90)
         answer.raise_for_status()
         return answer.json()
 

@@ -69,7 +69,7 @@ class Daemon:
     # --- the client ---
 
     def get(self, path, **options):
-        return requests.get(self.url + path, timeout=30, **options)
+        return requests.get(path if path.startswith("http") else self.url + path, timeout=30, **options)
 
     def post(self, inputs=SPEC, label=None, **options):
         return requests.post(f"{self.url}/processes/drum/execution", json={"inputs": inputs, "label": label or {}},

@@ -93,7 +93,8 @@ def test_every_address_of_the_daemon_is_documented_and_no_other(contract):
     documented = {}
     for (method, path), operation in contract.operations.items():
         parameters = [resolved(contract.document, p) for p in operation.get("parameters", [])]
-        documented[method, re.sub(r"{\w+}", "{}", path)] = {p["name"] for p in parameters if p["in"] == "query"}
+        documented[method, re.sub(r"{\w+}", "{}", path)] = {
+            p["name"] + "*" * (p["schema"].get("type") == "array") for p in parameters if p["in"] == "query"}
     assert daemon == documented
 
 
@@ -119,6 +120,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/web/{name}", f"{url}/web/icon.svg", 304, headers={"If-None-Match": asset.headers["ETag"]})
     call("/conformance", f"{url}/conformance", 200)
     assert yaml.safe_load(call("/api", f"{url}/api", 200).text) == contract.document
+    call("/api", f"{url}/api?f=json", 200)
     call("/healthz", f"{url}/healthz", 200)
     call("/readyz", f"{url}/readyz", 200)
     call("/metrics", f"{url}/metrics", 200)
@@ -126,12 +128,12 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/processes/{process}", f"{url}/processes/drum", 200)
     created = call("/processes/{process}/execution", f"{url}/processes/drum/execution", 201, "POST",
                    json={"inputs": ENDLESS})
-    assert created.headers["Location"] == f"/jobs/{created.json()['jobID']}"
+    assert created.headers["Location"] == f"{url}/jobs/{created.json()['jobID']}"
 
     first = call("/jobs", f"{url}/jobs?limit=1", 200).json()
     assert len(first["jobs"]) == 1
     older = next(link["href"] for link in first["links"] if link["rel"] == "next")
-    call("/jobs", url + older, 200)
+    call("/jobs", older, 200)
     call("/jobs", f"{url}/jobs?status=accepted,running,successful&processID=drum&q=contract", 200)
     call("/jobs/{id}", job, 200)
     call("/jobs/{id}", f"{url}/jobs/{endless}?wait=0", 200)
@@ -148,7 +150,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 206, headers={"Range": "bytes=0-99"})
     call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 304, headers={"If-None-Match": fields.headers["ETag"]})
     assert any(link["href"].endswith("/fields.hdf") for link in requests.get(job).json()["links"])
-    path, href = "/jobs/{id}/snapshots/{file}", url + snapshots[-1]["href"]
+    path, href = "/jobs/{id}/snapshots/{file}", snapshots[-1]["href"]
     whole = call(path, href, 200)
     assert len(whole.content) == snapshots[-1]["bytes"]
     part = call(path, href, 206, headers={"Range": "bytes=100-199"})
@@ -166,23 +168,23 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
              "cases": [{"name": "one", "inputs": {"contact": {"friction": 0.2}}, "label": {"paper": "25"}}]}
     created = call("/studies", f"{url}/studies", 201, "POST", json=study)
     study = created.headers["Location"]
-    assert study == f"/studies/{created.json()['studyID']}"
-    call("/studies/{id}", f"{url}{study}?wait=60", 200)
-    table = call("/studies/{id}/results", f"{url}{study}/results", 200).json()
+    assert study == f"{url}/studies/{created.json()['studyID']}"
+    call("/studies/{id}", f"{study}?wait=60", 200)
+    table = call("/studies/{id}/results", f"{study}/results", 200).json()
     assert table["status"] == "successful" and table["cases"][0]["results"]["angle_deg"]["error_from"] == "repeats"
-    call("/studies/{id}/results", f"{url}{study}/results?format=csv", 200)
-    call("/studies/{id}/results.csv", f"{url}{study}/results.csv", 200)
-    again = call("/studies/{id}/spec", f"{url}{study}/spec", 200).json()
-    call("/jobs", f"{url}/jobs?study={study.removeprefix('/studies/')}", 200)
-    call("/studies/{id}", f"{url}{study}", 409, "DELETE")
+    call("/studies/{id}/results", f"{study}/results?format=csv", 200)
+    call("/studies/{id}/results.csv", f"{study}/results.csv", 200)
+    again = call("/studies/{id}/spec", f"{study}/spec", 200).json()
+    call("/jobs", f"{url}/jobs?study={study.removeprefix(f'{url}/studies/')}", 200)
+    call("/studies/{id}", f"{study}", 409, "DELETE")
     again = call("/studies", f"{url}/studies", 201, "POST", json=again).headers["Location"]
-    call("/studies/{id}", f"{url}{again}", 200, "DELETE")
+    call("/studies/{id}", again, 200, "DELETE")
     older = call("/studies", f"{url}/studies?limit=1", 200).json()["links"][1]["href"]
-    call("/studies", url + older, 200)
+    call("/studies", older, 200)
 
     assert called == set(contract.operations)
     addresses = {re.sub(r"{\w+}", "", path) for _, path in contract.operations}
-    assert {link["href"] for link in landing.json()["links"]} <= addresses
+    assert {link["href"].removeprefix(url).split("?")[0] for link in landing.json()["links"]} <= addresses
 
 
 def test_every_error_is_a_documented_problem(daemon, contract):

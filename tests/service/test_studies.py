@@ -75,7 +75,7 @@ def mean_and_error(values, own=0.0):
 def test_a_study_makes_every_case_as_often_as_asked(fake):
     answer = post(fake, {"name": "grid", "base": base(project="p"), "vary": {FRICTION: [0.1, 0.4], RATE: [5, 6, 7]}, "repeats": 2})
     info = answer.json()
-    assert answer.status_code == 201 and answer.headers["Location"] == f"/studies/{info['studyID']}"
+    assert answer.status_code == 201 and answer.headers["Location"] == f"{fake.url}/studies/{info['studyID']}"
     assert (info["cases"], info["repeats"], info["jobs"]) == (6, 2, 12) and info["estimate"]["jobs"] == 12
     assert ended(fake, info["studyID"])["counts"]["successful"] == 12
     fake.submit()  # of no study

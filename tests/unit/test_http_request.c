@@ -49,12 +49,11 @@ static void strange_targets_are_refused(void **state)
                                            "/jobs?q=%4",
                                            "/jobs?q=%gg",
                                            "/jobs?q=%ff",
-                                           "/jobs?a=1&a=2",
-                                           "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&q" };
+                                           "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&q&a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p" };
     http_request request;
     char copy[200];
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) assert_non_null(split(&request, copy, targets[i]));
-    static const char *const good[] = { "/", "/jobs/", "/web/a.b_c~d-e", "/...", "/jobs?", "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p" };
+    static const char *const good[] = { "/", "/jobs/", "/web/a.b_c~d-e", "/...", "/jobs?", "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p", "/jobs?a=1&a=2" };
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) assert_null(split(&request, copy, good[i]));
 }
 
