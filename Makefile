@@ -35,8 +35,12 @@ ISA := $(firstword $(ISAS))
 VARIANT := $(if $(DOUBLE),double,single)-$(ISA)
 RUNNABLE := $(foreach i,$(ISAS),$(filter %-$(i),$(VARIANTS)))
 API_FLAGS := -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi
-WORKER_FLAGS = -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi -Iserver/worker $(shell pkg-config --cflags hdf5-serial)
+WORKER_FLAGS = -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi -Iserver/worker $(HDF5_CFLAGS)
 DAEMON_FLAGS := -D_GNU_SOURCE $(HARDENING) -pthread -Iinclude -Iapi -Iserver/daemon
+
+# Asked for when something is compiled, not when this file is read: `make help` needs no pkg-config.
+HDF5_CFLAGS = $(shell pkg-config --cflags hdf5-serial)
+HDF5_LIBS = $(shell pkg-config --libs hdf5-serial)
 
 CORE_SOURCES := $(wildcard core/*.c)
 DEM := $(BUILD)/core/$(VARIANT)/libdem.a
@@ -54,32 +58,48 @@ all: packages ## install what is missing and build both programs
 	@$(MAKE) --no-print-directory programs
 .DEFAULT_GOAL := all
 
+# As many compilers at once as there are processors, unless -j says otherwise; several targets one after the other.
+ifeq ($(MAKELEVEL),0)
+MAKEFLAGS += -j$(shell nproc)
+ifneq ($(word 2,$(MAKECMDGOALS)),)
+.NOTPARALLEL:
+endif
+endif
+# A line a file, or with V=1 the whole commands.
+SAY = $(if $(V),@:,@printf '%-7s %s\n')
+QUIET := $(if $(V),,@)
+
 # $(call core,VARIANT): its objects, its library and its program.
 define core
 $(BUILD)/core/$(1)/%.o: core/%.c Makefile
 	@mkdir -p $$(@D)
-	$(CC) $(CFLAGS) $(CORE_FLAGS) $(call variant_flags,$(1)) -c $$< -o $$@
+	$(SAY) compile "$$< for $(1)"
+	$(QUIET)$(CC) $(CFLAGS) $(CORE_FLAGS) $(call variant_flags,$(1)) -c $$< -o $$@
 $(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_SOURCES))
 	@rm -f $$@ && ar rcs $$@ $$^
 $(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a
-	$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $(HDF5_LIBS) -ljansson -lm
+	$(SAY) link $$@
+	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -ljansson -lm
 endef
-HDF5_LIBS := $(shell pkg-config --libs hdf5-serial)
 $(foreach v,$(VARIANTS),$(eval $(call core,$(v))))
 $(BUILD)/api/%.o: api/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(API_FLAGS) -c $< -o $@
+	$(SAY) compile $<
+	$(QUIET)$(CC) $(CFLAGS) $(API_FLAGS) -c $< -o $@
 $(BUILD)/server/worker/%.o: server/worker/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(WORKER_FLAGS) -c $< -o $@
+	$(SAY) compile $<
+	$(QUIET)$(CC) $(CFLAGS) $(WORKER_FLAGS) -c $< -o $@
 $(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) $(DAEMON_FLAGS) -c $< -o $@
+	$(SAY) compile $<
+	$(QUIET)$(CC) $(CFLAGS) $(DAEMON_FLAGS) -c $< -o $@
 
 $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
-	$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lm
+	$(SAY) link $@
+	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lm
 # Changes when ISA or DOUBLE does, so that what is built for one is not taken for the other.
 $(BUILD)/variant: FORCE
 	@mkdir -p $(@D)
@@ -87,23 +107,27 @@ $(BUILD)/variant: FORCE
 FORCE:
 $(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(DEM) $(BUILD)/variant
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi $< $(BUILD)/libapi.a $(DEM) \
+	$(SAY) link $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi $< $(BUILD)/libapi.a $(DEM) \
 	  $(LDFLAGS) -fopenmp -ljansson -lm -o $@
 # Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
 $(BUILD)/tests/unit/%: tests/unit/%.c $(DEM) $(BUILD)/libapi.a $(DAEMON_PARTS) $(BUILD)/variant
 	@mkdir -p $(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
+	$(SAY) link $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
 	  $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
 define variant_tests
 $(BUILD)/tests/$(1)/%: tests/physics/%.c $(BUILD)/core/$(1)/libdem.a
 	@mkdir -p $$(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
+	$(SAY) link $$@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
 	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
 $(BUILD)/tests/unit/%-$(1): tests/unit/%.c $(BUILD)/core/$(1)/libdem.a
 	@mkdir -p $$(@D)
-	$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
+	$(SAY) link $$@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
 	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
 endef
 $(foreach v,$(VARIANTS),$(eval $(call variant_tests,$(v))))
@@ -112,7 +136,7 @@ demo: all ## the paper's drum from curl to an angle of repose, with nothing prep
 	@sh tests/demo.sh $(BUILD)
 
 serve: all ## the daemon in the foreground: PORT=8080 DATA=data
-	@$(BUILD)/reposed serve --port $(PORT) --data $(DATA)
+	@$(BUILD)/reposed serve --port $(PORT) --data "$(DATA)"
 
 test: test-packages ## unit, short physics and service tests; closes with a line that counts them
 	@$(MAKE) --no-print-directory check programs $(UNIT_TESTS) physics-programs
@@ -134,7 +158,7 @@ torture: test-packages ## faults for minutes: kill -9 in loops, full disks, the 
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs
-	@$(PYTHON) tests/reproduce $(STUDIES) --build $(BUILD) --data $(DATA)/reproduce
+	@$(PYTHON) tests/reproduce $(STUDIES) --build $(BUILD) --data "$(DATA)/reproduce"
 
 check: programs ## the layers: the core needs nothing but libc, libm and OpenMP
 	@sh tests/check_layers.sh $(BUILD)
@@ -144,7 +168,7 @@ bench: all ## how fast we are, on all kinds of beds, beside the last record: tes
 	@CC=$(CC) PYTHON=$(PYTHON) sh tests/bench/bench.sh $(BUILD) "$(CORE_FLAGS) $(call variant_flags,$(VARIANT))"
 
 bench-peers: all ## the same drum by LAMMPS and LIGGGHTS beside ours, taking turns
-	$(call install,$(PEER_PACKAGES))
+	$(call install,$(PEER_PACKAGES),the other codes to compare with)
 	@$(MAKE) --no-print-directory $(BUILD)/tests/bench/bench_peers
 	@$(PYTHON) tests/bench/bench_peers.py $(BUILD) >$(BUILD)/peers.ndjson
 	@$(PYTHON) tests/bench/report.py tests/bench/results --compiler "$(shell $(CC) --version | head -n 1)" --flags "$(CORE_FLAGS) $(call variant_flags,$(VARIANT))" \
@@ -174,23 +198,23 @@ clean: ## remove what was built
 help: ## this list
 	@grep -hE '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:[^#]*## /\t/' | expand -t 10
 
-# $(call install,PACKAGES): by apt-get, with sudo when not root, only what is missing.
+# $(call install,PACKAGES,WHAT FOR): by apt-get, with sudo when not root, only what is missing; says so beforehand.
 define install
 	@missing=$$(for p in $(1); do dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q 'ok installed' || echo $$p; done); \
 	if [ -n "$$missing" ]; then \
-	  echo "installing:" $$missing; \
+	  echo "installing by apt-get, $(2):" $$missing; \
 	  as=; [ "$$(id -u)" = 0 ] || as=sudo; \
 	  $$as apt-get update -qq && $$as env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing >/dev/null; \
 	fi
 endef
 packages:
-	$(call install,$(PACKAGES))
+	$(call install,$(PACKAGES),what the programs are built with)
 test-packages: packages
-	$(call install,$(TEST_PACKAGES))
+	$(call install,$(TEST_PACKAGES),what the tests need)
 report-packages: packages
-	$(call install,$(REPORT_PACKAGES))
+	$(call install,$(REPORT_PACKAGES),what the report needs)
 lint-packages: packages
-	$(call install,$(LINT_PACKAGES))
+	$(call install,$(LINT_PACKAGES),formatters and linters)
 
 .PHONY: FORCE all programs demo serve test torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:

@@ -244,7 +244,9 @@ static int open_listener(const char *host, int port)
     int listener = socket(found->ai_family, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
     if (listener < 0 || setsockopt(listener, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on) != 0
         || bind(listener, found->ai_addr, found->ai_addrlen) != 0 || listen(listener, 128) != 0) {
-        log_line("%s port %d can't be opened: %s", host, port, strerror(errno));
+        const bool taken = errno == EADDRINUSE;
+        log_line("%s port %d can't be opened: %s%s", host, port, strerror(errno),
+                 taken ? "; --port N takes another (make serve PORT=N), --port 0 any that is free" : "");
         if (listener >= 0) close(listener);
         listener = -1;
     }
