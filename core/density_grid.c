@@ -75,10 +75,9 @@ dem_status density_grid_init(density_grid *grid, const dem_scene *scene)
     grid->cells = density_grid_cells(scene);
     grid->size = definition->diameter / grid->cells;
     grid->reach = 0.5 * (scene->spheres.largest_diameter + spread);
-    grid->value = array_create((size_t)grid->cells * (size_t)grid->cells, sizeof *grid->value);
     grid->kernel = array_create(most * KERNEL_POINTS, sizeof *grid->kernel);
     grid->kernel_of = array_create(definition->species_count * DEM_MAXIMUM_CLUSTER, sizeof *grid->kernel_of);
-    if (!grid->value || !grid->kernel || !grid->kernel_of) {
+    if (!grid->kernel || !grid->kernel_of) {
         density_grid_clear(grid);
         return DEM_NO_MEMORY;
     }
@@ -89,43 +88,121 @@ dem_status density_grid_init(density_grid *grid, const dem_scene *scene)
 
 void density_grid_clear(density_grid *grid)
 {
-    free(grid->value);
+    free(grid->tile);
+    free(grid->slot);
+    free(grid->order);
+    free(grid->surface.column);
+    free(grid->surface.place);
+    free(grid->surface.height);
     free(grid->kernel);
     free(grid->kernel_of);
     memset(grid, 0, sizeof *grid);
 }
 
+/* ---- tiles ---- */
+
+static size_t slot_of(const density_grid *grid, int32_t column, int32_t row)
+{
+    const uint64_t mixed = ((uint64_t)(uint32_t)column << 32 | (uint32_t)row) * UINT64_C(0x9e3779b97f4a7c15);
+    size_t at = (size_t)(mixed >> 32) & (grid->slot_count - 1);
+    for (; grid->slot[at] >= 0; at = (at + 1) & (grid->slot_count - 1)) {
+        const density_tile *tile = &grid->tile[grid->slot[at]];
+        if (tile->column == column && tile->row == row) break;
+    }
+    return at;
+}
+
+/* Room for twice as many tiles, of which a quarter of the slots are used. */
+static bool more_tiles(density_grid *grid)
+{
+    const size_t capacity = grid->tile_capacity ? 2 * grid->tile_capacity : 64;
+    density_tile *tile = realloc(grid->tile, capacity * sizeof *tile);
+    if (tile) grid->tile = tile;
+    int32_t *slot = realloc(grid->slot, 4 * capacity * sizeof *slot);
+    if (slot) grid->slot = slot;
+    if (!tile || !slot) return false;
+    grid->tile_capacity = capacity;
+    grid->slot_count = 4 * capacity;
+    memset(grid->slot, 0xff, grid->slot_count * sizeof *slot);
+    for (size_t k = 0; k < grid->tile_count; k++)
+        grid->slot[slot_of(grid, grid->tile[k].column, grid->tile[k].row)] = (int32_t)k;
+    return true;
+}
+
+/* The tile there, made if need be; NULL: no memory. */
+static density_tile *tile_at(density_grid *grid, int32_t column, int32_t row)
+{
+    if (grid->tile_count == grid->tile_capacity && !more_tiles(grid)) return NULL;
+    const size_t at = slot_of(grid, column, row);
+    if (grid->slot[at] >= 0) return &grid->tile[grid->slot[at]];
+    grid->slot[at] = (int32_t)grid->tile_count;
+    density_tile *tile = &grid->tile[grid->tile_count++];
+    memset(tile, 0, sizeof *tile);
+    tile->column = column;
+    tile->row = row;
+    return tile;
+}
+
+/* ---- from spheres to a density ---- */
+
 static int bounded(int cell, int cells) { return cell < 0 ? 0 : cell > cells ? cells : cell; }
+
+/* A sphere at (s, h) and the cells of the grid, from..to-1 along either, that its volume is spread over. */
+typedef struct deposit {
+    double s, h;
+    const double *kernel;
+    int from[2], to[2];
+} deposit;
+
+static void deposit_in_tile(const density_grid *grid, density_tile *tile, const deposit *d)
+{
+    const int s_0 = tile->column * TILE_CELLS, h_0 = tile->row * TILE_CELLS;
+    const int s_from = d->from[0] > s_0 ? d->from[0] : s_0, s_to = d->to[0] < s_0 + TILE_CELLS ? d->to[0] : s_0 + TILE_CELLS;
+    const int h_from = d->from[1] > h_0 ? d->from[1] : h_0, h_to = d->to[1] < h_0 + TILE_CELLS ? d->to[1] : h_0 + TILE_CELLS;
+    const double points = (KERNEL_POINTS - 1) / grid->reach;
+    for (int a = s_from; a < s_to; a++) {
+        const double ds = density_grid_place(grid, a) - d->s;
+        float *value = tile->value + (a - s_0) * TILE_CELLS;
+        for (int b = h_from; b < h_to; b++) {
+            const double dh = density_grid_place(grid, b) - d->h;
+            const double at = sqrt(ds * ds + dh * dh) * points;
+            if (at < KERNEL_POINTS - 1) value[b - h_0] += (float)d->kernel[(int)(at + 0.5)];
+        }
+    }
+}
 
 static void deposit_one(density_grid *grid, double s, double h, const double *kernel)
 {
-    const double half = 0.5 * grid->cells, inverse = 1 / grid->size, points = (KERNEL_POINTS - 1) / grid->reach;
-    const int s0 = bounded((int)floor((s - grid->reach) * inverse + half), grid->cells);
-    const int s1 = bounded((int)ceil((s + grid->reach) * inverse + half), grid->cells);
-    const int h0 = bounded((int)floor((h - grid->reach) * inverse + half), grid->cells);
-    const int h1 = bounded((int)ceil((h + grid->reach) * inverse + half), grid->cells);
-    for (int a = s0; a < s1; a++) {
-        const double ds = density_grid_place(grid, a) - s;
-        for (int b = h0; b < h1; b++) {
-            const double dh = density_grid_place(grid, b) - h;
-            const double at = sqrt(ds * ds + dh * dh) * points;
-            if (at < KERNEL_POINTS - 1) grid->value[a * grid->cells + b] += (float)kernel[(int)(at + 0.5)];
-        }
+    const double half = 0.5 * grid->cells, inverse = 1 / grid->size;
+    deposit d = { .s = s, .h = h, .kernel = kernel };
+    for (int axis = 0; axis < 2; axis++) {
+        const double at = axis == 0 ? s : h;
+        d.from[axis] = bounded((int)floor((at - grid->reach) * inverse + half), grid->cells);
+        d.to[axis] = bounded((int)ceil((at + grid->reach) * inverse + half), grid->cells);
+        if (d.from[axis] >= d.to[axis]) return;
     }
+    for (int column = d.from[0] / TILE_CELLS; column <= (d.to[0] - 1) / TILE_CELLS; column++)
+        for (int row = d.from[1] / TILE_CELLS; row <= (d.to[1] - 1) / TILE_CELLS; row++) {
+            density_tile *tile = tile_at(grid, column, row);
+            if (tile) deposit_in_tile(grid, tile, &d);
+            else grid->lacks_memory = true;
+        }
 }
 
 /* Median, over cells above half of the densest, by counting: a bed has far more cells than values matter. */
 static double core_value(const density_grid *grid)
 {
-    enum { BINS = 1024 };
-    const size_t n = (size_t)grid->cells * (size_t)grid->cells;
+    enum { BINS = 1024, CELLS = TILE_CELLS * TILE_CELLS };
     size_t count[BINS] = { 0 }, above = 0;
     float densest = 0;
-    for (size_t k = 0; k < n; k++) densest = fmaxf(densest, grid->value[k]);
+    for (size_t t = 0; t < grid->tile_count; t++)
+        for (int k = 0; k < CELLS; k++) densest = fmaxf(densest, grid->tile[t].value[k]);
     if (!(densest > 0)) return 0.0;
-    for (size_t k = 0; k < n; k++)
-        if (grid->value[k] > 0.5f * densest) {
-            count[(int)fminf(BINS - 1, grid->value[k] / densest * BINS)]++;
+    for (size_t t = 0; t < grid->tile_count; t++)
+        for (int k = 0; k < CELLS; k++) {
+            const float value = grid->tile[t].value[k];
+            if (!(value > 0.5f * densest)) continue;
+            count[(int)fminf(BINS - 1, value / densest * BINS)]++;
             above++;
         }
     size_t passed = 0;
@@ -139,7 +216,8 @@ void density_grid_deposit(density_grid *grid, const dem_scene *scene, double tur
     const spheres *s = &scene->spheres;
     const double c = cos(turned), sine = sin(turned);
     grid->turned = turned;
-    memset(grid->value, 0, (size_t)grid->cells * (size_t)grid->cells * sizeof *grid->value);
+    grid->tile_count = 0;
+    if (grid->slot) memset(grid->slot, 0xff, grid->slot_count * sizeof *grid->slot);
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = sphere_place(s, i);
         const size_t of_body =
@@ -150,17 +228,91 @@ void density_grid_deposit(density_grid *grid, const dem_scene *scene, double tur
     grid->core = core_value(grid);
 }
 
-void density_grid_heights(const density_grid *grid, double *heights)
+/* ---- from a density to its surface ---- */
+
+size_t density_grid_most_columns(const dem_scene *scene)
+{
+    const double size = scene->definition.diameter / density_grid_cells(scene);
+    const double reach = 0.5 * (scene->spheres.largest_diameter + mean_diameter(scene));
+    return scene->spheres.mobile_count * (size_t)ceil(2 * reach / size + 2);
+}
+
+static int by_place(const void *a, const void *b)
+{
+    const tile_place *x = a, *y = b;
+    return x->column != y->column ? (x->column > y->column) - (x->column < y->column) : (x->row > y->row) - (x->row < y->row);
+}
+
+/* Room for the order of the tiles, and for a height in each column of them. */
+static bool prepare_surface(density_grid *grid)
+{
+    surface_heights *surface = &grid->surface;
+    surface->count = 0;
+    const size_t columns = grid->tile_count * TILE_CELLS;
+    if (columns > surface->capacity) {
+        free(grid->order);
+        free(surface->column);
+        free(surface->place);
+        free(surface->height);
+        grid->order = array_create(grid->tile_count, sizeof *grid->order);
+        surface->column = array_create(columns, sizeof *surface->column);
+        surface->place = array_create(columns, sizeof *surface->place);
+        surface->height = array_create(columns, sizeof *surface->height);
+        surface->capacity = grid->order && surface->column && surface->place && surface->height ? columns : 0;
+        if (!surface->capacity) return false;
+    }
+    for (size_t k = 0; k < grid->tile_count; k++)
+        grid->order[k] = (tile_place){ grid->tile[k].column, grid->tile[k].row, (int32_t)k };
+    qsort(grid->order, grid->tile_count, sizeof *grid->order, by_place);
+    return true;
+}
+
+/* The height in one column of `count` tiles that stand over each other, with gaps in which nothing is; NaN: none. */
+static double height_of_column(const density_grid *grid, const tile_place *places, size_t count, int column)
 {
     const double half = 0.5 * grid->core;
-    for (int a = 0; a < grid->cells; a++) {
-        const float *column = grid->value + (size_t)a * (size_t)grid->cells;
-        int b = 0;
-        while (b < grid->cells && !((double)column[b] >= half)) b++;
-        while (b < grid->cells && (double)column[b] >= half) b++;
-        heights[a] = NAN;
-        if (b == 0 || b == grid->cells || !(half > 0)) continue;
-        const double below = (double)column[b - 1], above = (double)column[b];
-        heights[a] = density_grid_place(grid, b - 1) + grid->size * (below - half) / (below - above);
+    double below = 0, above = 0;
+    int32_t row = -1; /* the one that was looked at last; from the bed up, once it was found */
+    bool found = false, fallen = false;
+    for (size_t t = 0; t < count && !fallen; t++) {
+        const density_tile *tile = &grid->tile[places[t].tile];
+        const float *value = tile->value + column * TILE_CELLS;
+        if (found && tile->row * TILE_CELLS != row + 1) break;
+        for (int b = 0; b < TILE_CELLS && !fallen; b++) {
+            above = (double)value[b];
+            row = tile->row * TILE_CELLS + b;
+            fallen = found && !(above >= half);
+            if (fallen) break;
+            found = above >= half;
+            below = above;
+        }
+    }
+    if (found && !fallen) {
+        above = 0;
+        row++;
+    }
+    if (!found || row >= grid->cells || !(half > 0)) return NAN;
+    return density_grid_place(grid, row - 1) + grid->size * (below - half) / (below - above);
+}
+
+void density_grid_find_surface(density_grid *grid)
+{
+    surface_heights *surface = &grid->surface;
+    if (grid->lacks_memory || !prepare_surface(grid)) {
+        surface->count = 0;
+        grid->lacks_memory = true;
+        return;
+    }
+    for (size_t first = 0, end = 0; first < grid->tile_count; first = end) {
+        const int32_t tiles = grid->order[first].column;
+        while (end < grid->tile_count && grid->order[end].column == tiles) end++;
+        for (int a = 0; a < TILE_CELLS; a++) {
+            const double height = height_of_column(grid, grid->order + first, end - first, a);
+            if (isnan(height)) continue;
+            const int32_t column = tiles * TILE_CELLS + a;
+            surface->column[surface->count] = column;
+            surface->place[surface->count] = density_grid_place(grid, column);
+            surface->height[surface->count++] = height;
+        }
     }
 }

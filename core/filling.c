@@ -204,17 +204,29 @@ static void clusters_place_spheres(spheres *s, const container *drum)
     }
 }
 
-static dem_status placing_init(placing *p, const spheres *s, const container *drum)
+/* Few small particles in a wide container: larger cells are right, too, and cost less than many empty ones. */
+enum { MOST_CELLS_A_SIDE = 512, MOST_CELLS_A_PARTICLE = 32 };
+
+/* Cells no smaller than `size`. Returns how many. */
+static size_t placing_cells(placing *p, const container *drum, double size)
 {
-    *p = (placing){ .period = drum->period, .inverse_period = drum->inverse_period };
     size_t cells = 1;
     for (int a = 0; a < 3; a++) {
         const double side = drum->high[a] - drum->low[a];
         p->low[a] = drum->low[a];
-        p->cells[a] = (int)fmax(1.0, fmin(512.0, floor(side / (2 * s->largest_reach))));
+        p->cells[a] = (int)fmax(1.0, fmin(MOST_CELLS_A_SIDE, floor(side / size)));
         p->size[a] = side / p->cells[a];
         cells *= (size_t)p->cells[a];
     }
+    return cells;
+}
+
+static dem_status placing_init(placing *p, const spheres *s, const container *drum)
+{
+    *p = (placing){ .period = drum->period, .inverse_period = drum->inverse_period };
+    size_t cells;
+    double size = 2 * s->largest_reach;
+    while ((cells = placing_cells(p, drum, size)) > MOST_CELLS_A_PARTICLE * particles_count(s)) size *= 1.26;
     p->head = array_create(cells, sizeof *p->head);
     p->next = array_create(particles_count(s), sizeof *p->next);
     if (!p->head || !p->next) return DEM_NO_MEMORY;

@@ -12,9 +12,24 @@ typedef struct search {
     bool *is_grounded; /* (particles) */
 } search;
 
+/* Few spheres in a tall or wide box: larger cells are right, too. */
+enum { MOST_CELLS_A_SIDE = 256, MOST_CELLS_A_SPHERE = 32 };
+
+/* Cells no smaller than `size`, from f->low to `high`. Returns how many. */
+static size_t set_cells(search *f, const double high[3], double size)
+{
+    size_t cells = 1;
+    for (int a = 0; a < 3; a++) {
+        const double side = fmax(high[a] - f->low[a], 1e-12);
+        f->cells[a] = (int)fmax(1.0, fmin(MOST_CELLS_A_SIDE, floor(side / size)));
+        f->size[a] = side / f->cells[a];
+        cells *= (size_t)f->cells[a];
+    }
+    return cells;
+}
+
 static void set_box(search *f)
 {
-    enum { MOST_CELLS = 256 };
     const spheres *s = &f->scene->spheres;
     double high[3] = { -INFINITY, -INFINITY, -INFINITY };
     for (int a = 0; a < 3; a++) f->low[a] = INFINITY;
@@ -23,11 +38,8 @@ static void set_box(search *f)
             f->low[a] = fmin(f->low[a], sphere_place(s, i)[a]);
             high[a] = fmax(high[a], sphere_place(s, i)[a]);
         }
-    for (int a = 0; a < 3; a++) {
-        const double side = fmax(high[a] - f->low[a], 1e-12);
-        f->cells[a] = (int)fmax(1.0, fmin(MOST_CELLS, floor(side / (s->largest_diameter + f->gap))));
-        f->size[a] = side / f->cells[a];
-    }
+    double size = s->largest_diameter + f->gap;
+    while (set_cells(f, high, size) > MOST_CELLS_A_SPHERE * s->mobile_count) size *= 1.26;
 }
 
 static int cell_along(const search *f, const double x[3], int axis)

@@ -1,9 +1,9 @@
 #include "measure.h"
 
-#include "density_grid.h"
+#include "interface.h"
 #include "statistics.h"
 
-size_t dem_frame_width(const dem_scene *scene) { return DEM_FRAME_SCALARS + (size_t)density_grid_cells(scene); }
+size_t dem_frame_width(const dem_scene *scene) { return DEM_FRAME_SCALARS + interface_numbers(scene); }
 
 const char *dem_frame_scalar_name(size_t index)
 {

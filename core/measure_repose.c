@@ -1,6 +1,7 @@
 /* The angle of repose under every definition in use. How each is computed: core/NUMERICS.md, "Angles". */
 #include "dem_rules.h"
 #include "density_grid.h"
+#include "interface.h"
 #include "measure.h"
 #include "statistics.h"
 
@@ -19,45 +20,38 @@ static double center_of_mass_angle(const spheres *s)
     return atan2(x, -y);
 }
 
-/* Surface heights in a frame, and the half length of the fitted part of the chord. */
-typedef struct surface_heights {
-    double *place, *height; /* (cells) m */
-    int cells;
-    double half_length; /* m */
-} surface_heights;
-
 static line_fit fit_between(const surface_heights *surface, double from, double to)
 {
-    int first = 0, last = surface->cells;
+    size_t first = 0, last = surface->count;
     while (first < last && surface->place[first] < from) first++;
     while (last > first && surface->place[last - 1] > to) last--;
-    return statistics_line(surface->place + first, surface->height + first, (size_t)(last - first), 1.0);
+    return statistics_line(surface->place + first, surface->height + first, last - first, 1.0);
 }
 
-/* The chord at the surface's mean height: half of it is sqrt(R^2 - h^2). */
-static void set_half_length(surface_heights *surface, double drum_radius)
+/* m, half of the fitted part of the chord at the surface's mean height, of which half is sqrt(R^2 - h^2). */
+static double half_length_of(const surface_heights *surface, double drum_radius)
 {
     double sum = 0.0;
     int n = 0;
-    for (int a = 0; a < surface->cells; a++)
-        if (fabs(surface->place[a]) < 0.5 * drum_radius && !isnan(surface->height[a])) {
+    for (size_t a = 0; a < surface->count; a++)
+        if (fabs(surface->place[a]) < 0.5 * drum_radius) {
             sum += surface->height[a];
             n++;
         }
     const double height = n ? fmin(fabs(sum / n), 0.9 * drum_radius) : 0.0;
-    surface->half_length = CHORD_SHARE * sqrt(drum_radius * drum_radius - height * height);
+    return CHORD_SHARE * sqrt(drum_radius * drum_radius - height * height);
 }
 
 /* Turns the frame until the fitted line is level; the frame's angle is then the surface's. NaN without a surface. */
-static double level_frame(density_grid *grid, const dem_scene *scene, surface_heights *surface, double start)
+static double level_frame(density_grid *grid, const dem_scene *scene, double start, double *half_length)
 {
     enum { MOST_TURNS = 8 };
     double angle = start;
     for (int turn = 0; turn < MOST_TURNS; turn++) {
         density_grid_deposit(grid, scene, angle);
-        density_grid_heights(grid, surface->height);
-        set_half_length(surface, scene->drum.radius);
-        const line_fit fit = fit_between(surface, -surface->half_length, surface->half_length);
+        density_grid_find_surface(grid);
+        *half_length = half_length_of(&grid->surface, scene->drum.radius);
+        const line_fit fit = fit_between(&grid->surface, -*half_length, *half_length);
         if (isnan(fit.slope) || fit.points < 4) return NAN;
         angle += atan(fit.slope);
         if (fabs(fit.slope) < 1e-4) break;
@@ -95,19 +89,6 @@ static double theil_sen_angle(const dem_scene *scene, const int32_t *contacts, d
     return result;
 }
 
-/* Slope between +-D/10 of an interface over x: what a GranuDrum reports. */
-static double chord_angle(const double *interface, const density_grid *grid, double diameter)
-{
-    double height[2];
-    for (int side = 0; side < 2; side++) {
-        const double at = (side ? 0.1 : -0.1) * diameter / grid->size + 0.5 * grid->cells - 0.5;
-        const int a = (int)floor(at);
-        if (a < 0 || a + 1 >= grid->cells) return NAN;
-        height[side] = interface[a] + (at - a) * (interface[a + 1] - interface[a]);
-    }
-    return atan((height[1] - height[0]) / (0.2 * diameter));
-}
-
 /* A bed spread over the whole wall has no surface to speak of: a ring is level in every frame. */
 static bool is_ring(const dem_scene *scene)
 {
@@ -124,26 +105,26 @@ static bool is_ring(const dem_scene *scene)
     return count > 0.95 * SECTORS;
 }
 
-static void measure_angles(const dem_scene *scene, const int32_t *contacts, density_grid *grid, surface_heights *surface,
-                           double *frame)
+static void measure_angles(const dem_scene *scene, const int32_t *contacts, density_grid *grid, double *frame)
 {
     const double center = center_of_mass_angle(&scene->spheres);
     const bool ring = is_ring(scene);
-    const double angle = ring ? NAN : level_frame(grid, scene, surface, center);
+    double half_length = 0.0;
+    const double angle = ring ? NAN : level_frame(grid, scene, center, &half_length);
     if (ring) density_grid_deposit(grid, scene, 0.0); /* for the solid fraction */
     frame[FRAME_CENTER_OF_MASS] = ring ? NAN : degrees(center);
     frame[FRAME_SURFACE_FIT] = degrees(angle);
     frame[FRAME_SOLID_FRACTION] = grid->core;
     frame[FRAME_UPPER_CHORD] = frame[FRAME_LOWER_CHORD] = frame[FRAME_THEIL_SEN] = NAN;
     if (!isnan(angle)) {
-        frame[FRAME_UPPER_CHORD] = degrees(grid->turned + atan(fit_between(surface, 0, surface->half_length).slope));
-        frame[FRAME_LOWER_CHORD] = degrees(grid->turned + atan(fit_between(surface, -surface->half_length, 0).slope));
-        frame[FRAME_THEIL_SEN] = degrees(theil_sen_angle(scene, contacts, angle, surface->half_length));
+        frame[FRAME_UPPER_CHORD] = degrees(grid->turned + atan(fit_between(&grid->surface, 0, half_length).slope));
+        frame[FRAME_LOWER_CHORD] = degrees(grid->turned + atan(fit_between(&grid->surface, -half_length, 0).slope));
+        frame[FRAME_THEIL_SEN] = degrees(theil_sen_angle(scene, contacts, angle, half_length));
     }
-    double *interface = frame + DEM_FRAME_SCALARS;
     density_grid_deposit(grid, scene, 0.0);
-    density_grid_heights(grid, interface);
-    frame[FRAME_CHORD] = ring ? NAN : degrees(chord_angle(interface, grid, scene->definition.diameter));
+    density_grid_find_surface(grid);
+    interface_set(scene, &grid->surface, frame);
+    frame[FRAME_CHORD] = ring ? NAN : degrees(interface_chord_angle(scene, &(frame_window){ frame, 1, dem_frame_width(scene) }));
 }
 
 dem_status measure_repose_frame(const dem_scene *scene, const int32_t *contacts, double *frame)
@@ -151,17 +132,8 @@ dem_status measure_repose_frame(const dem_scene *scene, const int32_t *contacts,
     density_grid grid;
     dem_status status = density_grid_init(&grid, scene);
     if (status != DEM_OK) return status;
-    surface_heights surface = { .cells = grid.cells };
-    surface.place = array_create((size_t)grid.cells, sizeof *surface.place);
-    surface.height = array_create((size_t)grid.cells, sizeof *surface.height);
-    if (surface.place && surface.height) {
-        for (int a = 0; a < grid.cells; a++) surface.place[a] = density_grid_place(&grid, a);
-        measure_angles(scene, contacts, &grid, &surface, frame);
-    } else {
-        status = DEM_NO_MEMORY;
-    }
-    free(surface.place);
-    free(surface.height);
+    measure_angles(scene, contacts, &grid, frame);
+    if (grid.lacks_memory) status = DEM_NO_MEMORY;
     density_grid_clear(&grid);
     return status;
 }
@@ -187,22 +159,12 @@ static dem_angle angle_of_column(const frame_window *window, size_t column)
 static dem_angle angle_of_mean_interface(const dem_scene *scene, const frame_window *window, double *fluctuation)
 {
     dem_angle angle = angle_of_column(window, FRAME_CHORD);
-    const int cells = density_grid_cells(scene);
-    const density_grid grid = { .cells = cells, .size = scene->definition.diameter / cells };
-    double *mean = array_create((size_t)cells, sizeof *mean), *deviation = array_create((size_t)cells, sizeof *deviation);
     *fluctuation = NAN;
-    if (mean && deviation && !isnan(angle.mean_deg)) {
-        for (int a = 0; a < cells; a++) {
-            mean[a] = frame_window_mean(window, DEM_FRAME_SCALARS + (size_t)a);
-            /* The ends of the interface, where the bed meets the wall, come and go. */
-            const bool inside = fabs(density_grid_place(&grid, a)) < 0.5 * CHORD_SHARE * scene->definition.diameter;
-            deviation[a] = inside ? frame_window_deviation(window, DEM_FRAME_SCALARS + (size_t)a) : NAN;
-        }
-        *fluctuation = statistics_mean(deviation, (size_t)cells);
-        angle.mean_deg = degrees(chord_angle(mean, &grid, scene->definition.diameter));
+    if (!isnan(angle.mean_deg)) {
+        /* The ends of the interface, where the bed meets the wall, come and go. */
+        *fluctuation = interface_fluctuation(scene, window, 0.5 * CHORD_SHARE * scene->definition.diameter);
+        angle.mean_deg = degrees(interface_chord_angle(scene, window));
     }
-    free(mean);
-    free(deviation);
     return angle;
 }
 

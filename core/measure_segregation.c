@@ -38,7 +38,7 @@ typedef struct mixing {
     double variance, random_variance, share;
 } mixing;
 
-static mixing mixing_over_cells(const int32_t *cell_of, const spheres *s, int32_t species, double *count, double *of_species,
+static mixing mixing_over_cells(const int64_t *cell_of, const spheres *s, int32_t species, double *count, double *of_species,
                                 size_t cells)
 {
     memset(count, 0, cells * sizeof *count);
@@ -65,7 +65,7 @@ static mixing mixing_over_cells(const int32_t *cell_of, const spheres *s, int32_
 }
 
 /* Cells three mean diameters wide across the section; whole slices, as many as along the axis, for the axial index. */
-static size_t assign_cells(const dem_scene *scene, bool slices, int32_t *cell_of)
+static void assign_cells(const dem_scene *scene, bool slices, int64_t *cell_of)
 {
     const double side = 3 * mean_diameter(scene), radius = scene->drum.radius, length = scene->drum.length;
     const int across = slices ? 1 : (int)fmax(1, ceil(2 * radius / side)), along = slices ? (int)fmax(1, floor(length / side)) : 1;
@@ -74,9 +74,30 @@ static size_t assign_cells(const dem_scene *scene, bool slices, int32_t *cell_of
         const int a = (int)fmin(across - 1, fmax(0, (x[0] + radius) / (2 * radius) * across));
         const int b = (int)fmin(across - 1, fmax(0, (x[1] + radius) / (2 * radius) * across));
         const int c = (int)fmin(along - 1, fmax(0, (x[2] / length + 0.5) * along));
-        cell_of[p] = (a * across + b) * along + c;
+        cell_of[p] = ((int64_t)a * across + b) * along + c;
     }
-    return (size_t)across * (size_t)across * (size_t)along;
+}
+
+static int ascending(const void *a, const void *b)
+{
+    const int64_t x = *(const int64_t *)a, y = *(const int64_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Numbers the cells that have particles from 0 on, in their order: a wide drum has far more that have none. sorted:
+ * (particles) to work in. Returns how many there are. */
+static size_t number_cells(int64_t *cell_of, int64_t *sorted, size_t particles)
+{
+    memcpy(sorted, cell_of, particles * sizeof *sorted);
+    qsort(sorted, particles, sizeof *sorted, ascending);
+    size_t cells = 0;
+    for (size_t k = 0; k < particles; k++)
+        if (k == 0 || sorted[k] != sorted[cells - 1]) sorted[cells++] = sorted[k];
+    for (size_t p = 0; p < particles; p++) {
+        const int64_t *found = bsearch(&cell_of[p], sorted, cells, sizeof *sorted, ascending);
+        cell_of[p] = found - sorted;
+    }
+    return cells;
 }
 
 /* Standard deviation of the share between slices beyond chance, over that of complete segregation: 0 mixed, 1 not. */
@@ -98,11 +119,13 @@ dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_r
     int32_t smallest, largest;
     size_extremes(scene, &smallest, &largest);
     result->radial_index = measure_radial_index(scene);
-    int32_t *cell_of = array_create(particles_count(&scene->spheres), sizeof *cell_of);
+    const size_t particles = particles_count(&scene->spheres);
+    int64_t *cell_of = array_create(2 * particles, sizeof *cell_of);
     if (!cell_of) return DEM_NO_MEMORY;
     dem_status status = DEM_OK;
     for (int slices = 0; slices < 2 && status == DEM_OK; slices++) {
-        const size_t cells = assign_cells(scene, slices, cell_of);
+        assign_cells(scene, slices, cell_of);
+        const size_t cells = number_cells(cell_of, cell_of + particles, particles);
         double *count = array_create(cells, sizeof *count), *of_species = array_create(cells, sizeof *of_species);
         if (count && of_species) {
             const mixing m = mixing_over_cells(cell_of, &scene->spheres, largest, count, of_species, cells);

@@ -1,4 +1,5 @@
 /* Claims about the measures, on beds laid out by hand so that the answer is known before. */
+#include "density_grid.h"
 #include "measure.h"
 #include "scene_by_hand.h"
 
@@ -366,6 +367,40 @@ static void overlaps_and_contacts_are_those_of_the_pairs_that_touch(void **unuse
     dem_scene_free(scene);
 }
 
+/* ---- a wide drum ---- */
+
+/* A sphere at the middle of a cell, in a drum of 20 m and in one of 20 mm: its density is the same, and so is what it costs,
+ * which for all cells of the wide drum would be terabytes. */
+static void a_small_sphere_in_a_wide_drum_is_measured_as_in_a_narrow_one(void **unused)
+{
+    (void)unused;
+    double fraction[2];
+    for (int k = 0; k < 2; k++) {
+        dem_drum_definition d = hand_definition(1);
+        d.species[0].diameter = 1e-4;
+        d.diameter = k ? 20 : 0.02;
+        d.length = 0.01;
+        dem_scene *scene = hand_scene(&d);
+        const double cell = d.diameter / density_grid_cells(scene), offset = cell * (double)(density_grid_cells(scene) / 4);
+        for (size_t i = 0; i < scene->spheres.mobile_count; i++)
+            sphere_set_place(&scene->spheres, i, (double[]){ 0.5 * cell, 0.5 * cell - offset, 0 });
+        density_grid grid;
+        assert_int_equal(density_grid_init(&grid, scene), DEM_OK);
+        density_grid_deposit(&grid, scene, 0.0);
+        density_grid_find_surface(&grid);
+        assert_false(grid.lacks_memory);
+        /* nine columns and rows of cells, which are in four tiles at most */
+        CHECK_BETWEEN((double)grid.tile_count, 1, 4);
+        CHECK_BETWEEN((double)grid.surface.count, 3, 9);
+        const double height = grid.surface.height[grid.surface.count / 2];
+        CHECK_BETWEEN(height - (0.5 * cell - offset), 0.3e-4, 1e-4);
+        fraction[k] = grid.core;
+        density_grid_clear(&grid);
+        dem_scene_free(scene);
+    }
+    CHECK_NEAR(fraction[1] / fraction[0], 1, 1e-3); /* the bins of the median */
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -379,6 +414,7 @@ int main(void)
         cmocka_unit_test(the_radial_index_is_the_difference_of_mean_radii_over_the_drums),
         cmocka_unit_test(one_species_has_no_segregation),
         cmocka_unit_test(overlaps_and_contacts_are_those_of_the_pairs_that_touch),
+        cmocka_unit_test(a_small_sphere_in_a_wide_drum_is_measured_as_in_a_narrow_one),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
