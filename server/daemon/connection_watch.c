@@ -1,26 +1,84 @@
 #include "connection_watch.h"
 
+#include <linux/tcp.h>
+#include <netinet/in.h>
+#include <poll.h>
 #include <stdlib.h>
-#include <sys/socket.h>
+#include <string.h>
 
 #include "log.h"
 
 #define SECONDS_FOR_A_REQUEST 15.0
+#define SECONDS_TO_BEGIN 20.0         /* in which an answer may go out at any speed */
+#define LEAST_BYTES_PER_SECOND 1000.0 /* from then on, on the average */
+#define SECONDS_OF_A_STALL 3.0
 
-void connection_watch_init(connection_watch *watch)
+void connection_watch_init(connection_watch *watch, int enough)
 {
-    watch->first = NULL;
+    *watch = (connection_watch){ .enough = enough };
     pthread_mutex_init(&watch->lock, NULL);
 }
 
 void connection_watch_clear(connection_watch *watch) { pthread_mutex_destroy(&watch->lock); }
 
-watched_connection *connection_watch_add(connection_watch *watch, int socket)
+static void copy_address(uint8_t address[CONNECTION_ADDRESS_SIZE], const struct sockaddr *from)
+{
+    memset(address, 0, CONNECTION_ADDRESS_SIZE);
+    if (from && from->sa_family == AF_INET) memcpy(address, &((const struct sockaddr_in *)(const void *)from)->sin_addr, 4);
+    else if (from && from->sa_family == AF_INET6)
+        memcpy(address, &((const struct sockaddr_in6 *)(const void *)from)->sin6_addr, 16);
+}
+
+bool connection_is_from(const watched_connection *connection, const watched_connection *other)
+{
+    return connection && other && memcmp(connection->address, other->address, CONNECTION_ADDRESS_SIZE) == 0;
+}
+
+bool connection_is_closed(int socket)
+{
+    struct pollfd end = { .fd = socket, .events = POLLRDHUP };
+    return poll(&end, 1, 0) > 0 && (end.revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
+}
+
+static int count_from(const connection_watch *watch, const watched_connection *address)
+{
+    int count = 0;
+    for (const watched_connection *c = watch->first; c; c = c->next) count += connection_is_from(c, address);
+    return count;
+}
+
+/* Of the address that has the most connections, the one that has asked nothing for longest, or else the one that has
+ * not taken its answer for longest. */
+static void make_room(connection_watch *watch)
+{
+    watched_connection *victim = NULL;
+    int most = 0;
+    for (watched_connection *c = watch->first; c; c = c->next) {
+        const bool asks_nothing = c->reading_since > 0.0;
+        if (!asks_nothing && c->stalled_since <= 0.0) continue;
+        const int count = victim && connection_is_from(c, victim) ? most : count_from(watch, c);
+        const bool longer = victim && count == most
+                            && (asks_nothing ? victim->reading_since <= 0.0 || c->reading_since < victim->reading_since
+                                             : victim->reading_since <= 0.0 && c->stalled_since < victim->stalled_since);
+        if (victim && count <= most && !longer) continue;
+        victim = c;
+        most = count;
+    }
+    if (!victim) return;
+    shutdown(victim->socket, SHUT_RDWR);
+    victim->reading_since = victim->stalled_since = 0.0; /* it goes; the next one is another */
+}
+
+watched_connection *connection_watch_add(connection_watch *watch, int socket, const struct sockaddr *address)
 {
     watched_connection *connection = malloc(sizeof *connection);
     if (!connection) return NULL;
-    *connection = (watched_connection){ .socket = socket, .reading_since = monotonic_seconds() };
+    *connection = (watched_connection){ .socket = socket };
+    copy_address(connection->address, address);
     pthread_mutex_lock(&watch->lock);
+    if (watch->count >= watch->enough) make_room(watch);
+    watch->count++;
+    connection->reading_since = monotonic_seconds();
     connection->next = watch->first;
     if (watch->first) watch->first->previous = connection;
     watch->first = connection;
@@ -32,6 +90,7 @@ void connection_watch_remove(connection_watch *watch, watched_connection *connec
 {
     if (!connection) return;
     pthread_mutex_lock(&watch->lock);
+    watch->count--;
     if (connection->previous) connection->previous->next = connection->next;
     else watch->first = connection->next;
     if (connection->next) connection->next->previous = connection->previous;
@@ -44,16 +103,56 @@ void connection_watch_set_reading(connection_watch *watch, watched_connection *c
     if (!connection) return;
     pthread_mutex_lock(&watch->lock);
     connection->reading_since = reading ? monotonic_seconds() : 0.0;
+    connection->sending_since = connection->stalled_since = 0.0;
     pthread_mutex_unlock(&watch->lock);
+}
+
+/* Bytes that the other end has acknowledged since the connection began. */
+static uint64_t bytes_taken(int socket)
+{
+    struct tcp_info facts = { 0 };
+    socklen_t size = sizeof facts;
+    return getsockopt(socket, IPPROTO_TCP, TCP_INFO, &facts, &size) == 0 ? facts.tcpi_bytes_acked : 0;
+}
+
+void connection_watch_set_sending(connection_watch *watch, watched_connection *connection)
+{
+    if (!connection) return;
+    pthread_mutex_lock(&watch->lock);
+    connection->reading_since = 0.0;
+    connection->sending_since = monotonic_seconds();
+    connection->taken_before = connection->taken = bytes_taken(connection->socket);
+    pthread_mutex_unlock(&watch->lock);
+}
+
+static bool takes_too_long(watched_connection *c, double now)
+{
+    if (c->reading_since > 0.0) return now - c->reading_since > SECONDS_FOR_A_REQUEST;
+    if (c->sending_since <= 0.0) return false;
+    const uint64_t taken = bytes_taken(c->socket);
+    if (taken != c->taken) c->stalled_since = 0.0;
+    else if (c->stalled_since <= 0.0) c->stalled_since = now;
+    c->taken = taken;
+    const double seconds = now - c->sending_since - SECONDS_TO_BEGIN;
+    return seconds > 0.0 && (double)(taken - c->taken_before) < LEAST_BYTES_PER_SECOND * seconds;
 }
 
 /* A socket is taken off the list before it is closed, and here the list is locked: the number can't have become
  * another connection's. */
 void connection_watch_sweep(connection_watch *watch)
 {
-    const double latest = monotonic_seconds() - SECONDS_FOR_A_REQUEST;
+    const double now = monotonic_seconds();
     pthread_mutex_lock(&watch->lock);
     for (watched_connection *c = watch->first; c; c = c->next)
-        if (c->reading_since > 0.0 && c->reading_since < latest) shutdown(c->socket, SHUT_RDWR);
+        if (takes_too_long(c, now)) shutdown(c->socket, SHUT_RDWR);
+    pthread_mutex_unlock(&watch->lock);
+}
+
+void connection_watch_drop_stalled(connection_watch *watch)
+{
+    const double now = monotonic_seconds();
+    pthread_mutex_lock(&watch->lock);
+    for (watched_connection *c = watch->first; c; c = c->next)
+        if (c->stalled_since > 0.0 && now - c->stalled_since >= SECONDS_OF_A_STALL) shutdown(c->socket, SHUT_RDWR);
     pthread_mutex_unlock(&watch->lock);
 }

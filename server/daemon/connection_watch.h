@@ -1,29 +1,48 @@
-/* Closes connections on which no whole request arrives in time.
+/* Closes connections that hold a place for nothing: no whole request arrives in time, an answer is not taken, or places
+ * run short and nothing is being asked on them.
  *
- * The library's own timeout counts silence only: a client that sends one byte every two seconds would keep its
- * connection for ever. Here the time runs from the connection, or the last answer, to the end of a request. */
+ * The library's own timeout counts silence only: a client that sends, or reads, one byte every two seconds would keep
+ * its connection for ever. Here the time runs from the connection, or the last answer, to the end of a request, and an
+ * answer must go out at some least speed. */
 #ifndef CONNECTION_WATCH_H
 #define CONNECTION_WATCH_H
 
 #include <pthread.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <sys/socket.h>
+
+enum { CONNECTION_ADDRESS_SIZE = 16 };
 
 typedef struct watched_connection {
     int socket;
-    double reading_since; /* monotonic s; 0: a whole request is being answered */
+    uint8_t address[CONNECTION_ADDRESS_SIZE]; /* of the client */
+    double reading_since;                     /* monotonic s; 0: a whole request is being answered */
+    double sending_since, stalled_since;      /* monotonic s; 0: nothing is sent; it gets on */
+    uint64_t taken_before, taken;             /* bytes that the client has taken: when sending began, at the last sweep */
     struct watched_connection *next, *previous;
 } watched_connection;
 
 typedef struct connection_watch {
     pthread_mutex_t lock;
     watched_connection *first;
+    int count, enough; /* from so many on, those that ask nothing make room for others */
 } connection_watch;
 
-void connection_watch_init(connection_watch *watch);
+void connection_watch_init(connection_watch *watch, int enough);
 void connection_watch_clear(connection_watch *watch);
-watched_connection *connection_watch_add(connection_watch *watch, int socket); /* NULL: no memory */
+/* NULL: no memory. */
+watched_connection *connection_watch_add(connection_watch *watch, int socket, const struct sockaddr *address);
 void connection_watch_remove(connection_watch *watch, watched_connection *connection);
 void connection_watch_set_reading(connection_watch *watch, watched_connection *connection, int reading);
-/* Shuts down what has been reading for too long. */
+void connection_watch_set_sending(connection_watch *watch, watched_connection *connection);
+/* Shuts down what has been reading, or not taking its answer, for too long. */
 void connection_watch_sweep(connection_watch *watch);
+/* The same for every answer of which nothing has been taken for some seconds. */
+void connection_watch_drop_stalled(connection_watch *watch);
+
+/* Whether the client has closed its end. The socket must be open. */
+bool connection_is_closed(int socket);
+bool connection_is_from(const watched_connection *connection, const watched_connection *other);
 
 #endif

@@ -5,12 +5,16 @@
 
 #include <microhttpd.h>
 
+#include "connection_watch.h"
 #include "http_guard.h"
 #include "routes.h"
 
 typedef struct http_exchange {
     struct http_server *server;
     struct MHD_Connection *connection;
+    struct waiting_room *room;
+    watched_connection *watched;
+    int socket;
     char *target; /* as it was sent; request.path and the parameters point into it */
     char *body;
     size_t body_expected;
@@ -27,6 +31,9 @@ typedef struct http_exchange {
     } stage;
     double arrived, worked; /* monotonic s when the request was whole; s spent on the answer */
     double resume_at;       /* monotonic s, while parked */
+    bool
+        waits_no_more; /* parked or to be parked: it is answered as things are, since its client closed its end or the room is full */
+    size_t body_held, answer_held; /* bytes that count in the server's sums */
     struct http_exchange *next;
 } http_exchange;
 

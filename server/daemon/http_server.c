@@ -12,13 +12,45 @@
 
 enum {
     HTTP_THREADS = 4,
-    MOST_CONNECTIONS = 256,
-    MOST_PER_ADDRESS = 192,
+    MOST_CONNECTIONS = 512,   /* more than may be parked and wait in the lanes: some are always left, */
+    ENOUGH_CONNECTIONS = 448, /* and from here on those that ask nothing, or take no answer, make room for new ones */
     CONNECTION_MEMORY = 32768,
     THREAD_STACK = 1 << 20, /* JSON nests up to 2048 deep */
     SILENCE_SECONDS = 20,
-    DROPPED_BODY_LIMIT = 16 << 20
+    DROPPED_BODY_LIMIT = 16 << 20,
+    SMALL = 64 << 10,            /* bytes that nobody counts: as many as connections, they are still bearable */
+    MOST_BODY_BYTES = 64 << 20,  /* of all large bodies that are being read */
+    MOST_ANSWER_BYTES = 64 << 20 /* of all large answers that are on their way to clients, who may be slow to read them */
 };
+
+/* --- memory in sum --- */
+
+/* A single one always fits. */
+static bool hold(atomic_size_t *sum, size_t bytes, size_t most, size_t *held)
+{
+    if (bytes <= SMALL) return true;
+    const size_t before = atomic_fetch_add(sum, bytes);
+    if (before > 0 && before + bytes > most) {
+        atomic_fetch_sub(sum, bytes);
+        return false;
+    }
+    *held = bytes;
+    return true;
+}
+
+/* Where the answers that are on their way fill the memory, those that nobody reads go, and this one is to be asked for
+ * again. */
+static void hold_answer(http_exchange *exchange)
+{
+    http_server *server = exchange->server;
+    http_response *response = &exchange->response;
+    if (!response->body || hold(&server->answers_held, response->length, MOST_ANSWER_BYTES, &exchange->answer_held)) return;
+    connection_watch_drop_stalled(&server->watch);
+    http_response_clear(response);
+    http_respond_problem(response, 503, NULL, "Too much on its way",
+                         "long answers that other clients are still reading fill the memory; try again later");
+    response->retry_after = 2;
+}
 
 /* --- answering --- */
 
@@ -64,11 +96,13 @@ static struct MHD_Response *reply_of(http_response *response)
 static enum MHD_Result send_response(http_exchange *exchange)
 {
     http_response *response = &exchange->response;
+    hold_answer(exchange);
     struct MHD_Response *reply = reply_of(response);
     if (!reply) return MHD_NO;
     add_headers(reply, response);
     metrics_count(&exchange->server->metrics, exchange->route, response->status, exchange->worked);
     if (response->status >= 500) log_line("%s %s: answered %d", exchange->request.method, exchange->request.path, response->status);
+    connection_watch_set_sending(&exchange->server->watch, exchange->watched);
     const enum MHD_Result result = MHD_queue_response(exchange->connection, (unsigned)response->status, reply);
     MHD_destroy_response(reply);
     return result;
@@ -91,18 +125,36 @@ static enum MHD_Result answer(http_exchange *exchange)
         bool closing;
         const unsigned long changes = waiting_room_changes(&server->room, &closing);
         const double start = monotonic_seconds();
-        exchange->request.may_wait = !closing;
+        exchange->request.may_wait = !closing && !exchange->waits_no_more;
         exchange->request.waited = start - exchange->arrived;
         http_response_clear(&exchange->response);
         route_respond(exchange->route, server->service, &exchange->request, &exchange->response);
         exchange->worked += monotonic_seconds() - start;
         if (!(exchange->response.wait > 0.0)) break;
-        if (waiting_room_park(&server->room, exchange, changes, exchange->response.wait)) return MHD_YES;
+        const parking outcome = waiting_room_park(&server->room, exchange, changes, exchange->response.wait);
+        if (outcome == PARKING_DONE) return MHD_YES;
+        if (outcome == PARKING_FULL) exchange->waits_no_more = true; /* answered as things are */
     }
     return send_response(exchange);
 }
 
 /* --- taking requests in --- */
+
+static watched_connection *watched(struct MHD_Connection *connection)
+{
+    const union MHD_ConnectionInfo *info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
+    return info ? info->socket_context : NULL;
+}
+
+static void set_out(http_exchange *exchange, http_server *server, struct MHD_Connection *connection)
+{
+    exchange->server = server;
+    exchange->room = &server->room;
+    exchange->connection = connection;
+    exchange->watched = watched(connection);
+    exchange->socket = exchange->watched ? exchange->watched->socket : -1;
+    exchange->request.client = (client_watch){ waiting_room_has_left, exchange };
+}
 
 static enum MHD_Result take_header(void *context, enum MHD_ValueKind kind, const char *name, const char *value)
 {
@@ -132,7 +184,14 @@ static bool admit(http_exchange *exchange, const char *method)
 
 static enum MHD_Result begin(http_exchange *exchange, const char *method)
 {
-    if (admit(exchange, method)) {
+    if (!exchange->watched) return MHD_NO; /* no memory */
+    bool admitted = admit(exchange, method);
+    if (admitted && !hold(&exchange->server->bodies_held, exchange->body_expected, MOST_BODY_BYTES, &exchange->body_held)) {
+        http_respond_problem(&exchange->response, 503, NULL, "Too many large bodies at once", "try again later");
+        exchange->response.retry_after = 2;
+        admitted = false;
+    }
+    if (admitted) {
         exchange->stage = EXCHANGE_READING;
         exchange->body = exchange->body_expected ? malloc(exchange->body_expected) : NULL;
         return exchange->body || !exchange->body_expected ? MHD_YES : MHD_NO;
@@ -157,12 +216,6 @@ static enum MHD_Result take_body(http_exchange *exchange, const char *piece, siz
     return MHD_YES;
 }
 
-static watched_connection *watched(struct MHD_Connection *connection)
-{
-    const union MHD_ConnectionInfo *info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_SOCKET_CONTEXT);
-    return info ? info->socket_context : NULL;
-}
-
 /* Called for each step of a request: headers, pieces of the body, its end, and again after a suspension. */
 static enum MHD_Result take_request(void *context, struct MHD_Connection *connection, const char *url, const char *method,
                                     const char *version, const char *data, size_t *data_size, void **state)
@@ -171,13 +224,12 @@ static enum MHD_Result take_request(void *context, struct MHD_Connection *connec
     http_exchange *exchange = *state;
     if (!exchange) return MHD_NO;
     if (exchange->stage == EXCHANGE_NEW) {
-        exchange->server = context;
-        exchange->connection = connection;
+        set_out(exchange, context, connection);
         return begin(exchange, method);
     }
     if (*data_size > 0) return take_body(exchange, data, data_size);
     if (exchange->stage == EXCHANGE_READING) {
-        connection_watch_set_reading(&exchange->server->watch, watched(connection), 0);
+        connection_watch_set_reading(&exchange->server->watch, exchange->watched, 0);
         exchange->request.body = exchange->body;
         exchange->arrived = monotonic_seconds();
         exchange->stage = EXCHANGE_WHOLE;
@@ -206,6 +258,8 @@ static void end_request(void *context, struct MHD_Connection *connection, void *
     *state = NULL;
     if (!exchange) return;
     connection_watch_set_reading(&server->watch, watched(connection), 1);
+    atomic_fetch_sub(&server->bodies_held, exchange->body_held);
+    atomic_fetch_sub(&server->answers_held, exchange->answer_held);
     http_response_clear(&exchange->response);
     free(exchange->body);
     free(exchange->target);
@@ -218,7 +272,8 @@ static void note_connection(void *context, struct MHD_Connection *connection, vo
     http_server *server = context;
     if (what == MHD_CONNECTION_NOTIFY_STARTED) {
         const union MHD_ConnectionInfo *info = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CONNECTION_FD);
-        *socket_context = connection_watch_add(&server->watch, info->connect_fd);
+        const union MHD_ConnectionInfo *from = MHD_get_connection_info(connection, MHD_CONNECTION_INFO_CLIENT_ADDRESS);
+        *socket_context = connection_watch_add(&server->watch, info->connect_fd, from ? from->client_addr : NULL);
         server->metrics.connections++;
     } else {
         connection_watch_remove(&server->watch, *socket_context);
@@ -272,7 +327,7 @@ bool http_server_open(http_server *server, const config *settings, api_service *
     server->listener = open_listener(settings->host, settings->port);
     if (server->listener < 0) return false;
     server->port = port_of(server->listener);
-    connection_watch_init(&server->watch);
+    connection_watch_init(&server->watch, ENOUGH_CONNECTIONS);
     return true;
 }
 
@@ -284,8 +339,8 @@ bool http_server_start(http_server *server)
         server->listener, MHD_OPTION_THREAD_POOL_SIZE, (unsigned)HTTP_THREADS, MHD_OPTION_THREAD_STACK_SIZE, (size_t)THREAD_STACK,
         MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_URI_LOG_CALLBACK, take_target, server, MHD_OPTION_NOTIFY_COMPLETED, end_request,
         server, MHD_OPTION_NOTIFY_CONNECTION, note_connection, server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)MOST_CONNECTIONS,
-        MHD_OPTION_PER_IP_CONNECTION_LIMIT, (unsigned)MOST_PER_ADDRESS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_SECONDS,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY, MHD_OPTION_END);
+        MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_SECONDS, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY,
+        MHD_OPTION_END);
     if (server->daemon) return true;
     log_line("the HTTP server can't be started");
     waiting_room_close(&server->room);

@@ -2,6 +2,8 @@
 #ifndef HTTP_SERVER_H
 #define HTTP_SERVER_H
 
+#include <stdatomic.h>
+
 #include "connection_watch.h"
 #include "http_guard.h"
 #include "metrics.h"
@@ -12,6 +14,7 @@ typedef struct http_server {
     http_guard guard;
     http_metrics metrics;
     connection_watch watch;
+    atomic_size_t bodies_held, answers_held; /* bytes of the large ones that are in memory */
     waiting_room room;
     struct MHD_Daemon *daemon;
     int listener, port; /* the port that was opened */

@@ -1,11 +1,31 @@
 #include "waiting_room.h"
 
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 #include "log.h"
 
-#define SECONDS_BETWEEN_SWEEPS 5.0
+#define SECONDS_BETWEEN_SWEEPS 1.0
+#define SECONDS_BETWEEN_LOOKS 0.4 /* at who has left */
+#define SECONDS_IN_A_LANE 20.0    /* before a request is told to come again */
+/* A client may close its end when it has sent its request and still read the answer. It gets one, if that takes less. */
+#define SECONDS_OF_A_HALF_CLOSED 0.5
+
+static bool is_abandoned(const http_exchange *exchange, double now)
+{
+    return now - exchange->arrived > SECONDS_OF_A_HALF_CLOSED && connection_is_closed(exchange->socket);
+}
+
+bool waiting_room_has_left(void *context)
+{
+    const http_exchange *exchange = context;
+    waiting_room *room = exchange->room;
+    pthread_mutex_lock(&room->lock);
+    const bool closing = room->closing;
+    pthread_mutex_unlock(&room->lock);
+    return closing || is_abandoned(exchange, monotonic_seconds());
+}
 
 /* --- parked: the clock's thread --- */
 
@@ -15,7 +35,8 @@ static void release_parked(waiting_room *room, double now, bool everybody)
     http_exchange **link = &room->parked;
     while (*link) {
         http_exchange *exchange = *link;
-        if (everybody || exchange->resume_at <= now) {
+        exchange->waits_no_more = exchange->waits_no_more || is_abandoned(exchange, now);
+        if (everybody || exchange->waits_no_more || exchange->resume_at <= now) {
             *link = exchange->next;
             MHD_resume_connection(exchange->connection);
         } else {
@@ -27,9 +48,14 @@ static void release_parked(waiting_room *room, double now, bool everybody)
 static struct timespec next_look(const waiting_room *room, double now)
 {
     double at = now + SECONDS_BETWEEN_SWEEPS;
+    bool anybody = room->parked != NULL;
+    for (const slow_lane *lane = room->lane; lane < room->lane + WAITING_ROOM_LANES; lane++) anybody = anybody || lane->first;
+    if (anybody) at = fmin(at, now + SECONDS_BETWEEN_LOOKS);
     for (const http_exchange *e = room->parked; e; e = e->next) at = fmin(at, e->resume_at);
     return (struct timespec){ (time_t)at, (long)((at - floor(at)) * 1e9) };
 }
+
+static void release_slow(slow_lane *lane, double now);
 
 static void *run_clock(void *context)
 {
@@ -39,6 +65,7 @@ static void *run_clock(void *context)
     while (!room->closing) {
         const double now = monotonic_seconds();
         release_parked(room, now, false);
+        for (int i = 0; i < WAITING_ROOM_LANES; i++) release_slow(&room->lane[i], now);
         if (now - swept >= SECONDS_BETWEEN_SWEEPS) {
             connection_watch_sweep(room->watch);
             swept = now;
@@ -51,11 +78,23 @@ static void *run_clock(void *context)
     return NULL;
 }
 
-bool waiting_room_park(waiting_room *room, http_exchange *exchange, unsigned long changes, double seconds)
+static bool has_place_to_park(const waiting_room *room, const http_exchange *exchange)
+{
+    int all = 0, same = 0;
+    for (const http_exchange *e = room->parked; e; e = e->next) {
+        all++;
+        same += connection_is_from(e->watched, exchange->watched);
+    }
+    return all < WAITING_ROOM_PARKED && same < WAITING_ROOM_PARKED_PER_ADDRESS;
+}
+
+parking waiting_room_park(waiting_room *room, http_exchange *exchange, unsigned long changes, double seconds)
 {
     pthread_mutex_lock(&room->lock);
-    const bool parks = room->changes == changes && !room->closing;
-    if (parks) {
+    const parking outcome = room->changes != changes || room->closing ? PARKING_JOBS_CHANGED
+                            : has_place_to_park(room, exchange)       ? PARKING_DONE
+                                                                      : PARKING_FULL;
+    if (outcome == PARKING_DONE) {
         exchange->resume_at = monotonic_seconds() + seconds;
         exchange->next = room->parked;
         room->parked = exchange;
@@ -63,7 +102,7 @@ bool waiting_room_park(waiting_room *room, http_exchange *exchange, unsigned lon
         pthread_cond_signal(&room->clock_wakes);
     }
     pthread_mutex_unlock(&room->lock);
-    return parks;
+    return outcome;
 }
 
 unsigned long waiting_room_changes(waiting_room *room, bool *closing)
@@ -83,33 +122,73 @@ void waiting_room_jobs_changed(waiting_room *room)
     pthread_mutex_unlock(&room->lock);
 }
 
-/* --- slow: one thread --- */
+/* --- slow: a thread a lane --- */
 
 bool waiting_room_queue_slow(waiting_room *room, http_exchange *exchange)
 {
+    slow_lane *lane = &room->lane[strcmp(exchange->route->method, "GET") != 0];
     pthread_mutex_lock(&room->lock);
-    const bool fits = room->slow_count < WAITING_ROOM_SLOW_LIMIT && !room->closing;
+    const bool fits = lane->count < WAITING_ROOM_SLOW_LIMIT && !room->closing;
     if (fits) {
+        http_exchange **end = &lane->first;
+        while (*end) end = &(*end)->next;
         exchange->next = NULL;
-        *room->slow_end = exchange;
-        room->slow_end = &exchange->next;
-        room->slow_count++;
+        *end = exchange;
+        lane->count++;
         MHD_suspend_connection(exchange->connection);
-        pthread_cond_signal(&room->slow_wakes);
+        pthread_cond_signal(&lane->wakes);
     }
     pthread_mutex_unlock(&room->lock);
     return fits;
 }
 
-static http_exchange *take_slow(waiting_room *room)
+static void take_out(slow_lane *lane, http_exchange **link)
 {
+    *link = (*link)->next;
+    lane->count--;
+}
+
+static void answer_without_work(http_exchange *exchange, const char *why)
+{
+    http_respond_problem(&exchange->response, 503, NULL, "Not answered", "%s; try again later", why);
+    exchange->response.retry_after = 5;
+    exchange->stage = EXCHANGE_ANSWERED;
+    MHD_resume_connection(exchange->connection);
+}
+
+/* With the lock held: who has left, or has waited long enough. */
+static void release_slow(slow_lane *lane, double now)
+{
+    for (http_exchange **link = &lane->first; *link;) {
+        http_exchange *exchange = *link;
+        const bool late = now - exchange->arrived > SECONDS_IN_A_LANE;
+        if (!late && !is_abandoned(exchange, now)) {
+            link = &exchange->next;
+            continue;
+        }
+        take_out(lane, link);
+        answer_without_work(exchange, late ? "others took all the time" : "the client has left");
+    }
+}
+
+/* The oldest of another client than the last one, if there is any: so one that asks much leaves room for others. */
+static http_exchange *take_slow(slow_lane *lane)
+{
+    waiting_room *room = lane->room;
     pthread_mutex_lock(&room->lock);
-    while (!room->slow && !room->closing) pthread_cond_wait(&room->slow_wakes, &room->lock);
-    http_exchange *exchange = room->slow;
-    if (exchange) {
-        room->slow = exchange->next;
-        if (!room->slow) room->slow_end = &room->slow;
-        room->slow_count--;
+    while (!lane->first && !room->closing) pthread_cond_wait(&lane->wakes, &room->lock);
+    while (room->closing && lane->first) {
+        http_exchange *exchange = lane->first;
+        take_out(lane, &lane->first);
+        answer_without_work(exchange, "the service is leaving");
+    }
+    http_exchange **link = &lane->first, *exchange = NULL;
+    while (*link && memcmp((*link)->watched->address, lane->last, CONNECTION_ADDRESS_SIZE) == 0) link = &(*link)->next;
+    if (!*link) link = &lane->first;
+    if (*link) {
+        exchange = *link;
+        memcpy(lane->last, exchange->watched->address, sizeof lane->last);
+        take_out(lane, link);
     }
     pthread_mutex_unlock(&room->lock);
     return exchange;
@@ -117,10 +196,10 @@ static http_exchange *take_slow(waiting_room *room)
 
 static void *run_slow(void *context)
 {
-    waiting_room *room = context;
-    for (http_exchange *exchange; (exchange = take_slow(room)) != NULL;) {
+    slow_lane *lane = context;
+    for (http_exchange *exchange; (exchange = take_slow(lane)) != NULL;) {
         const double start = monotonic_seconds();
-        route_respond(exchange->route, room->service, &exchange->request, &exchange->response);
+        route_respond(exchange->route, lane->room->service, &exchange->request, &exchange->response);
         exchange->worked = monotonic_seconds() - start;
         exchange->stage = EXCHANGE_ANSWERED;
         MHD_resume_connection(exchange->connection);
@@ -130,32 +209,38 @@ static void *run_slow(void *context)
 
 /* --- opening and closing --- */
 
+static void wake_all(waiting_room *room)
+{
+    pthread_mutex_lock(&room->lock);
+    room->closing = true;
+    pthread_cond_broadcast(&room->clock_wakes);
+    for (int i = 0; i < WAITING_ROOM_LANES; i++) pthread_cond_broadcast(&room->lane[i].wakes);
+    pthread_mutex_unlock(&room->lock);
+}
+
 bool waiting_room_open(waiting_room *room, api_service *service, connection_watch *watch)
 {
     *room = (waiting_room){ .service = service, .watch = watch };
-    room->slow_end = &room->slow;
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);
     pthread_mutex_init(&room->lock, NULL);
     pthread_cond_init(&room->clock_wakes, &monotonic);
-    pthread_cond_init(&room->slow_wakes, NULL);
     pthread_condattr_destroy(&monotonic);
-    if (pthread_create(&room->clock_thread, NULL, run_clock, room) != 0) return false;
-    if (pthread_create(&room->slow_thread, NULL, run_slow, room) == 0) return true;
-    room->closing = true;
-    pthread_cond_signal(&room->clock_wakes);
-    pthread_join(room->clock_thread, NULL);
-    return false;
+    for (int i = 0; i < WAITING_ROOM_LANES; i++) {
+        room->lane[i].room = room;
+        pthread_cond_init(&room->lane[i].wakes, NULL);
+    }
+    bool good = pthread_create(&room->clock_thread, NULL, run_clock, room) == 0;
+    for (int i = 0; good && i < WAITING_ROOM_LANES; i++)
+        good = pthread_create(&room->lane[i].thread, NULL, run_slow, &room->lane[i]) == 0;
+    if (!good) wake_all(room); /* the threads that were made end; so does the process */
+    return good;
 }
 
 void waiting_room_close(waiting_room *room)
 {
-    pthread_mutex_lock(&room->lock);
-    room->closing = true;
-    pthread_cond_broadcast(&room->clock_wakes);
-    pthread_cond_broadcast(&room->slow_wakes);
-    pthread_mutex_unlock(&room->lock);
+    wake_all(room);
     pthread_join(room->clock_thread, NULL);
-    pthread_join(room->slow_thread, NULL);
+    for (int i = 0; i < WAITING_ROOM_LANES; i++) pthread_join(room->lane[i].thread, NULL);
 }

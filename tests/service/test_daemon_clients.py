@@ -1,0 +1,132 @@
+"""One client against all others: who waits, leaves, or does not read, takes nobody's place."""
+import socket
+import sqlite3
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import requests
+from test_daemon_http import head, metrics_of
+
+ENDLESS = "with+recursive+n(i)+as+(select+1+union+all+select+i%2B1+from+n)+select+count(*)+from+n"
+
+
+def ask_and_keep(daemon, target, receive_buffer=None):
+    """A client that has sent its request and reads nothing."""
+    connection = socket.socket()
+    if receive_buffer:
+        connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
+    connection.settimeout(20)
+    connection.connect(("127.0.0.1", daemon.port))
+    connection.sendall(head(daemon, target=target).encode())
+    return connection
+
+
+def answer_of(connection):
+    text = b""
+    while piece := connection.recv(65536):
+        text += piece
+        if b"\r\n\r\n" in text:
+            break
+    return text
+
+
+def until(check, seconds):
+    end = time.monotonic() + seconds
+    while not check():
+        assert time.monotonic() < end
+        time.sleep(0.1)
+
+
+def test_clients_that_close_while_they_wait_give_their_places_back(fake):
+    job = fake.submit(fake="slow", seconds="60")
+    clients = [ask_and_keep(fake, f"/jobs/{job}?wait=60") for _ in range(90)]
+    until(lambda: metrics_of(fake)["reposed_http_connections"] >= 90, 20)
+    for client in clients:
+        client.close()
+    until(lambda: metrics_of(fake)["reposed_http_connections"] < 5, 5)  # a second, and the machine may be busy
+
+
+def test_however_many_wait_the_others_are_answered(fake):
+    job = fake.submit(fake="slow", seconds="60")
+    clients = [ask_and_keep(fake, f"/jobs/{job}?wait=60") for _ in range(260)]
+    clients += [socket.create_connection(("127.0.0.1", fake.port)) for _ in range(300)]  # and these ask nothing
+    try:
+        for _ in range(5):
+            assert fake.get("/healthz").status_code == 200
+        assert fake.get(f"/jobs/{job}").json()["status"] in ("accepted", "running")
+        start = time.monotonic()
+        assert fake.get(f"/jobs/{job}?wait=30").status_code == 200  # at once, as things are: too many wait already
+        assert time.monotonic() - start < 20
+    finally:
+        for client in clients:
+            client.close()
+
+
+def test_a_client_that_closes_its_end_alone_is_answered_still(fake):
+    job = fake.submit(fake="slow", seconds="60")
+    with ask_and_keep(fake, f"/jobs/{job}?wait=60") as client:
+        client.shutdown(socket.SHUT_WR)
+        assert answer_of(client).startswith(b"HTTP/1.1 200")
+    with ask_and_keep(fake, "/query?sql=select+1") as client:
+        client.shutdown(socket.SHUT_WR)
+        assert answer_of(client).startswith(b"HTTP/1.1 200")
+
+
+def test_forty_short_queries_at_once_are_all_answered(fake):
+    with ThreadPoolExecutor(40) as pool:
+        answers = list(pool.map(lambda i: fake.get(f"/query?sql=select+{i}"), range(40)))
+    assert [answer.json()["rows"] for answer in answers] == [[[i]] for i in range(40)]
+
+
+def test_queries_of_clients_that_have_left_are_not_run(fake):
+    clients = [ask_and_keep(fake, f"/query?sql={ENDLESS}") for _ in range(40)]
+    time.sleep(0.2)
+    for client in clients:
+        client.close()
+    start = time.monotonic()
+    assert fake.get("/query?sql=select+1").status_code == 200
+    assert time.monotonic() - start < 15  # where each ran for its 2 s: 80
+
+
+def test_a_slow_query_holds_up_no_study(fake):
+    clients = [ask_and_keep(fake, f"/query?sql={ENDLESS}") for _ in range(9)]
+    start = time.monotonic()
+    study = {"base": {"process": "granule", "inputs": {"friction": 0.5}}}
+    assert requests.post(f"{fake.url}/studies", json=study, timeout=30).status_code == 201
+    assert time.monotonic() - start < 10
+    for client in clients:
+        client.close()
+
+
+def test_the_daemon_leaves_while_queries_run(fake):
+    with ThreadPoolExecutor(20) as pool:
+        answers = [pool.submit(fake.get, f"/query?sql={ENDLESS}") for _ in range(20)]
+        time.sleep(0.5)
+        start = time.monotonic()
+        assert fake.stop(seconds=30) == 0
+        assert time.monotonic() - start < 10  # where each ran for its 2 s: 40
+        for answer in answers:
+            answer.exception()
+
+
+def resident(daemon):
+    return metrics_of(daemon)["process_resident_memory_bytes"]
+
+
+def test_answers_that_nobody_reads_take_bounded_memory(fake):
+    job = fake.submit()
+    fake.ended(job)
+    spec = '"' + "x" * 5000000 + '"'
+    with sqlite3.connect(f"{fake.data}/reposed.sqlite", timeout=30) as writer:
+        writer.execute("update job set spec=?", (spec,))
+    writer.close()
+    before = resident(fake)
+    clients = [ask_and_keep(fake, f"/jobs/{job}/spec", receive_buffer=4096) for _ in range(60)]
+    try:
+        time.sleep(2)
+        assert resident(fake) - before < 150e6  # 300 MB, if all were kept
+        assert fake.get("/healthz").status_code == 200
+        until(lambda: (answer := fake.get(f"/jobs/{job}/spec")).status_code == 200 and answer.content == spec.encode(), 25)
+    finally:
+        for client in clients:
+            client.close()
