@@ -119,11 +119,16 @@ def judge(row, runs):
         text = ", ".join(name if len(names) == 1 else f"{name} {said.count(name)}" for name in names)
         return Verdict(row, text, None, all(name in row["words"] for name in said))
     here = mean(runs, row["measure"])
+    if here is not None and "less" in row:
+        other = mean(runs, row["less"])
+        here = difference(here, other) if other else None
     if here is None:
         return Verdict(row, f"none in {len(runs)} run{'s' if len(runs) > 1 else ''}", None, False)
     if "value" in row:
         z = z_of(here, row["value"], row.get("spread"))
         return Verdict(row, here, z, here.value == row["value"] if z is None else abs(z) <= AGREES, len(runs))
+    if "within" in row:
+        return Verdict(row, here, None, abs(here.value) < row["within"], len(runs))
     bound, sign = (row["above"], 1.0) if "above" in row else (row["below"], -1.0)
     z = z_of(here, bound, row.get("spread"))
     return Verdict(row, here, z, sign * (here.value - bound) > 0.0 if z is None else sign * z > BEYOND, len(runs))

@@ -33,9 +33,9 @@ def fill_variants(inputs):
     kind = inputs["particles"][0]
     spheres = {"sphere": 1, "dumbbell": 2, "tetrahedron": 4, "cube": 8}[kind.get("shape", "sphere")]
     particle = spheres * math.pi / 6 * kind["diameter"] ** 3
-    rate = 0.05 * math.pi / 4 * stream["diameter"] ** 2 * stream["impact_speed"] / particle
+    rate = stream.get("rate", 0.05 * math.pi / 4 * stream["diameter"] ** 2 * stream["impact_speed"] / particle)
     return [
-        {"name": "stream half as wide as the cylinder", "inputs": {"stream": {"diameter": 0.5 * cylinder}}},
+        {"name": "stream a quarter as wide as the cylinder, a quarter of the rate", "inputs": {"stream": {"diameter": 0.25 * cylinder, "rate": round(rate / 4, 1)}}},
         {"name": "stream nearly as wide as the cylinder", "inputs": {"stream": {"diameter": 0.9 * cylinder}}},
         {"name": "a quarter of the rate", "inputs": {"stream": {"rate": round(rate / 4, 1)}}},
     ]
@@ -68,7 +68,7 @@ def can_vary(collected, row):
     row is an input, or would take too long."""
     process = collected["document"]["base"].get("process", "drum")
     inputs = request_of(collected["document"], row["case"])
-    if not row.get("vary", True) or not {"value", "words"} & set(row) or inputs is None or any("diameter" not in kind for kind in inputs["particles"]):
+    if not row.get("vary", True) or not {"value", "within", "words"} & set(row) or inputs is None or any("diameter" not in kind for kind in inputs["particles"]):
         return False
     if process == "fill":
         return "impact_speed" in inputs.get("stream", {}) and "diameter" in inputs["stream"]
