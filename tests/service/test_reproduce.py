@@ -75,6 +75,11 @@ def test_bounds_and_words_are_judged():
     assert comparing.judge(grows, runs).agrees is True
     assert comparing.judge(grows, runs + runs).agrees is True
     assert comparing.judge(grows, [a_run("c", 23, change=one) for one in (-0.9, 1.0, 1.1)]).agrees is False  # 0.4 +- 0.65
+    lost = grows | {"above": 5, "less": "results.repose.angle_deg", "measure": "derived.change"}
+    assert comparing.judge(lost, [a_run("c", 4, change=one) for one in (18.4, 18.5, 18.6)]).agrees is True
+    assert comparing.judge(lost, [a_run("c", 14, change=one) for one in (18.4, 18.5, 18.6)]).agrees is False
+    flat = {"case": "c", "what": "slope", "paper": "nearly flat", "within": 5, "measure": "results.repose.angle_deg"}
+    assert [comparing.judge(flat, [a_run("c", angle)]).agrees for angle in (-15.1, -5.1, -4.9, 4.9, 5.1)] == [False, False, True, True, False]
     regime = {"case": "c", "what": "regime", "paper": "slumping", "words": ["slumping"], "measure": "results.regime.name"}
     mixed = comparing.judge(regime, [a_run("c", 1, regime="slumping"), a_run("c", 1, regime="rolling")])
     assert mixed.agrees is False and mixed.here == "rolling 1, slumping 1"
@@ -151,7 +156,7 @@ def test_every_row_of_the_paper_names_a_case_of_its_study(tmp_path, name):
     cases = {case["case"] for case in check(tmp_path, STUDIES[name])["cases"]}
     assert {row["case"] for row in PAPER[name]} <= cases
     for row in PAPER[name]:
-        assert sum(kind in row for kind in ("value", "words", "above", "below")) == 1 and row["paper"] and row["place"]
+        assert sum(kind in row for kind in ("value", "within", "words", "above", "below")) == 1 and row["paper"] and row["place"]
         assert "value" not in row or row["spread"] > 0
 
 
