@@ -1,14 +1,16 @@
-/* What a job gives over time: samples of its measures, and snapshots. Both come a page at a time. */
+/* What a job gives over time: samples of its measures, and snapshots. Both come a page at a time; samples as CSV come
+ * whole where no limit is asked for. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "handlers.h"
 
-enum { SERIES_LIMIT = 10000, SERIES_BYTES = 64 << 20 };
+enum { SERIES_LIMIT = 10000, SERIES_BYTES = 64 << 20, SAMPLES_IN_A_PIECE = 500 };
 
 typedef struct series_page {
     text_buffer out;
-    json_t *columns; /* CSV alone: names of the measures, from the first row */
+    json_t *columns;       /* CSV alone: names of the measures, from the first row */
     const char *id, *base; /* base: of addresses */
     int64_t rows, limit, last;
     bool more;
@@ -122,17 +124,73 @@ bool read_format(const http_request *request, http_response *response, bool *csv
     return false;
 }
 
+/* All samples as CSV, a piece at a time: what is in memory does not grow with the run. */
+typedef struct sample_stream {
+    series_page page;
+    job_store *store;
+    char id[JOB_ID_SIZE];
+    int64_t after;
+} sample_stream;
+
+static bool add_piece(void *context, text_buffer *out)
+{
+    sample_stream *stream = context;
+    series_page *page = &stream->page;
+    page->rows = 0;
+    page->out = *out; /* lent for this piece */
+    const store_status status = store_list_samples(stream->store, stream->id, stream->after, page->limit, add_sample_csv, page);
+    *out = page->out;
+    if (page->rows > 0) stream->after = page->last;
+    return status == STORE_OK && !out->failed;
+}
+
+static void free_sample_stream(void *context)
+{
+    sample_stream *stream = context;
+    json_decref(stream->page.columns);
+    free(stream);
+}
+
+static void stream_samples(api_service *service, const http_request *request, http_response *response, int64_t after)
+{
+    sample_stream *stream = calloc(1, sizeof *stream);
+    text_buffer first;
+    text_buffer_init(&first, SERIES_BYTES);
+    text_buffer_add(&first, "", 0);
+    if (stream) {
+        stream->page.limit = SAMPLES_IN_A_PIECE;
+        stream->store = service->store;
+        stream->after = after;
+        snprintf(stream->id, sizeof stream->id, "%.*s", JOB_ID_SIZE - 1, request->segment[0]);
+    }
+    if (!stream || !add_piece(stream, &first)) {
+        if (stream) free_sample_stream(stream);
+        text_buffer_clear(&first);
+        respond_store_failure(response, STORE_FAILED, "read the samples");
+        return;
+    }
+    response->pieces = (http_pieces){ add_piece, free_sample_stream, stream };
+    http_respond_text(response, 200, "text/csv; charset=utf-8", first.text, first.length);
+}
+
 void list_samples(api_service *service, const http_request *request, http_response *response)
 {
     series_page series = { 0 };
     int64_t after;
     bool csv;
     if (!read_format(request, response, &csv) || !open_series(service, request, response, &series, &after)) return;
+    if (csv && !http_request_parameter(request, "limit")) {
+        stream_samples(service, request, response, after);
+        return;
+    }
     if (!csv) text_buffer_print(&series.out, "{\"samples\":[");
     else text_buffer_add(&series.out, "", 0);
     const store_status status =
         store_list_samples(service->store, series.id, after, series.limit + 1, csv ? add_sample_csv : add_sample_json, &series);
     if (!csv) add_links(&series, "samples");
+    else if (series.more)
+        snprintf(response->link, sizeof response->link, "<%s/jobs/%s/samples?format=csv&after=%lld&limit=%lld>; rel=\"next\"",
+                 series.base, series.id, (long long)series.last, (long long)series.limit);
     close_series(&series, response, status, csv ? "text/csv; charset=utf-8" : "application/json", "read the samples");
 }
 

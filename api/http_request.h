@@ -12,6 +12,7 @@
 
 #include "client_watch.h"
 #include "problem.h"
+#include "text_buffer.h"
 
 enum { HTTP_PARAMETERS = 32, HTTP_SEGMENTS = 2, HTTP_SEGMENT_SIZE = 65, HTTP_BASE_SIZE = 320 };
 
@@ -33,14 +34,23 @@ typedef struct http_request {
     client_watch client;
 } http_request;
 
+/* An answer that is made while it is sent. next: adds the next piece to out, which is empty, and nothing at the end;
+ * false breaks the answer off, which the client sees. Owns context. */
+typedef struct http_pieces {
+    bool (*next)(void *context, text_buffer *out);
+    void (*free)(void *context);
+    void *context; /* NULL: the body is all */
+} http_pieces;
+
 typedef struct http_response {
     int status;
     const char *content_type;
     char *body; /* owned; length bytes; NULL when a file is sent */
     int file;   /* owned descriptor, or -1: length bytes from offset are sent */
     uint64_t offset, length;
+    http_pieces pieces;        /* what comes after the body */
     char base[HTTP_BASE_SIZE]; /* "http://host:port", put before addresses that begin with /; "": they stay as they are */
-    char location[HTTP_BASE_SIZE + 160], etag[80], content_range[80];
+    char location[HTTP_BASE_SIZE + 160], etag[80], content_range[80], link[HTTP_BASE_SIZE + 200];
     const char *cache_control, *allow, *preference_applied, *authenticate, *accept_ranges;
     int retry_after; /* s; 0: no such header */
     double wait;     /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */

@@ -13,6 +13,7 @@ void http_response_init(http_response *response) { *response = (http_response){ 
 void http_response_clear(http_response *response)
 {
     free(response->body);
+    if (response->pieces.context) response->pieces.free(response->pieces.context);
     if (response->file >= 0) close(response->file);
     http_response_init(response);
 }

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include "http_reply.h"
 #include "log.h"
 
 enum {
@@ -54,52 +55,12 @@ static void hold_answer(http_exchange *exchange)
 
 /* --- answering --- */
 
-static void add_header(struct MHD_Response *reply, const char *name, const char *value)
-{
-    if (value && value[0]) MHD_add_response_header(reply, name, value);
-}
-
-static void add_headers(struct MHD_Response *reply, const http_response *response)
-{
-    char retry_after[16] = "";
-    if (response->retry_after > 0) snprintf(retry_after, sizeof retry_after, "%d", response->retry_after);
-    add_header(reply, "Content-Type", response->content_type);
-    add_header(reply, "Location", response->location);
-    add_header(reply, "ETag", response->etag);
-    add_header(reply, "Content-Range", response->content_range);
-    add_header(reply, "Accept-Ranges", response->accept_ranges);
-    add_header(reply, "Cache-Control", response->cache_control ? response->cache_control : "no-store");
-    add_header(reply, "Allow", response->allow);
-    add_header(reply, "Preference-Applied", response->preference_applied);
-    add_header(reply, "WWW-Authenticate", response->authenticate);
-    add_header(reply, "Retry-After", retry_after);
-    add_header(reply, "Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'");
-    add_header(reply, "X-Content-Type-Options", "nosniff");
-    add_header(reply, "Referrer-Policy", "no-referrer");
-    /* After a refusal the rest of the stream may not be what it seems. */
-    if (response->status >= 400) add_header(reply, "Connection", "close");
-}
-
-static struct MHD_Response *reply_of(http_response *response)
-{
-    if (response->file >= 0 && response->length > 0) {
-        struct MHD_Response *reply = MHD_create_response_from_fd_at_offset64(response->length, response->file, response->offset);
-        if (reply) response->file = -1; /* the library closes it */
-        return reply;
-    }
-    struct MHD_Response *reply =
-        MHD_create_response_from_buffer(response->body ? response->length : 0, response->body, MHD_RESPMEM_MUST_FREE);
-    if (reply) response->body = NULL; /* the library frees it */
-    return reply;
-}
-
 static enum MHD_Result send_response(http_exchange *exchange)
 {
     http_response *response = &exchange->response;
     hold_answer(exchange);
-    struct MHD_Response *reply = reply_of(response);
+    struct MHD_Response *reply = http_reply_make(response);
     if (!reply) return MHD_NO;
-    add_headers(reply, response);
     metrics_count(&exchange->server->metrics, exchange->route, response->status, exchange->worked);
     if (response->status >= 500) log_line("%s %s: answered %d", exchange->request.method, exchange->request.path, response->status);
     connection_watch_set_sending(&exchange->server->watch, exchange->watched);

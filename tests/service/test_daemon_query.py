@@ -5,9 +5,10 @@ import os
 import sqlite3
 import threading
 import time
-from concurrent.futures import ThreadPoolExecutor
+from urllib.parse import urljoin
 
 import pytest
+import requests
 
 
 @pytest.fixture
@@ -189,6 +190,29 @@ def test_csv_is_whole_or_refused(filled):
     wide_rows = "with recursive n(i) as (select 1 union all select i+1 from n limit 3000) select i, printf('%.*c', 20000, 'x') from n"
     answer = ask(filled, wide_rows, format="csv")
     assert answer.status_code == 400 and "LIMIT and OFFSET" in answer.json()["detail"]
+
+
+def test_samples_as_csv_are_whole_or_say_where_they_go_on(filled):
+    job = filled.get("/jobs").json()["jobs"][0]["jobID"]
+    with sqlite3.connect(f"{filled.data}/reposed.sqlite", timeout=30) as writer:
+        number = writer.execute("select number from job where id=?", (job,)).fetchone()[0]
+        writer.execute("delete from sample where job=?", (number,))
+        writer.executemany("insert into sample(job,number,step,time,measures) values(?,?,?,?,?)",
+                           ((number, i, 10 * i, i / 8, f'{{"angle_deg": {-i / 4}, "=odd": {i}}}') for i in range(25003)))
+    writer.close()
+    answer = filled.get(f"/jobs/{job}/samples?format=csv")
+    rows = list(csv.reader(io.StringIO(answer.text)))
+    assert rows[0] == ["number", "step", "time", "angle_deg", "'=odd"] and "Link" not in answer.headers
+    assert rows[1:] == [[str(i), str(10 * i), f"{i / 8:.15g}", f"{-i / 4:.15g}", str(i)] for i in range(25003)]
+    tail = filled.get(f"/jobs/{job}/samples?format=csv&after=24999").text.splitlines()
+    assert [row.split(",")[0] for row in tail] == ["number", "25000", "25001", "25002"]
+    page, pages = filled.get(f"/jobs/{job}/samples?format=csv&limit=9000"), 1
+    numbers = [row.split(",")[0] for row in page.text.splitlines()[1:]]
+    while "next" in page.links:
+        page, pages = requests.get(urljoin(filled.url, page.links["next"]["url"]), timeout=30), pages + 1
+        numbers += [row.split(",")[0] for row in page.text.splitlines()[1:]]
+    assert pages == 3 and numbers == [str(i) for i in range(25003)]
+    assert filled.get(f"/jobs/{job}/samples?format=csv&after=30000").text == ""
 
 
 def test_members_of_a_json_text_are_rows(filled):

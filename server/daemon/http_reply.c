@@ -1,0 +1,106 @@
+#include "http_reply.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { READ_AT_ONCE = 32 << 10, MOST_PIECE_BYTES = 4 << 20 };
+
+/* --- headers --- */
+
+static void add_header(struct MHD_Response *reply, const char *name, const char *value)
+{
+    if (value && value[0]) MHD_add_response_header(reply, name, value);
+}
+
+static void add_headers(struct MHD_Response *reply, const http_response *response)
+{
+    char retry_after[16] = "";
+    if (response->retry_after > 0) snprintf(retry_after, sizeof retry_after, "%d", response->retry_after);
+    add_header(reply, "Content-Type", response->content_type);
+    add_header(reply, "Location", response->location);
+    add_header(reply, "ETag", response->etag);
+    add_header(reply, "Link", response->link);
+    add_header(reply, "Content-Range", response->content_range);
+    add_header(reply, "Accept-Ranges", response->accept_ranges);
+    add_header(reply, "Cache-Control", response->cache_control ? response->cache_control : "no-store");
+    add_header(reply, "Allow", response->allow);
+    add_header(reply, "Preference-Applied", response->preference_applied);
+    add_header(reply, "WWW-Authenticate", response->authenticate);
+    add_header(reply, "Retry-After", retry_after);
+    add_header(reply, "Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'");
+    add_header(reply, "X-Content-Type-Options", "nosniff");
+    add_header(reply, "Referrer-Policy", "no-referrer");
+    /* After a refusal the rest of the stream may not be what it seems. */
+    if (response->status >= 400) add_header(reply, "Connection", "close");
+}
+
+/* --- answers in pieces --- */
+
+typedef struct stream {
+    http_pieces pieces;
+    text_buffer out;
+    size_t sent; /* of out */
+} stream;
+
+/* Called as the client reads on, so that no more than one piece is in memory. */
+static ssize_t read_stream(void *context, uint64_t position, char *piece, size_t size)
+{
+    (void)position;
+    stream *from = context;
+    if (from->sent == from->out.length) {
+        from->sent = from->out.length = 0;
+        if (!from->pieces.next(from->pieces.context, &from->out) || from->out.failed) return MHD_CONTENT_READER_END_WITH_ERROR;
+        if (from->out.length == 0) return MHD_CONTENT_READER_END_OF_STREAM;
+    }
+    const size_t left = from->out.length - from->sent, length = left < size ? left : size;
+    memcpy(piece, from->out.text + from->sent, length);
+    from->sent += length;
+    return (ssize_t)length;
+}
+
+static void free_stream(void *context)
+{
+    stream *from = context;
+    from->pieces.free(from->pieces.context);
+    text_buffer_clear(&from->out);
+    free(from);
+}
+
+/* The body, then piece after piece. */
+static struct MHD_Response *reply_in_pieces(http_response *response)
+{
+    stream *from = calloc(1, sizeof *from);
+    if (!from) return NULL;
+    text_buffer_init(&from->out, MOST_PIECE_BYTES);
+    from->out.text = response->body;
+    from->out.length = response->length;
+    from->out.capacity = response->length;
+    from->pieces = response->pieces;
+    response->body = NULL;
+    response->pieces = (http_pieces){ .context = NULL };
+    struct MHD_Response *reply = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, READ_AT_ONCE, read_stream, from, free_stream);
+    if (!reply) free_stream(from);
+    return reply;
+}
+
+static struct MHD_Response *reply_of(http_response *response)
+{
+    if (response->pieces.context) return reply_in_pieces(response);
+    if (response->file >= 0 && response->length > 0) {
+        struct MHD_Response *reply = MHD_create_response_from_fd_at_offset64(response->length, response->file, response->offset);
+        if (reply) response->file = -1; /* the library closes it */
+        return reply;
+    }
+    struct MHD_Response *reply =
+        MHD_create_response_from_buffer(response->body ? response->length : 0, response->body, MHD_RESPMEM_MUST_FREE);
+    if (reply) response->body = NULL; /* the library frees it */
+    return reply;
+}
+
+struct MHD_Response *http_reply_make(http_response *response)
+{
+    struct MHD_Response *reply = reply_of(response);
+    if (reply) add_headers(reply, response);
+    return reply;
+}

@@ -1,0 +1,12 @@
+/* A handler's answer as the HTTP library sends it: from memory, from a file, or in pieces. */
+#ifndef HTTP_REPLY_H
+#define HTTP_REPLY_H
+
+#include <microhttpd.h>
+
+#include "http_request.h"
+
+/* Takes body, file and pieces out of the response. NULL: no memory. */
+struct MHD_Response *http_reply_make(http_response *response);
+
+#endif
