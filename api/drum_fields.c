@@ -17,8 +17,11 @@ static const spec_field fields[] = {
                  "discs that turn with it" },
     { SPEC_DRUM, "lifters", FIELD_OBJECT_OR_NULL, SPEC_LIFTERS, AT(lifter_count),
       .meaning = "straight bars of rectangular section along the wall, evenly spaced, turning with it; null: none" },
-    { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .unit = "rad/s", RANGE(0.001, 500.0), .fallback = NAN,
-      AT(rotation_rate), .meaning = "rate of rotation" },
+    { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .spared_by = "rotation_rate_rpm", .unit = "rad/s",
+      RANGE(-500.0, 500.0), .least_size = 0.001, .fallback = NAN, AT(rotation_rate),
+      .meaning = "rate of rotation; below 0: the other way, the mirror image" },
+    { SPEC_DRUM, "rotation_rate_rpm", FIELD_REAL, .unit = "1/min", RANGE(-4770.0, 4770.0), .least_size = 0.01, .fallback = NAN,
+      .excludes_too = "rotation_rate", AT(rotation_rate_rpm), .meaning = "revolutions a minute, instead of rotation_rate" },
 
     FIELDS_OF_PARTICLES,
 

@@ -19,7 +19,7 @@
 static void derive_duration(drum_inputs *inputs, job_spec *spec, problem_list *problems)
 {
     enum { USUAL_MOST_REVOLUTIONS = 10 };
-    const double revolution = 2.0 * DEM_PI / inputs->rotation_rate;
+    const double revolution = 2.0 * DEM_PI / fabs(inputs->rotation_rate);
     spec->until_standard_error = isnan(inputs->until_standard_error) ? 0.0 : inputs->until_standard_error;
     if (spec->until_standard_error > 0.0) {
         if (isnan(inputs->at_most_revolutions)) inputs->at_most_revolutions = USUAL_MOST_REVOLUTIONS;
@@ -34,6 +34,25 @@ static void derive_duration(drum_inputs *inputs, job_spec *spec, problem_list *p
     spec->duration = isnan(inputs->revolutions) ? inputs->seconds : inputs->revolutions * revolution;
 }
 
+static void derive_rate(drum_inputs *inputs)
+{
+    if (!isnan(inputs->rotation_rate_rpm)) inputs->rotation_rate = rotation_of_rpm(inputs->rotation_rate_rpm);
+    inputs->rate_was_rpm = inputs->rotation_rate_rpm;
+    inputs->rotation_rate_rpm = NAN; /* one spelling in the canonical specification */
+}
+
+/* A drum that turns the other way is the mirror image of one that turns this way, and that is what runs: so all that is
+ * measured is the same to the last bit. What is read and written is mirrored. A cluster is, too, in its own frame: z for
+ * -z, which is what turns its orientation w, x, y, z of the one into y, z, w, x of the other. */
+static void mirror(job_spec *spec)
+{
+    spec->is_mirrored = spec->inputs.rotation_rate < 0.0;
+    for (size_t s = 0; spec->is_mirrored && s < spec->drum.species_count; s++) {
+        dem_cluster *cluster = &spec->drum.species[s].cluster;
+        for (size_t k = 0; k < cluster->sphere_count; k++) cluster->sphere[k].position[2] = -cluster->sphere[k].position[2];
+    }
+}
+
 static bool has_end_walls(const drum_inputs *inputs) { return inputs->drum_ends == 1.0; }
 
 static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_t seed_if_missing)
@@ -43,7 +62,7 @@ static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_
     if (isnan(inputs->lining_pitch)) inputs->lining_pitch = inputs->lining_diameter;
     if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & ((UINT64_C(1) << 53) - 1));
     if (isnan(inputs->sample_interval)) {
-        const double revolution = 2.0 * DEM_PI / inputs->rotation_rate;
+        const double revolution = 2.0 * DEM_PI / fabs(inputs->rotation_rate);
         inputs->sample_interval =
             fmin(SCENE_SAMPLE_INTERVAL_MOST, fmin(duration / SCENE_SAMPLES_PER_RUN, revolution / SAMPLES_PER_REVOLUTION));
     }
@@ -192,7 +211,7 @@ static double derive_drum(drum_inputs *inputs, dem_drum_definition *drum, proble
     *drum = (dem_drum_definition){
         .diameter = inputs->drum_diameter,
         .length = inputs->drum_length,
-        .rotation_rate = inputs->rotation_rate,
+        .rotation_rate = fabs(inputs->rotation_rate),
         .gravity = inputs->gravity,
         .is_placed = !isnan(inputs->start.given),
         .seed = isnan(inputs->seed) ? 0 : (uint64_t)inputs->seed,
@@ -217,6 +236,7 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
 {
     drum_inputs *inputs = &spec->inputs;
     json_t *origin = start_find(spec, problems);
+    derive_rate(inputs);
     derive_duration(inputs, spec, problems);
     if (inputs->start.particle_count == 0) scene_share_out(inputs, problems);
     set_dependent_defaults(inputs, spec->duration, seed_if_missing);
@@ -230,4 +250,5 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
     start_check_particles(inputs, &spec->drum, problems);
     start_compare(spec, origin, problems);
     json_decref(origin);
+    mirror(spec);
 }

@@ -11,20 +11,22 @@
 
 static double froude_of(const job_spec *spec)
 {
-    return froude_number(spec->drum.rotation_rate, 0.5 * spec->drum.diameter, spec->drum.gravity);
+    return froude_number(spec->inputs.rotation_rate, 0.5 * spec->drum.diameter, spec->drum.gravity);
 }
 
 /* Revolutions a minute taken for radians a second make nine times the rate. */
 static void warn_of_rate(const job_spec *spec, problem_list *warnings)
 {
-    const double rate = spec->drum.rotation_rate, froude = froude_of(spec);
-    if (froude > FAST_FROUDE)
+    const double rate = spec->inputs.rotation_rate, froude = froude_of(spec);
+    const char *what = froude >= 1.0 ? "the drum holds particles against its wall" : "the surface is no longer straight";
+    if (froude > FAST_FROUDE && !isnan(spec->inputs.rate_was_rpm))
+        problem_list_add(warnings, "/inputs/drum/rotation_rate_rpm", "is %.6g, which is %.4g rad/s and a Froude number of %.3g: %s",
+                         spec->inputs.rate_was_rpm, rate, froude, what);
+    else if (froude > FAST_FROUDE)
         problem_list_add(warnings, "/inputs/drum/rotation_rate",
                          "is %.6g rad/s, which is %.4g revolutions a minute and a Froude number of %.3g: %s; if %.6g revolutions a "
-                         "minute were meant, give %.6g rad/s",
-                         rate, revolutions_a_minute(rate), froude,
-                         froude >= 1.0 ? "the drum holds particles against its wall" : "the surface is no longer straight", rate,
-                         rate * 2.0 * DEM_PI / 60.0);
+                         "minute were meant, give that as rotation_rate_rpm, or %.6g rad/s",
+                         rate, revolutions_a_minute(rate), froude, what, rate, rotation_of_rpm(rate));
 }
 
 void drum_warn(const job_spec *spec, problem_list *warnings)
@@ -36,9 +38,9 @@ void drum_warn(const job_spec *spec, problem_list *warnings)
 void drum_understand(const job_spec *spec, json_t *words)
 {
     char time[TIME_IN_WORDS_SIZE];
-    const double revolutions = spec->duration * fabs(spec->drum.rotation_rate) / (2.0 * DEM_PI);
+    const double revolutions = spec->duration * fabs(spec->inputs.rotation_rate) / (2.0 * DEM_PI);
     time_in_words(spec->duration, time);
-    rotation_understand(spec->drum.rotation_rate, froude_of(spec), words);
+    rotation_understand(spec->inputs.rotation_rate, froude_of(spec), words);
     scene_understand(spec, words);
     json_object_set_new(words, "duration",
                         json_sprintf("%s%.4g revolution%s, %s of rotation", spec->until_standard_error > 0.0 ? "at most " : "",

@@ -12,13 +12,16 @@
 static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
     (void)seed_if_missing, (void)problems; /* nothing is random, and every combination of its inputs makes sense */
-    const granule_inputs *inputs = &spec->granule_inputs;
+    granule_inputs *inputs = &spec->granule_inputs;
+    const double rpm = inputs->rotation_rate_rpm;
+    if (!isnan(rpm)) inputs->rotation_rate = rotation_of_rpm(rpm);
+    inputs->rotation_rate_rpm = NAN;
     spec->threads = 1;
     spec->granule = (dem_granule_definition){
         .friction = inputs->friction,
         .radius = inputs->radius,
         .gravity = inputs->gravity,
-        .rotation_rate = inputs->rotation_rate,
+        .rotation_rate = fabs(inputs->rotation_rate), /* the other way is the mirror image */
         .revolutions = isnan(inputs->revolutions) ? 1 : (int)inputs->revolutions,
         .tolerance = inputs->tolerance,
     };
@@ -42,7 +45,7 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
 
 static void understand(const job_spec *spec, json_t *words)
 {
-    const dem_granule_definition *granule = &spec->granule;
+    const granule_inputs *granule = &spec->granule_inputs;
     if (!isnan(granule->rotation_rate))
         rotation_understand(granule->rotation_rate, froude_number(granule->rotation_rate, granule->radius, granule->gravity),
                             words);

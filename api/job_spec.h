@@ -60,6 +60,8 @@ typedef struct heap_inputs {
 /* Of every process that advances a scene: drum, fill, heap. */
 typedef struct drum_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
+    double rotation_rate_rpm; /* given instead; NaN once rotation_rate is set by it */
+    double rate_was_rpm;      /* NaN: it was not */
     size_t species_count;
     species_inputs species[DEM_MAXIMUM_SPECIES];
     double share_by;                                   /* a share_basis */
@@ -83,6 +85,7 @@ typedef struct drum_inputs {
 
 typedef struct granule_inputs {
     double friction, radius, rotation_rate; /* rotation_rate may be NaN: not asked for */
+    double rotation_rate_rpm;               /* given instead; NaN once rotation_rate is set by it */
     double revolutions, gravity, tolerance;
 } granule_inputs;
 
@@ -106,6 +109,7 @@ typedef struct job_spec {
     /* Of all that advance a scene: */
     drum_inputs inputs;          /* as asked for */
     dem_drum_definition drum;    /* the scene, complete: stiffness, time step and particle count derived */
+    bool is_mirrored;            /* rotation_rate is below 0: the scene is the mirror image, x for -x, of what was asked for */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
     double expected_overlap;     /* of the hardest impact, likewise; follows from the stiffness where that was given */
     double duration;             /* s from when rotation, filling or lifting starts; at most, where the run ends by itself */

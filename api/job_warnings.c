@@ -5,6 +5,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "dem_rules.h"
 #include "process_type.h"
 #include "spec_text.h"
 
@@ -23,6 +24,8 @@ void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE])
     if (seconds < 1.0 && u < last) u = last;
     snprintf(text, TIME_IN_WORDS_SIZE, "%.3g %s", seconds / units[u].seconds, units[u].unit);
 }
+
+double rotation_of_rpm(double rpm) { return rpm * 2.0 * DEM_PI / 60.0; }
 
 static const spec_field *input(const job_spec *spec, const char *name)
 {

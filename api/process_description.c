@@ -15,6 +15,9 @@ static json_t *number_schema(const spec_field *field)
     json_t *schema = json_pack("{s:s}", "type", field->kind == FIELD_INTEGER ? "integer" : "number");
     json_object_set_new(schema, field->minimum_open ? "exclusiveMinimum" : "minimum", whole_or_real(field->minimum));
     json_object_set_new(schema, "maximum", whole_or_real(field->maximum));
+    if (field->least_size > 0.0)
+        json_object_set_new(schema, "not", json_pack("{s:f, s:f}", "exclusiveMinimum", -field->least_size, "exclusiveMaximum",
+                                                     field->least_size));
     if (!isnan(field->fallback)) json_object_set_new(schema, "default", whole_or_real(field->fallback));
     if (*field->unit) json_object_set_new(schema, "x-unit", json_string(field->unit));
     return schema;
@@ -78,6 +81,10 @@ static json_t *group_schema(const spec_table *table, spec_group group)
         if (field->group != group) continue;
         json_object_set_new(properties, field->name, field_schema(table, field));
         if (field->required && !field->spared_by) json_array_append_new(required, json_string(field->name));
+        const spec_field *other = field->required && field->spared_by ? spec_field_find(table, group, field->spared_by) : NULL;
+        if (other && other->kind == FIELD_REAL)
+            json_array_append_new(exclusions, json_pack("{s:[{s:[s]}, {s:[s]}]}", "anyOf", "required", field->name, "required",
+                                                        other->name));
         if (field->excludes && !isnan(field->fallback)) json_array_append_new(exclusions, exclusion(field, field->excludes));
         if (field->excludes_too) json_array_append_new(exclusions, exclusion(field, field->excludes_too));
     }

@@ -36,6 +36,8 @@ const process_type *process_type_find(const char *name); /* NULL: unknown */
 enum { TIME_IN_WORDS_SIZE = 40 };
 void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE]); /* job_warnings.c */
 
+double rotation_of_rpm(double rpm); /* rad/s; job_warnings.c */
+
 /* The names of all, for messages: "drum", "fill", ... */
 void process_type_names(char *text, size_t size);
 

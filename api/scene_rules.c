@@ -15,6 +15,7 @@
 #define MOST_SNAPSHOTS 1e5
 #define MOST_SNAPSHOT_BYTES 1e12
 #define MOST_SAMPLES 2e5
+#define MOST_SHARE_ERROR 1.000001e-4 /* of the sum of shares, which are often given in four digits */
 #define LEAST_RESTITUTION 0.3 /* as restitution's own range has it */
 #define MOST_OVERLAP 0.25     /* of the smallest diameter: beyond half a radius a run is stopped */
 
@@ -45,7 +46,7 @@ void scene_share_out(drum_inputs *inputs, problem_list *problems)
                          "have a valid share in %zu of %zu entries; give it in all or "
                          "in none",
                          given, inputs->species_count);
-    } else if (fabs(sum - 1.0) > 1e-9) {
+    } else if (fabs(sum - 1.0) > MOST_SHARE_ERROR) {
         problem_list_add(problems, "/inputs/particles", "have shares that sum to %.12g; must sum to 1", sum);
     }
 }

@@ -50,10 +50,11 @@ typedef struct spec_field {
     field_kind kind;
     spec_group child; /* objects and lists: whose members they hold */
     bool required;
-    const char *spared_by;      /* the member that, where it is an object, makes this one no longer required */
+    const char *spared_by;      /* the member that, where it is an object or a number, makes this one no longer required */
     const char *unit;           /* "" for a pure number */
     double minimum, maximum;    /* lists: of their length */
     bool minimum_open;          /* the minimum itself is not allowed */
+    double least_size;          /* of either sign; 0: may be 0 */
     double fallback;            /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
     const char *excludes;       /* the member that may be given instead */
     const char *excludes_too;   /* another such member */

@@ -45,6 +45,8 @@ static void range_text(const spec_field *field, char *text, size_t size)
 {
     snprintf(text, size, "%s%.16g, %.16g]%s%s", field->minimum_open ? "(" : "[", field->minimum, field->maximum,
              field->unit && *field->unit ? " " : "", field->unit ? field->unit : "");
+    const size_t length = strlen(text);
+    if (field->least_size > 0.0) snprintf(text + length, size - length, ", and at least %g in size", field->least_size);
 }
 
 /* Why it can't be used. */
@@ -59,7 +61,7 @@ static void refuse_number(const spec_field *field, const json_t *value, const ch
     const char *space = *field->unit ? " " : "";
     if (!json_is_number(value))
         problem_list_add(problems, pointer, "is %s; must be %s in %s", seen, integer ? "a whole number" : "a number", range);
-    else if (low || !(number <= field->maximum))
+    else if (low || !(number <= field->maximum) || fabs(number) < field->least_size)
         problem_list_add(problems, pointer, "is %s%s%s; must be in %s", seen, space, field->unit, range);
     else if (integer && number != floor(number))
         problem_list_add(problems, pointer, "is %s; must be a whole number in %s", seen, range);
@@ -74,7 +76,8 @@ static double read_number(const spec_field *field, const json_t *value, const ch
     const bool high_enough = field->minimum_open ? number > field->minimum : number >= field->minimum;
     const bool whole_where_asked = field->kind != FIELD_INTEGER || number == floor(number);
     const bool kept = number == 0.0 || fabs(number) >= 2.2250738585072014e-308; /* the smallest normal double */
-    if (json_is_number(value) && high_enough && number <= field->maximum && whole_where_asked && kept)
+    if (json_is_number(value) && high_enough && number <= field->maximum && fabs(number) >= field->least_size && whole_where_asked
+        && kept)
         return number == 0.0 ? 0.0 : number; /* -0 would be another text for the same input */
     refuse_number(field, value, pointer, problems);
     return NAN;
@@ -234,7 +237,8 @@ static double read_scalar(const spec_field *field, const json_t *object, const c
     if (value && field->kind == FIELD_CHOICE) return read_choice(field, value, pointer, problems);
     if (value && field->kind == FIELD_TRUE) return read_true(value, pointer, problems);
     if (value) return read_number(field, value, pointer, problems);
-    if (field->required && !(field->spared_by && json_is_object(json_object_get(object, field->spared_by)))) {
+    const json_t *sparing = field->spared_by ? json_object_get(object, field->spared_by) : NULL;
+    if (field->required && !json_is_object(sparing) && !json_is_number(sparing)) {
         char range[120];
         range_text(field, range, sizeof range);
         problem_list_add(problems, pointer, "is missing; must be a number in %s", range);

@@ -230,6 +230,12 @@ void start_compare(const job_spec *spec, const json_t *origin, problem_list *pro
                          "makes %.0f particles; must be left out, or make %.0f, as many as the bed that it starts from has", asked,
                          there);
     if (!then || json_array_size(problems->errors) > (asked != there)) return; /* what was refused can't be written */
+    const double rate = json_number_value(json_object_get(json_object_get(then, "drum"), "rotation_rate"));
+    const bool remembers = spec->inputs.start.checkpoint > 0.0 || json_is_true(json_object_get(origin, "is_checkpoint"));
+    if (remembers && (rate < 0.0) != (spec->inputs.rotation_rate < 0.0))
+        problem_list_add(problems, "/inputs/drum/rotation_rate",
+                         "turns the other way than the bed's checkpoint, whose contacts remember theirs; must turn the same way, or "
+                         "start from a snapshot");
     json_t *now = spec_inputs_write(spec->type->inputs, (const char *)spec + spec->type->inputs_at);
     for (size_t k = 0; now && k < sizeof compared / sizeof compared[0]; k++) {
         char pointer[40];

@@ -23,7 +23,7 @@ static store_status insert_drum(sqlite3 *writer, int64_t job, const job_spec *sp
                    "idddddii"
                    "dddddddddd"
                    "ititdd",
-                   job, drum->diameter, drum->length, drum->rotation_rate, drum->gravity, drum->fill_fraction,
+                   job, drum->diameter, drum->length, spec->inputs.rotation_rate, drum->gravity, drum->fill_fraction,
                    (int64_t)drum->particle_count, (int64_t)drum->species_count, drum->species[0].diameter, drum->species[0].density,
                    drum->contact.friction, drum->contact.restitution, drum->contact.wall_friction,
                    drum->contact.tangential_stiffness_ratio, drum->contact.stiffness, drum->lining.diameter, drum->time_step,
@@ -66,7 +66,7 @@ static store_status insert_granule(sqlite3 *writer, int64_t job, const job_spec 
 {
     const dem_granule_definition *granule = &spec->granule;
     return sql_run(writer, NULL, "INSERT INTO granule_input VALUES(?,?,?,?,?,?,?)", "idddidd", job, granule->friction,
-                   granule->radius, granule->rotation_rate, (int64_t)granule->revolutions, granule->gravity, granule->tolerance);
+                   granule->radius, spec->granule_inputs.rotation_rate, (int64_t)granule->revolutions, granule->gravity, granule->tolerance);
 }
 
 static const struct {

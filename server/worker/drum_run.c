@@ -34,7 +34,7 @@ static dem_status add_fields(const scene_run *run, double *tally)
 
 static bool write_fields(const scene_run *run)
 {
-    return fields_file_write(run->scene, run->tally, &run->spec->drum, run->params);
+    return fields_file_write(run->scene, run->spec->is_mirrored, run->tally, &run->spec->drum, run->params);
 }
 
 static const char *ended_by_time(const job_spec *spec)

@@ -15,6 +15,7 @@
 
 #include "hdf_file.h"
 #include "job_folder.h"
+#include "mirror.h"
 #include "worker_log.h"
 
 /* data: (cells, cells, components), with room for as much again behind it. */
@@ -50,7 +51,30 @@ static void add_groups(hdf_file *file, size_t cells, double diameter, double len
     hdf_add_text_attribute(file, "/run", "params_json", params, H5T_CSET_UTF8);
 }
 
-bool fields_file_write(const dem_scene *scene, const double *sums, const dem_drum_definition *drum, const char *params)
+/* x for -x: the columns of each row in reverse. */
+static void mirror_field(double *data, size_t cells, size_t components)
+{
+    for (size_t y = 0; y < cells; y++)
+        for (size_t x = 0; 2 * x + 1 < cells; x++)
+            for (size_t c = 0; c < components; c++) {
+                double *a = data + (y * cells + x) * components + c, *b = data + (y * cells + cells - 1 - x) * components + c;
+                const double kept = *a;
+                *a = *b;
+                *b = kept;
+            }
+}
+
+static void mirror_fields(const dem_field_arrays *fields, size_t cells)
+{
+    mirror_field(fields->solid_fraction, cells, 1);
+    mirror_field(fields->temperature, cells, 1);
+    mirror_field(fields->samples, cells, 1);
+    mirror_field(fields->velocity, cells, 3);
+    mirror_vectors(fields->velocity, cells * cells);
+}
+
+bool fields_file_write(const dem_scene *scene, bool is_mirrored, const double *sums, const dem_drum_definition *drum,
+                       const char *params)
 {
     const size_t cells = dem_fields_cells(scene), n = cells * cells;
     double *all = malloc(12 * n * sizeof *all);
@@ -62,6 +86,7 @@ bool fields_file_write(const dem_scene *scene, const double *sums, const dem_dru
         .solid_fraction = all, .temperature = all + 2 * n, .samples = all + 4 * n, .velocity = all + 6 * n
     };
     dem_fields_measure(scene, sums, &fields);
+    if (is_mirrored) mirror_fields(&fields, cells);
     hdf_file file;
     hdf_create(&file, JOB_FIELDS_FILE);
     add_groups(&file, cells, drum->diameter, drum->length, sums[0], params);

@@ -17,6 +17,7 @@
 #include "file_publish.h"
 #include "hdf_file.h"
 #include "job_folder.h"
+#include "mirror.h"
 #include "worker_log.h"
 
 #define VERTEX 1 /* VTK_VERTEX */
@@ -50,16 +51,19 @@ static void add_cells(hdf_file *file, size_t n, int64_t *rising, uint8_t *vertic
 }
 
 /* reals: room for 4 n, used for one field after the other, as is integers with n. */
-static void add_spheres(hdf_file *file, const dem_scene *scene, double *reals, int32_t *integers)
+static void add_spheres(hdf_file *file, const dem_scene *scene, bool is_mirrored, double *reals, int32_t *integers)
 {
     const size_t n = dem_scene_sphere_count(scene);
     dem_scene_particles(scene, &(dem_particle_arrays){ .position = reals });
+    if (is_mirrored) mirror_vectors(reals, n);
     add_reals(file, "/VTKHDF/Points", reals, n, 3);
     dem_scene_particles(scene, &(dem_particle_arrays){ .radius = reals });
     add_reals(file, "/VTKHDF/PointData/radius", reals, n, 0);
     dem_scene_particles(scene, &(dem_particle_arrays){ .angular_velocity = reals });
+    if (is_mirrored) mirror_spins(reals, n);
     add_reals(file, "/VTKHDF/PointData/angular_velocity", reals, n, 3);
     dem_scene_particles(scene, &(dem_particle_arrays){ .velocity = reals });
+    if (is_mirrored) mirror_vectors(reals, n);
     add_reals(file, "/VTKHDF/PointData/velocity", reals, n, 3);
     for (size_t i = 0; i < n; i++)
         reals[i] = sqrt(reals[3 * i] * reals[3 * i] + reals[3 * i + 1] * reals[3 * i + 1] + reals[3 * i + 2] * reals[3 * i + 2]);
@@ -76,6 +80,7 @@ static void add_spheres(hdf_file *file, const dem_scene *scene, double *reals, i
     /* A sphere by itself turns without anything depending on where it points to: it has none. */
     if (!dem_scene_has_clusters(scene)) return;
     dem_scene_particles(scene, &(dem_particle_arrays){ .orientation = reals });
+    if (is_mirrored) mirror_turns(reals, n);
     add_reals(file, "/VTKHDF/PointData/orientation", reals, n, 4);
 }
 
@@ -93,17 +98,17 @@ static void add_groups(hdf_file *file, const char *params)
     hdf_add_text_attribute(file, "/run", "params_json", params, H5T_CSET_UTF8);
 }
 
-static bool write_file(const char *name, const dem_scene *scene, const char *params, double *reals, int64_t *rising,
-                       int32_t *integers, uint8_t *vertices)
+static bool write_file(const char *name, const dem_scene *scene, bool is_mirrored, const char *params, double *reals,
+                       int64_t *rising, int32_t *integers, uint8_t *vertices)
 {
     const double time = dem_scene_time(scene);
     hdf_file file;
     hdf_create(&file, name);
     add_groups(&file, params);
     add_cells(&file, dem_scene_sphere_count(scene), rising, vertices);
-    add_spheres(&file, scene, reals, integers);
+    add_spheres(&file, scene, is_mirrored, reals, integers);
     hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/time", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &time }, HDF_PLAIN);
-    const double turned = dem_scene_turned(scene);
+    const double turned = is_mirrored ? -dem_scene_turned(scene) : dem_scene_turned(scene);
     hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/drum_angle", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &turned },
                   HDF_PLAIN);
     add_one(&file, "/VTKHDF/FieldData/step", dem_scene_step_count(scene));
@@ -111,7 +116,7 @@ static bool write_file(const char *name, const dem_scene *scene, const char *par
     return hdf_publish(&file);
 }
 
-bool snapshot_file_write(const dem_scene *scene, int64_t number, const char *params, int64_t *bytes)
+bool snapshot_file_write(const dem_scene *scene, bool is_mirrored, int64_t number, const char *params, int64_t *bytes)
 {
     char name[64];
     snprintf(name, sizeof name, JOB_SNAPSHOT_FOLDER "/" JOB_SNAPSHOT_FILE_FORMAT, (long long)number);
@@ -121,7 +126,8 @@ bool snapshot_file_write(const dem_scene *scene, int64_t number, const char *par
     int32_t *integers = malloc(n * sizeof *integers);
     uint8_t *vertices = malloc(n);
     bool written = false;
-    if (reals && rising && integers && vertices) written = write_file(name, scene, params, reals, rising, integers, vertices);
+    if (reals && rising && integers && vertices)
+        written = write_file(name, scene, is_mirrored, params, reals, rising, integers, vertices);
     else worker_warn("can't write %s: out of memory", name);
     free(reals);
     free(rising);

@@ -11,7 +11,7 @@
 
 /* Writes snapshots/NNNNNN.hdf. bytes: of the file. The same state and params give the same bytes.
  * params: canonical spec, kept in /run. */
-bool snapshot_file_write(const dem_scene *scene, int64_t number, const char *params, int64_t *bytes);
+bool snapshot_file_write(const dem_scene *scene, bool is_mirrored, int64_t number, const char *params, int64_t *bytes);
 
 /* Rewrites snapshots.hdf.series for the first `count` snapshots of the plan. */
 bool snapshot_series_write(const schedule *plan, double time_step, int64_t count);

@@ -16,11 +16,12 @@
 #include "hdf_read.h"
 #include "job_folder.h"
 #include "json_text.h"
+#include "mirror.h"
 #include "worker_log.h"
 
 /* --- a file named in a spec --- */
 
-static json_t *spec_of_file(const char *name)
+static json_t *spec_of_file(const char *name, bool *is_checkpoint)
 {
     file_state state;
     const hid_t file = hdf_open_sealed(name, &state);
@@ -28,6 +29,7 @@ static json_t *spec_of_file(const char *name)
     const bool ours = hdf_is_there(file, "run") && (hdf_is_there(file, "state") || hdf_is_there(file, "VTKHDF"));
     char *text = ours ? hdf_read_text_attribute(file, "/run", "params_json") : NULL;
     json_t *document = text ? json_loads(text, JSON_REJECT_DUPLICATES, NULL) : NULL;
+    *is_checkpoint = ours && hdf_is_there(file, "state");
     free(text);
     H5Fclose(file);
     return document;
@@ -37,7 +39,8 @@ static json_t *find_file(void *context, const start_inputs *start, double *parti
 {
     (void)context;
     if (!*start->file) return NULL;
-    json_t *origin = access(start->file, R_OK) == 0 ? spec_of_file(start->file) : NULL;
+    bool is_checkpoint = false;
+    json_t *origin = access(start->file, R_OK) == 0 ? spec_of_file(start->file, &is_checkpoint) : NULL;
     problem_list none;
     job_spec made_by;
     if (!origin) {
@@ -52,6 +55,7 @@ static json_t *find_file(void *context, const start_inputs *start, double *parti
         job_spec_clear(&made_by);
     }
     problem_list_clear(&none);
+    json_object_set_new(origin, "is_checkpoint", json_boolean(is_checkpoint)); /* for start_compare */
     return origin;
 }
 
@@ -128,8 +132,16 @@ static void snapshot_clear(snapshot_arrays *s)
     free(s->cluster);
 }
 
+static void mirror_particle(dem_placed_particle *p)
+{
+    mirror_vectors(p->position, 1);
+    mirror_vectors(p->velocity, 1);
+    mirror_spins(p->angular_velocity, 1);
+    mirror_turns(p->orientation, 1);
+}
+
 /* The particle that sphere i, the first of its own, is or is a part of: from the sphere's place, velocity and turn. */
-static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const dem_species *species)
+static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const dem_species *species, bool is_mirrored)
 {
     dem_placed_particle p = { .orientation = { 1, 0, 0, 0 }, .species = s->species[i] };
     double r[3] = { 0 };
@@ -138,8 +150,9 @@ static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const
         p.velocity[c] = (double)s->velocity[3 * i + (size_t)c];
         p.angular_velocity[c] = (double)s->spin[3 * i + (size_t)c];
     }
+    for (int c = 0; c < 4 && species->cluster.sphere_count; c++) p.orientation[c] = s->orientation ? (double)s->orientation[4 * i + (size_t)c] : p.orientation[c];
+    if (is_mirrored) mirror_particle(&p);
     if (species->cluster.sphere_count == 0) return p;
-    for (int c = 0; c < 4; c++) p.orientation[c] = s->orientation ? (double)s->orientation[4 * i + (size_t)c] : p.orientation[c];
     dem_turn(p.orientation, species->cluster.sphere[0].position, r);
     const double *w = p.angular_velocity;
     for (int c = 0; c < 3; c++) {
@@ -150,8 +163,9 @@ static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const
     return p;
 }
 
-static dem_status place_snapshot(const snapshot_arrays *s, const dem_drum_definition *drum, dem_scene *scene)
+static dem_status place_snapshot(const snapshot_arrays *s, const job_spec *spec, dem_scene *scene)
 {
+    const dem_drum_definition *drum = &spec->drum;
     dem_placed_particle *particles = calloc(s->count ? s->count : 1, sizeof *particles);
     size_t count = 0;
     if (!particles) return DEM_NO_MEMORY;
@@ -159,10 +173,10 @@ static dem_status place_snapshot(const snapshot_arrays *s, const dem_drum_defini
     for (size_t i = 0; i < s->count && status == DEM_OK; i++) {
         if (i > 0 && s->cluster[i] == s->cluster[i - 1]) continue; /* a cluster's spheres stand together */
         const bool known = s->species[i] >= 0 && (size_t)s->species[i] < drum->species_count;
-        if (known) particles[count++] = particle_of(s, i, &drum->species[s->species[i]]);
+        if (known) particles[count++] = particle_of(s, i, &drum->species[s->species[i]], spec->is_mirrored);
         else status = DEM_STATE_MISMATCH;
     }
-    if (status == DEM_OK) status = dem_scene_place(scene, particles, count, s->turned);
+    if (status == DEM_OK) status = dem_scene_place(scene, particles, count, spec->is_mirrored ? -s->turned : s->turned);
     free(particles);
     return status;
 }
@@ -183,7 +197,7 @@ static dem_status start_from_file(const job_spec *spec, dem_scene *scene)
         checkpoint_clear_state(&state);
     } else {
         snapshot_arrays snapshot = { .count = 0 };
-        if (read_snapshot(file, &snapshot)) status = place_snapshot(&snapshot, &spec->drum, scene);
+        if (read_snapshot(file, &snapshot)) status = place_snapshot(&snapshot, spec, scene);
         snapshot_clear(&snapshot);
     }
     H5Fclose(file);
@@ -191,8 +205,9 @@ static dem_status start_from_file(const job_spec *spec, dem_scene *scene)
     return status;
 }
 
-static dem_status start_from_list(const start_inputs *start, dem_scene *scene)
+static dem_status start_from_list(const job_spec *spec, dem_scene *scene)
 {
+    const start_inputs *start = &spec->inputs.start;
     dem_placed_particle *particles = calloc(start->particle_count, sizeof *particles);
     if (!particles) return DEM_NO_MEMORY;
     for (size_t p = 0; p < start->particle_count; p++) {
@@ -202,6 +217,7 @@ static dem_status start_from_list(const start_inputs *start, dem_scene *scene)
         memcpy(particles[p].velocity, from->velocity, sizeof from->velocity);
         memcpy(particles[p].angular_velocity, from->angular_velocity, sizeof from->angular_velocity);
         if (!isnan(from->orientation[0])) memcpy(particles[p].orientation, from->orientation, sizeof from->orientation);
+        if (spec->is_mirrored) mirror_particle(&particles[p]);
     }
     const dem_status status = dem_scene_place(scene, particles, start->particle_count, 0.0);
     free(particles);
@@ -210,6 +226,5 @@ static dem_status start_from_list(const start_inputs *start, dem_scene *scene)
 
 dem_status start_scene(const job_spec *spec, dem_scene *scene)
 {
-    const start_inputs *start = &spec->inputs.start;
-    return start->particle_count ? start_from_list(start, scene) : start_from_file(spec, scene);
+    return spec->inputs.start.particle_count ? start_from_list(spec, scene) : start_from_file(spec, scene);
 }

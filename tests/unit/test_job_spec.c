@@ -163,7 +163,7 @@ static void a_number_out_of_range_is_named_with_value_unit_and_range(void **stat
     expect_problem("fill_fraction", "1.4", "/inputs/fill_fraction: is 1.4; must be in (0, 0.95]\n");
     expect_problem("fill_fraction", "0", "/inputs/fill_fraction: is 0; must be in (0, 0.95]\n");
     expect_problem("drum/diameter", "30", "/inputs/drum/diameter: is 30 m; must be in [0.001, 20] m\n");
-    expect_problem("drum/rotation_rate", "-1", "/inputs/drum/rotation_rate: is -1 rad/s; must be in [0.001, 500] rad/s\n");
+    expect_problem("drum/rotation_rate", "-0.0001", "/inputs/drum/rotation_rate: is -0.0001 rad/s; must be in [-500, 500] rad/s, and at least 0.001 in size\n");
     expect_problem("contact/friction", "true", "/inputs/contact/friction: is true; must be a number in [0, 5]\n");
     expect_problem("contact/friction", "null", "/inputs/contact/friction: is null; must be a number in [0, 5]\n");
     expect_problem("contact/friction", "1e300", "/inputs/contact/friction: is 1e+300; must be in [0, 5]\n");
@@ -735,6 +735,37 @@ static void what_a_run_starts_from_must_be_of_the_same_drum_and_particles(void *
     }
 }
 
+static void a_rate_may_be_given_in_revolutions_a_minute(void **state)
+{
+    (void)state;
+    json_t *request = minimal_with("drum/rotation_rate_rpm", "15");
+    json_object_del(json_object_get(json_object_get(request, "inputs"), "drum"), "rotation_rate");
+    job_spec spec = parse_or_fail(request);
+    assert_true(fabs(spec.inputs.rotation_rate - 1.5707963267948966) < 1e-15);
+    char *text = job_spec_to_text(&spec); /* canonical: one spelling */
+    assert_null(strstr(text, "rpm"));
+    free(text);
+    job_spec_clear(&spec);
+    expect_problem("drum/rotation_rate_rpm", "15",
+                   "/inputs/drum/rotation_rate_rpm: is given beside rotation_rate; give one of the two\n");
+    expect_fine("drum/rotation_rate", "-3");
+    expect_problem("drum/rotation_rate", "0",
+                   "/inputs/drum/rotation_rate: is 0 rad/s; must be in [-500, 500] rad/s, and at least 0.001 in size\n");
+}
+
+static void shares_of_four_digits_sum_to_one(void **state)
+{
+    (void)state;
+#define THREE(share) "[{\"diameter\": 0.005, \"share\": " share "}, {\"diameter\": 0.004, \"share\": " share "}," \
+                     " {\"diameter\": 0.003, \"share\": " share "}]"
+    expect_fine("particles", THREE("0.3333"));
+    expect_fine("particles", THREE("0.33336"));
+    expect_problem("particles", THREE("0.333"), "/inputs/particles: have shares that sum to 0.999; must sum to 1\n");
+    job_spec spec = parse_or_fail(minimal_with("particles", THREE("0.3333")));
+    assert_true(fabs(spec.drum.species[0].share + spec.drum.species[1].share + spec.drum.species[2].share - 1.0) < 1e-15);
+    job_spec_clear(&spec);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -764,6 +795,8 @@ int main(void)
         cmocka_unit_test(combinations_that_make_no_sense_are_refused),
         cmocka_unit_test(labels_are_short_texts_and_numbers),
         cmocka_unit_test(a_long_message_is_cut_between_characters),
+        cmocka_unit_test(a_rate_may_be_given_in_revolutions_a_minute),
+        cmocka_unit_test(shares_of_four_digits_sum_to_one),
         cmocka_unit_test(the_estimate_grows_with_what_is_asked),
         cmocka_unit_test(the_description_has_every_default_and_range_that_the_parser_has),
     };

@@ -88,7 +88,7 @@ static void every_slip_is_told_with_its_field(void **state)
         int process;
         const char *inputs, *field, *told;
     } slips[] = {
-        { DRUM, "{\"drum\": {\"rotation_rate\": 15}}", "drum/rotation_rate", "give 1.5708 rad/s" },
+        { DRUM, "{\"drum\": {\"rotation_rate\": 15}}", "drum/rotation_rate", "or 1.5708 rad/s" },
         { DRUM, "{\"drum\": {\"rotation_rate\": 10}}", "drum/rotation_rate", "95.49 revolutions a minute" },
         { DRUM, "{\"drum\": {\"diameter\": 12.6, \"length\": 1.89}, \"particles\": [{\"diameter\": 0.378}]}", "drum/diameter",
           "give 0.126 m" },
