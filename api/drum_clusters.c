@@ -45,7 +45,7 @@ static bool is_one_body(const dem_cluster *cluster, size_t species, problem_list
     return hidden < 0 && loose < 0;
 }
 
-void drum_cluster_derive(species_inputs *inputs, size_t species, dem_cluster *cluster, problem_list *problems)
+void drum_cluster_derive(spec_memory *memory, species_inputs *inputs, size_t species, dem_cluster *cluster, problem_list *problems)
 {
     const bool is_named = inputs->shape < DEM_NAMED_SHAPES;
     bool known = !isnan(inputs->diameter);
@@ -59,5 +59,8 @@ void drum_cluster_derive(species_inputs *inputs, size_t species, dem_cluster *cl
     }
     /* Not a number unless they are known, so that nothing is said of what would follow from them. */
     cluster->volume = cluster->reach = cluster->inertia[0] = cluster->inertia[1] = cluster->inertia[2] = NAN;
-    if (known && is_one_body(cluster, species, problems)) dem_cluster_complete(cluster);
+    const dem_cluster asked = *cluster;
+    if (!known || spec_memory_find_cluster(memory, &asked, cluster) || !is_one_body(cluster, species, problems)) return;
+    dem_cluster_complete(cluster);
+    spec_memory_keep_cluster(memory, &asked, cluster);
 }

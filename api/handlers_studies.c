@@ -38,11 +38,11 @@ static void respond_created(api_service *service, http_response *response, const
     snprintf(response->location, sizeof response->location, "/studies/%s", id);
 }
 
-static void add_study(api_service *service, http_response *response, const study_spec *study, const study_estimate *estimate,
-                      const problem_list *warnings)
+static void add_study(api_service *service, http_response *response, study_stage *stage, const study_spec *study,
+                      const study_estimate *estimate, const problem_list *warnings)
 {
     char id[JOB_ID_SIZE];
-    const store_status status = store_add_study(service->store, study, estimate, id);
+    const store_status status = store_add_study(service->store, stage, study, estimate, id);
     if (status != STORE_OK) {
         respond_store_failure(response, status, "keep the study");
         return;
@@ -51,7 +51,31 @@ static void add_study(api_service *service, http_response *response, const study
     respond_created(service, response, estimate, warnings, id);
 }
 
-/* Refused whole or kept whole: every job is read before any is added. */
+/* Refused whole or kept whole: every job is read, once, before any is added. */
+static void check_and_add(api_service *service, http_response *response, const study_spec *study, problem_list *problems)
+{
+    calibration machine;
+    problem_list warnings;
+    study_estimate estimate;
+    store_read_calibration(service->store, &machine);
+    study_stage *stage = store_stage_study(service->store, study, &machine);
+    if (!stage || !problem_list_init(&warnings)) {
+        respond_store_failure(response, STORE_FAILED, "keep the study");
+        store_drop_stage(stage);
+        return;
+    }
+    const study_taker taker = store_stage_taker(stage);
+    if (study_check(study, &machine, &taker, &estimate, problems, &warnings))
+        add_study(service, response, stage, study, &estimate, &warnings);
+    else if (store_stage_status(stage) != STORE_OK) respond_store_failure(response, store_stage_status(stage), "keep the study");
+    else
+        http_respond_json(response, 400,
+                          problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",
+                                       "each entry of errors names a place in the study, what is there and what may be", problems));
+    problem_list_clear(&warnings);
+    store_drop_stage(stage);
+}
+
 void create_study(api_service *service, const http_request *request, http_response *response)
 {
     json_t *document = parse_body(request, response);
@@ -61,28 +85,18 @@ void create_study(api_service *service, const http_request *request, http_respon
                                     .seed_if_missing = choose_seed(),
                                     .default_threads = service->default_threads,
                                     .most_jobs = store_queue_limit(service->store) };
-    problem_list problems, warnings;
+    problem_list problems;
     study_spec study;
-    study_estimate estimate;
-    if (!problem_list_init(&warnings) || !problem_list_init(&problems)) {
-        problem_list_clear(&warnings);
+    if (!problem_list_init(&problems)) {
         http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
         json_decref(document);
         return;
     }
     study_spec_parse(document, &options, &study, &problems);
     json_decref(document);
-    calibration machine;
-    store_read_calibration(service->store, &machine);
-    if (study_check(&study, &machine, &estimate, &problems, &warnings)) add_study(service, response, &study, &estimate, &warnings);
-    else
-        http_respond_json(response, 400,
-                          problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",
-                                       "each entry of errors names a place in the study, what is there and what may be",
-                                       &problems));
+    check_and_add(service, response, &study, &problems);
     study_spec_clear(&study);
     problem_list_clear(&problems);
-    problem_list_clear(&warnings);
 }
 
 /* --- looking --- */

@@ -1,12 +1,14 @@
 /* A request as a whole: process, inputs, label. */
 #include "job_spec.h"
 
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "execute_request.h"
 #include "json_text.h"
 #include "process_type.h"
+#include "spec_memory.h"
 #include "spec_text.h"
 
 enum { MOST_LABELS = 16, LONGEST_LABEL_NAME = 64, LONGEST_LABEL = 200 };
@@ -65,6 +67,23 @@ static json_t *read_label(const json_t *label, problem_list *problems)
     return json_deep_copy(label);
 }
 
+static bool advances_a_scene(const job_spec *spec) { return spec->type->inputs_at == offsetof(job_spec, inputs); }
+
+/* A long list of particles that was read before is not read again. */
+static void read_inputs(job_spec *spec, spec_memory *memory, const json_t *inputs, problem_list *problems)
+{
+    const bool remembers = memory && advances_a_scene(spec);
+    const size_t before = json_array_size(problems->errors);
+    json_t *rest = remembers ? spec_memory_without_placed(memory, inputs) : NULL;
+    spec_inputs_read(spec->type->inputs, rest ? rest : inputs, (char *)spec + spec->type->inputs_at, problems);
+    if (rest && !spec_memory_place(memory, &spec->inputs.start))
+        problem_list_add(problems, "/inputs/start/particles", "could not be read: out of memory");
+    if (remembers && !rest && json_array_size(problems->errors) == before)
+        spec_memory_keep_placed(memory, inputs, &spec->inputs.start);
+    if (remembers) spec->inputs.memory = memory;
+    json_decref(rest);
+}
+
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
 {
     return job_spec_parse_with(NULL, process, request, seed_if_missing, spec, problems);
@@ -93,11 +112,11 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
         problem_list_add(problems, "/inputs", "is missing; must be an object");
     } else if (spec->type) { /* without a process nobody knows what its inputs are */
         json_t *values = execute_request_inputs(inputs, problems);
-        spec_inputs_read(spec->type->inputs, values, (char *)spec + spec->type->inputs_at, problems);
+        read_inputs(spec, beds ? beds->memory : NULL, values, problems);
         json_decref(values);
         spec->type->apply_rules(spec, seed_if_missing, problems);
     }
-
+    if (spec->type && advances_a_scene(spec)) spec->inputs.memory = NULL;
     spec->beds = NULL;
 
     spec->label = read_label(json_object_get(request, "label"), problems);

@@ -81,6 +81,7 @@ typedef struct drum_inputs {
     start_inputs start;
     fill_inputs fill;
     heap_inputs heap;
+    struct spec_memory *memory; /* while it is parsed */
 } drum_inputs;
 
 typedef struct granule_inputs {
@@ -97,6 +98,7 @@ typedef struct start_source {
      * and a problem says so. */
     json_t *(*find)(void *context, const start_inputs *start, double *particles, problem_list *problems);
     void *context;
+    struct spec_memory *memory; /* of specs read before; NULL: none */
 } start_source;
 
 typedef struct job_spec {

@@ -54,8 +54,8 @@ json_t *json_pointer_find(const json_t *document, const char *pointer)
 static bool put(json_t *parent, const char *step, const json_t *value)
 {
     size_t index;
-    if (json_is_object(parent)) return json_object_set_new(parent, step, json_deep_copy(value)) == 0;
-    return json_is_array(parent) && entry_at(parent, step, &index) && json_array_set_new(parent, index, json_deep_copy(value)) == 0;
+    if (json_is_object(parent)) return json_object_set(parent, step, (json_t *)value) == 0;
+    return json_is_array(parent) && entry_at(parent, step, &index) && json_array_set(parent, index, (json_t *)value) == 0;
 }
 
 bool json_pointer_set(json_t *document, const char *pointer, const json_t *value)
@@ -66,12 +66,12 @@ bool json_pointer_set(json_t *document, const char *pointer, const json_t *value
     while (next_step(&rest, step)) {
         if (*rest == '\0') return put(at, step, value);
         json_t *child = child_of(at, step);
-        if (!child && json_is_object(at)) {
-            child = json_object();
-            if (json_object_set_new(at, step, child) != 0) return false;
-        }
+        if (!child && !json_is_object(at)) return false;
+        child = child ? json_copy(child) : json_object();
+        const bool is_put = child && put(at, step, child);
+        json_decref(child); /* `at` holds it */
+        if (!is_put) return false;
         at = child;
-        if (!at) return false;
     }
     return false;
 }

@@ -12,7 +12,8 @@ enum { JSON_POINTER_SIZE = 256 };
 bool json_pointer_is_valid(const char *pointer);
 /* Borrowed; NULL: nothing is there. "" is the document itself. */
 json_t *json_pointer_find(const json_t *document, const char *pointer);
-/* Puts a copy of value there. Objects on the way that are missing are made; entries of lists must be there. False:
+/* Puts the value there. What lies on the way is copied, what lies beside it is not: documents that share it with this one
+ * stay as they are. Objects on the way that are missing are made; entries of lists must be there. False:
  * the way leads through something that is neither, or memory is out; the document may have got empty objects. */
 bool json_pointer_set(json_t *document, const char *pointer, const json_t *value);
 /* Appends "/" and the name, its ~ and / escaped, to a pointer of JSON_POINTER_SIZE; false: it doesn't fit. */

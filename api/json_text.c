@@ -126,16 +126,20 @@ static void write_value(FILE *stream, const json_t *value, int depth)
     else json_dumpf(value, stream, JSON_ENCODE_ANY);
 }
 
-char *json_text_write(const json_t *document)
+static char *write_text(const json_t *value, int depth, const char *end)
 {
     char *text = NULL;
     size_t length = 0;
-    FILE *stream = document ? open_memstream(&text, &length) : NULL;
+    FILE *stream = value ? open_memstream(&text, &length) : NULL;
     if (!stream) return NULL;
-    write_value(stream, document, 0);
-    fputc('\n', stream);
+    write_value(stream, value, depth);
+    fputs(end, stream);
     const bool failed = ferror(stream) != 0;
     if (fclose(stream) == 0 && !failed) return text;
     free(text);
     return NULL;
 }
+
+char *json_text_write(const json_t *document) { return write_text(document, 0, "\n"); }
+
+char *json_text_write_within(const json_t *value, int depth) { return write_text(value, depth, ""); }

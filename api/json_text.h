@@ -13,5 +13,7 @@ json_t *json_text_load(const char *text, size_t length, problem_list *problems);
 /* Indented, members in their order, every number in the fewest digits that read back as the same double; ends with
  * a line end. To be freed; NULL: document is NULL, or no memory. */
 char *json_text_write(const json_t *document);
+/* A value as it stands in such a text, so many objects and lists deep: from its first character to its last. */
+char *json_text_write_within(const json_t *value, int depth);
 
 #endif

@@ -10,8 +10,8 @@ static int patch_member(json_t *result, const char *name, const json_t *value)
 
 json_t *json_merge_patch(const json_t *target, const json_t *patch)
 {
-    if (!json_is_object(patch)) return json_deep_copy(patch);
-    json_t *result = json_is_object(target) ? json_deep_copy(target) : json_object();
+    if (!json_is_object(patch)) return json_incref((json_t *)patch);
+    json_t *result = json_is_object(target) ? json_copy((json_t *)target) : json_object();
     const char *name;
     json_t *value;
     json_object_foreach((json_t *)patch, name, value)

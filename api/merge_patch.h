@@ -4,7 +4,7 @@
 
 #include <jansson.h>
 
-/* The target with the patch applied; neither is changed. target may be NULL (nothing there). New reference; NULL: no
+/* The target with the patch applied; neither is changed, and what is the same is shared with them. target may be NULL (nothing there). New reference; NULL: no
  * memory. */
 json_t *json_merge_patch(const json_t *target, const json_t *patch);
 

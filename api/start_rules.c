@@ -7,6 +7,7 @@
 
 #include "dem_cluster.h"
 #include "process_type.h"
+#include "spec_memory.h"
 #include "spec_text.h"
 #include "start_overlap.h"
 #include "status_info.h"
@@ -50,13 +51,25 @@ static bool check_choice(start_inputs *start, problem_list *problems)
     return json_array_size(problems->errors) == before;
 }
 
+/* The bed, as the source of beds or the memory of it has it. New reference. */
+static json_t *look_up(const job_spec *spec, double *particles, problem_list *problems)
+{
+    const start_inputs *start = &spec->inputs.start;
+    if (!spec->beds || !spec->beds->find) return NULL;
+    json_t *origin = spec_memory_find_bed(spec->inputs.memory, start, particles);
+    if (origin) return origin;
+    origin = spec->beds->find(spec->beds->context, start, particles, problems);
+    spec_memory_keep_bed(spec->inputs.memory, start, origin, *particles);
+    return origin;
+}
+
 json_t *start_find(job_spec *spec, problem_list *problems)
 {
     drum_inputs *inputs = &spec->inputs;
     inputs->start.bed_particles = NAN;
     if (isnan(inputs->start.given) || !check_choice(&inputs->start, problems) || inputs->start.particle_count > 0) return NULL;
     double particles = NAN;
-    json_t *origin = spec->beds ? spec->beds->find(spec->beds->context, &inputs->start, &particles, problems) : NULL;
+    json_t *origin = look_up(spec, &particles, problems);
     inputs->start.bed_particles = particles;
     if (isnan(inputs->particle_count) && isnan(inputs->fill_fraction)) inputs->particle_count = particles;
     return origin;
@@ -173,14 +186,16 @@ static void check_overlaps(placed_sphere *spheres, size_t count, const dem_drum_
 void start_check_particles(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
 {
     size_t count;
-    if (inputs->start.particle_count == 0) return;
+    const size_t before = json_array_size(problems->errors);
+    if (inputs->start.particle_count == 0 || spec_memory_knows_inside(inputs->memory, &inputs->start, drum)) return;
     placed_sphere *spheres = all_spheres(&inputs->start, drum, &count);
     if (!spheres) {
         problem_list_add(problems, "/inputs/start/particles", "could not be looked at: out of memory");
         return;
     }
     for (size_t i = 0; i < count && !problem_list_is_full(problems); i++) check_inside(&spheres[i], drum, problems);
-    check_overlaps(spheres, count, drum, problems);
+    if (!spec_memory_knows_apart(inputs->memory, &inputs->start, drum)) check_overlaps(spheres, count, drum, problems);
+    if (json_array_size(problems->errors) == before) spec_memory_keep_sound(inputs->memory, &inputs->start, drum);
     free(spheres);
 }
 

@@ -84,8 +84,16 @@ typedef struct study_record {
 } study_record;
 typedef bool study_visitor(void *context, const study_record *study);
 
+/* Where the jobs of a study wait, ready to be added, while the rest of it is still being read: nobody else sees or waits for
+ * them. The study and the machine live as long. NULL: no memory or no disk. */
+typedef struct study_stage study_stage;
+study_stage *store_stage_study(job_store *store, const study_spec *study, const calibration *machine);
+study_taker store_stage_taker(study_stage *stage);         /* for study_check */
+store_status store_stage_status(const study_stage *stage); /* why it did not take a job */
+void store_drop_stage(study_stage *stage);
 /* All its jobs in one commit, or none. */
-store_status store_add_study(job_store *store, const study_spec *study, const study_estimate *estimate, char id[JOB_ID_SIZE]);
+store_status store_add_study(job_store *store, study_stage *stage, const study_spec *study, const study_estimate *estimate,
+                             char id[JOB_ID_SIZE]);
 /* Dismisses its jobs that have not ended. STORE_CONFLICT: all have. */
 store_status store_dismiss_study(job_store *store, const char *id);
 store_status store_find_study(job_store *store, const char *id, study_record *study);

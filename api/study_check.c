@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "json_pointer.h"
+#include "spec_memory.h"
 #include "study_spec.h"
 
 enum { ENOUGH_PROBLEMS = 100, LONG_POINTER = 2 * JSON_POINTER_SIZE };
@@ -105,51 +106,88 @@ static void add_warnings(const study_spec *study, size_t index, const job_spec *
     problem_list_clear(&found);
 }
 
-/* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
-static void check_case(const study_spec *study, size_t index, const calibration *machine, study_estimate *estimate, told *problems,
-                       told *warnings)
+/* One check: what it looks at, what it makes, and whether it goes on. */
+typedef struct checking {
+    const study_spec *study;
+    const calibration *machine;
+    const study_taker *taker;
+    start_source source; /* the study's own, with a memory */
+    study_estimate *estimate;
+    told wrong, unusual;
+    bool refused; /* by the taker */
+} checking;
+
+/* The repeats of a case that was read with the seed of the last. */
+static void give_repeats(checking *check, job_spec *spec, size_t index)
 {
+    const int repeats = check->study->repeats;
+    const double last = spec->inputs.seed;
+    for (int repeat = 0; check->taker && repeat < repeats && !check->refused; repeat++) {
+        if (check->study->has_seed) {
+            spec->inputs.seed = last - (repeats - 1 - repeat);
+            spec->drum.seed = (uint64_t)spec->inputs.seed;
+        }
+        check->refused = !check->taker->take(check->taker->context, spec, index, repeat);
+    }
+}
+
+/* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
+static void check_case(checking *check, size_t index)
+{
+    const study_spec *study = check->study;
     job_spec spec;
     problem_list found;
     const json_t *cases = json_object_get(study->document, "cases");
     if (cases && !json_is_object(json_array_get(cases, index))) return; /* said already */
     json_t *request = study_job_request(study, index, study->repeats - 1);
     if (!request || !problem_list_init(&found)) {
-        add_once(problems->all, "", "could not be expanded: a case leads nowhere in the base, or out of memory");
+        add_once(check->wrong.all, "", "could not be expanded: a case leads nowhere in the base, or out of memory");
         json_decref(request);
         return;
     }
-    if (job_spec_parse_with(study->beds, NULL, request, 0, &spec, &found)) {
-        add_estimate(study, &spec, machine, estimate);
-        add_warnings(study, index, &spec, machine, warnings);
+    if (job_spec_parse_with(&check->source, NULL, request, 0, &spec, &found)) {
+        add_estimate(study, &spec, check->machine, check->estimate);
+        add_warnings(study, index, &spec, check->machine, &check->unusual);
+        if (problem_list_is_empty(check->wrong.all)) give_repeats(check, &spec, index);
         job_spec_clear(&spec);
     } else {
-        tell_all(study, index, &found, &problems->of_base, problems->all);
+        tell_all(study, index, &found, &check->wrong.of_base, check->wrong.all);
     }
     problem_list_clear(&found);
     json_decref(request);
 }
 
-bool study_check(const study_spec *study, const calibration *machine, study_estimate *estimate, problem_list *problems,
-                 problem_list *warnings)
+static void check_base(checking *check)
+{
+    job_spec spec;
+    if (!job_spec_parse_with(&check->source, NULL, json_object_get(check->study->document, "base"), 0, &spec,
+                             &check->wrong.of_base))
+        return;
+    job_spec_warn(&spec, check->machine, &check->unusual.of_base);
+    job_spec_clear(&spec);
+}
+
+bool study_check(const study_spec *study, const calibration *machine, const study_taker *taker, study_estimate *estimate,
+                 problem_list *problems, problem_list *warnings)
 {
     *estimate = (study_estimate){ .jobs = 0.0 };
-    told wrong = { .all = problems }, unusual = { .all = warnings };
-    job_spec spec;
-    if (!problem_list_init(&wrong.of_base) || !problem_list_init(&unusual.of_base)) {
-        problem_list_clear(&wrong.of_base);
+    checking check = {
+        .study = study, .machine = machine, .taker = taker, .estimate = estimate, .wrong.all = problems, .unusual.all = warnings
+    };
+    if (!problem_list_init(&check.wrong.of_base) || !problem_list_init(&check.unusual.of_base)) {
+        problem_list_clear(&check.wrong.of_base);
         problem_list_add(problems, "", "could not be checked: out of memory");
         return false;
     }
-    if (job_spec_parse_with(study->beds, NULL, json_object_get(study->document, "base"), 0, &spec, &wrong.of_base)) {
-        job_spec_warn(&spec, machine, &unusual.of_base);
-        job_spec_clear(&spec);
-    }
-    for (size_t i = 0; i < study->cases && json_array_size(problems->errors) < ENOUGH_PROBLEMS; i++)
-        check_case(study, i, machine, estimate, &wrong, &unusual);
-    problem_list_clear(&wrong.of_base);
-    problem_list_clear(&unusual.of_base);
-    return problem_list_is_empty(problems);
+    if (study->beds) check.source = *study->beds;
+    check.source.memory = spec_memory_create();
+    check_base(&check);
+    for (size_t i = 0; i < study->cases && json_array_size(problems->errors) < ENOUGH_PROBLEMS && !check.refused; i++)
+        check_case(&check, i);
+    spec_memory_free(check.source.memory);
+    problem_list_clear(&check.wrong.of_base);
+    problem_list_clear(&check.unusual.of_base);
+    return problem_list_is_empty(problems) && !check.refused;
 }
 
 json_t *study_estimate_to_json(const study_estimate *estimate)

@@ -177,7 +177,7 @@ static void read_varied(study_spec *study, const char *pointer, const json_t *va
         refuse_value(problems, place, values, "a list of at least one value");
         return;
     }
-    json_t *trial = json_deep_copy(json_object_get(study->document, "base"));
+    json_t *trial = json_copy(json_object_get(study->document, "base"));
     if (json_is_object(json_object_get(trial, "inputs")) && !json_pointer_set(trial, pointer, json_array_get(values, 0)))
         problem_list_add(problems, place, "names no input: it leads through something in the base that has no such member");
     json_decref(trial);
@@ -290,13 +290,21 @@ static json_t *case_request(const study_spec *study, size_t index)
     return NULL;
 }
 
+/* The member is shared with the base: a copy of its own can be changed. NULL: it is no object. */
+static json_t *own_member(json_t *request, const char *name)
+{
+    json_t *member = json_object_get(request, name);
+    if (!json_is_object(member)) return NULL;
+    return json_object_set_new(request, name, json_copy(member)) == 0 ? json_object_get(request, name) : NULL;
+}
+
 /* Unless the user's own label says them. */
 static void name_in_label(const study_spec *study, size_t index, json_t *request)
 {
-    json_t *label = json_object_get(request, "label");
+    if (!json_object_get(request, "label")) json_object_set_new(request, "label", json_object());
+    json_t *label = own_member(request, "label");
     char name[STUDY_NAME_SIZE];
     study_case_name(study, index, name);
-    if (!label) json_object_set_new(request, "label", label = json_object());
     if (!json_object_get(label, "study")) json_object_set_new(label, "study", json_string(study->name));
     if (!json_object_get(label, "case")) json_object_set_new(label, "case", json_string(name));
 }
@@ -306,7 +314,7 @@ json_t *study_job_request(const study_spec *study, size_t index, int repeat)
     json_t *request = case_request(study, index);
     if (!request) return NULL;
     name_in_label(study, index, request);
-    json_t *inputs = json_object_get(request, "inputs");
+    json_t *inputs = own_member(request, "inputs");
     const json_t *seed = json_object_get(inputs, "seed");
     /* A seed beyond its range stays as it is, to be refused. */
     if (repeat > 0 && json_is_integer(seed) && json_integer_value(seed) <= (json_int_t)SEED_MASK)
@@ -349,7 +357,7 @@ json_t *study_case_inputs(const study_spec *study, size_t index)
         char pointer[JSON_POINTER_SIZE + 8];
         snprintf(pointer, sizeof pointer, INPUTS "/%s", column);
         json_t *value = json_pointer_find(request, pointer);
-        json_object_set_new(inputs, column, value ? json_deep_copy(value) : json_null());
+        json_object_set_new(inputs, column, value ? json_incref(value) : json_null());
     }
     json_decref(request);
     return inputs;

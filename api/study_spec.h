@@ -54,10 +54,17 @@ typedef struct study_estimate {
     double jobs, steps, wall_seconds, memory_bytes, snapshot_bytes; /* sums; memory: of the largest job; wall: one job at a time */
 } study_estimate;
 
+/* Takes the jobs as they are read, each once: of each case its repeats. They count only when study_check says true. */
+typedef struct study_taker {
+    bool (*take)(void *context, const job_spec *spec, size_t index, int repeat); /* false: it can't; the check ends */
+    void *context;
+} study_taker;
+
 /* study_check.c: reads every job. False: problems is not empty; it lists what is wrong, each thing once, with a pointer to the place
- * in the study that it comes from. */
-bool study_check(const study_spec *study, const calibration *machine, study_estimate *estimate, problem_list *problems,
-                 problem_list *warnings); /* of jobs, likewise; NULL: not wanted */
+ * in the study that it comes from; or the taker could not go on. warnings: of what can be run; NULL: not wanted. taker: NULL
+ * where nobody wants the jobs. */
+bool study_check(const study_spec *study, const calibration *machine, const study_taker *taker, study_estimate *estimate,
+                 problem_list *problems, problem_list *warnings);
 json_t *study_estimate_to_json(const study_estimate *estimate);
 
 #endif

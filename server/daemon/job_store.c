@@ -106,41 +106,45 @@ store_status store_check_queue(job_store *store, int64_t jobs)
     return status == STORE_OK && waiting + jobs > store->queue_limit ? STORE_QUEUE_FULL : status;
 }
 
-static store_status insert_row(job_store *store, const job_spec *spec, const char *id, const char *text, const char *label,
-                               const study_place *place, const job_estimate *estimate)
+static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
+                               const char *label, const study_place *place, const job_estimate *estimate)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
     return sql_run(
-        store->writer, NULL,
-        "INSERT INTO job(id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
-        "study,study_case,study_repeat) VALUES(?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
+        writer, NULL,
+        "INSERT INTO "
+        "job(number,id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
+        "study,study_case,study_repeat) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
         "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11))",
-        "ttttiddtiii", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes, now,
-        place->study, place->index, place->repeat);
+        "ttttiddtiiii", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes, now,
+        place->study, place->index, place->repeat, number);
 }
 
-store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
-                              const calibration *machine)
+store_status store_insert_job(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
+                              const study_place *place, const calibration *machine)
 {
     char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
     const job_estimate estimate = job_spec_estimate(spec, machine);
-    store_status status = label ? insert_row(store, spec, id, text, label, place, &estimate) : STORE_FAILED;
-    const int64_t number = sqlite3_last_insert_rowid(store->writer);
-    if (status == STORE_OK) status = process_inputs_insert(store->writer, number, spec);
-    if (status == STORE_OK) status = store_insert_load(store, number, &estimate, machine);
+    store_status status = label ? insert_row(writer, number, spec, id, text, label, place, &estimate) : STORE_FAILED;
+    if (number == 0) number = sqlite3_last_insert_rowid(writer);
+    if (status == STORE_OK) status = process_inputs_insert(writer, number, spec);
+    if (status == STORE_OK) status = store_insert_load(writer, number, &estimate, machine);
     free(label);
     return status;
 }
 
-bool store_bring_start(job_store *store, const job_spec *spec, const char *id)
+const char *job_started_from(const job_spec *spec)
 {
-    const start_inputs *start = &spec->inputs.start;
-    if (strcmp(spec->process, "drum") != 0 || !*start->job) return true;
+    return strcmp(spec->process, "drum") == 0 && *spec->inputs.start.job ? spec->inputs.start.job : NULL;
+}
+
+bool store_bring_start(job_store *store, const char *from, double snapshot, const char *id)
+{
     char name[32] = JOB_CHECKPOINT_FILE;
-    const bool snapshot = !isnan(start->snapshot);
-    if (snapshot) snprintf(name, sizeof name, JOB_SNAPSHOT_FILE_FORMAT, (long long)start->snapshot);
-    return job_folder_add_start(store->data, id, start->job, snapshot ? JOB_SNAPSHOT_FOLDER : NULL, name);
+    const bool is_snapshot = !isnan(snapshot);
+    if (is_snapshot) snprintf(name, sizeof name, JOB_SNAPSHOT_FILE_FORMAT, (long long)snapshot);
+    return job_folder_add_start(store->data, id, from, is_snapshot ? JOB_SNAPSHOT_FOLDER : NULL, name);
 }
 
 static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
@@ -149,7 +153,8 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
     uint32_t bits;
     if (!text || !store_random_bits(&bits)) return STORE_FAILED;
     store_write_id(id, time(NULL), bits);
-    if (!store_bring_start(store, spec, id) || !job_folder_create(store->data, id, text)) {
+    const char *from = job_started_from(spec);
+    if ((from && !store_bring_start(store, from, spec->inputs.start.snapshot, id)) || !job_folder_create(store->data, id, text)) {
         const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
         log_line("job %s: its folder can't be written: %s", id, strerror(errno));
         job_folder_discard(store->data, id);
@@ -160,7 +165,7 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
     store_status status = store_begin(store);
     if (status == STORE_OK) {
         status = store_check_queue(store, 1);
-        if (status == STORE_OK) status = store_insert_job(store, spec, id, text, &of_no_study, &machine);
+        if (status == STORE_OK) status = store_insert_job(store->writer, 0, spec, id, text, &of_no_study, &machine);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);
@@ -223,7 +228,19 @@ store_status store_read_text(job_store *store, const char *sql, const char *id, 
 
 store_status store_read_spec(job_store *store, const char *id, char **text)
 {
-    return store_read_text(store, "SELECT spec FROM job WHERE id=?", id, text);
+    *text = NULL;
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT spec, study FROM job WHERE id=?", "t", id);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        const char *spec = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+        if (spec) *text = study_parts_expand(reader, sqlite3_column_int64(statement, 1), spec);
+        status = sql_finish(statement, code);
+        if (status == STORE_OK && !*text) status = code == SQLITE_ROW ? STORE_FAILED : STORE_NOT_FOUND;
+    }
+    store_return_reader(store, reader);
+    return status;
 }
 
 store_status store_read_results(job_store *store, const char *id, char **text)

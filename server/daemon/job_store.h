@@ -44,14 +44,18 @@ bool store_random_bits(uint32_t *bits);
 typedef struct study_place {
     int64_t study, index, repeat;
 } study_place;
-/* Between begin and end: one job's rows. text: its canonical specification. */
-/* What the spec starts from, into the folder of the job; true where it starts from nothing. Safe on the disk after
- * job_folder_create or data_folder_sync. False: errno says why. */
-bool store_bring_start(job_store *store, const job_spec *spec, const char *id);
-store_status store_insert_job(job_store *store, const job_spec *spec, const char *id, const char *text, const study_place *place,
-                              const calibration *machine);
+/* The bed of that job, into the folder of this one; snapshot NaN: its checkpoint. Safe on the disk after job_folder_create
+ * or data_folder_sync. False: errno says why. */
+bool store_bring_start(job_store *store, const char *from, double snapshot, const char *id);
+/* The job that a spec starts from; NULL: none. */
+const char *job_started_from(const job_spec *spec);
+/* Between begin and end: one job's rows. text: its canonical specification. number: 0 takes the next. */
+store_status store_insert_job(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
+                              const study_place *place, const calibration *machine);
+/* study_parts.c: a text of the table with the long parts of its study in it; NULL: no memory, or a part is missing. */
+char *study_parts_expand(sqlite3 *database, int64_t study, const char *text);
 /* machine_speed.c, between begin and end: what its steps have to do, for when it has run. */
-store_status store_insert_load(job_store *store, int64_t job, const job_estimate *estimate, const calibration *machine);
+store_status store_insert_load(sqlite3 *writer, int64_t job, const job_estimate *estimate, const calibration *machine);
 /* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */
 store_status store_check_queue(job_store *store, int64_t jobs);
 store_status store_read_text(job_store *store, const char *sql, const char *id, char **text);

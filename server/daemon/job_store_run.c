@@ -37,7 +37,7 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
                           .estimated_memory_bytes = sqlite3_column_double(statement, 5) };
     snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
     const char *spec = (const char *)sqlite3_column_text(statement, 6);
-    claim->spec = spec ? strdup(spec) : NULL;
+    claim->spec = spec ? study_parts_expand(sqlite3_db_handle(statement), sqlite3_column_int64(statement, 7), spec) : NULL;
     /* The update counts only when the statement has ended well. */
     const store_status status = sql_finish(statement, sqlite3_step(statement));
     return status == STORE_OK && !claim->spec ? STORE_FAILED : status;
@@ -57,7 +57,7 @@ store_status store_claim_job(job_store *store, int free_threads, int all_threads
         " WHERE number=(SELECT number FROM job WHERE status='accepted' AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY number LIMIT "
         "1)"
         " AND min(threads,?3)<=?4"
-        " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec",
+        " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec, study",
         "tdiid", now, unix, (int64_t)all_threads, (int64_t)free_threads, unix + LONGEST_DELAY);
     status = store_end(store, statement ? read_claim(statement, claim) : STORE_FAILED);
     if (status != STORE_OK) {
@@ -221,7 +221,7 @@ static store_status next_orphan(job_store *store, int64_t after, job_claim *clai
 {
     sqlite3_stmt *statement =
         sql_prepare(store->writer,
-                    "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec FROM job"
+                    "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study FROM job"
                     " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
                     "i", after);
     return statement ? read_claim(statement, claim) : STORE_FAILED;

@@ -74,12 +74,12 @@ static double correction_of_runs(sqlite3 *reader, const calibration *machine)
     return fmin(fmax(ratio[count / 2], LEAST_CORRECTION), MOST_CORRECTION);
 }
 
-store_status store_insert_load(job_store *store, int64_t job, const job_estimate *estimate, const calibration *machine)
+store_status store_insert_load(sqlite3 *writer, int64_t job, const job_estimate *estimate, const calibration *machine)
 {
     const calibration_load *load = &estimate->load;
     const double factor = estimate->wall_seconds / (estimate->steps * calibration_seconds_a_step(machine, load));
     if (!(load->spheres > 0.0) || !isfinite(factor)) return STORE_OK; /* no steps, nothing to learn from */
-    return sql_run(store->writer, NULL, "INSERT INTO job_load VALUES(?,?,?,?,?,?,?,?,?)", "iddidiiid", job, load->spheres,
+    return sql_run(writer, NULL, "INSERT INTO job_load VALUES(?,?,?,?,?,?,?,?,?)", "iddidiiid", job, load->spheres,
                    load->of_particle, (int64_t)load->law, load->friction, (int64_t)load->rolling_friction, (int64_t)load->in_double,
                    (int64_t)load->threads, factor);
 }

@@ -271,6 +271,13 @@ static const char what_estimates_need[] =
 static const char index_of_lists[] =
     "CREATE INDEX job_listed ON job(study, status, process, created, started, finished, label, id);";
 
+/* What is long in the specifications of a study's jobs (the list of particles, a bed that is placed particle by particle)
+ * is kept once: a job's own text has "part <number>" in its place. */
+static const char parts_of_studies[] = "CREATE TABLE study_part("
+                                       "  study INTEGER NOT NULL REFERENCES study(number) ON DELETE CASCADE,"
+                                       "  number INTEGER NOT NULL, text TEXT NOT NULL,"
+                                       "  PRIMARY KEY(study, number)) STRICT, WITHOUT ROWID;";
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
@@ -278,5 +285,6 @@ const schema_migration schema_migrations[] = {
     { { more_measures, drums_closed_and_with_lifters, fill_and_heap_tables, run_summary_with_more_measures } },
     { { what_estimates_need } },
     { { index_of_lists } },
+    { { parts_of_studies } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

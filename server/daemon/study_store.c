@@ -1,7 +1,4 @@
-/* Studies: added and dismissed as a whole, listed, and their runs walked for the results.
- *
- * A study's jobs get no folder when they are added: their specifications are in the table, and the folder is made
- * when a worker starts. So one commit is the whole study, and what dies before it leaves nothing. */
+/* Studies: added and dismissed as a whole, listed, and their runs walked for the results. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,6 +6,7 @@
 #include "database.h"
 #include "job_store.h"
 #include "log.h"
+#include "study_stage.h"
 
 /* --- adding --- */
 
@@ -30,87 +28,23 @@ static store_status insert_study(job_store *store, const study_spec *study, cons
     return status;
 }
 
-static store_status insert_case(job_store *store, const study_spec *study, int64_t number, size_t index)
+/* Of one second: ids follow one another, because among ten thousand random ones of the same second two would be equal once
+ * in a hundred studies. */
+store_status store_add_study(job_store *store, study_stage *stage, const study_spec *study, const study_estimate *estimate,
+                             char id[JOB_ID_SIZE])
 {
-    char name[STUDY_NAME_SIZE];
-    study_case_name(study, index, name);
-    json_t *request = study_job_request(study, index, 0), *varied = study_case_inputs(study, index);
-    char *label = json_dumps(json_object_get(request, "label"), JSON_COMPACT);
-    char *inputs = json_dumps(varied, JSON_COMPACT | JSON_REAL_PRECISION(15));
-    const store_status status = !label || !inputs ? STORE_FAILED
-                                                  : sql_run(store->writer, NULL, "INSERT INTO study_case VALUES(?,?,?,?,?)",
-                                                            "iittt", number, (int64_t)index, name, inputs, label);
-    free(inputs);
-    free(label);
-    json_decref(varied);
-    json_decref(request);
-    return status;
-}
-
-static store_status insert_job_of_study(job_store *store, const study_spec *study, const study_place *place, const char *id,
-                                        const calibration *machine)
-{
-    problem_list problems;
-    if (!problem_list_init(&problems)) return STORE_FAILED;
-    json_t *request = study_job_request(study, (size_t)place->index, (int)place->repeat);
-    job_spec spec;
-    store_status status = STORE_FAILED; /* it was good when it was checked: only memory can be missing */
-    if (request && job_spec_parse_with(study->beds, NULL, request, 0, &spec, &problems)) {
-        char *text = job_spec_to_text(&spec);
-        if (text && store_bring_start(store, &spec, id)) status = store_insert_job(store, &spec, id, text, place, machine);
-        free(text);
-        job_spec_clear(&spec);
-    }
-    json_decref(request);
-    problem_list_clear(&problems);
-    return status;
-}
-
-/* False: nothing of the study brings a file into a folder. */
-static bool has_start(const study_spec *study)
-{
-    const json_t *base = json_object_get(json_object_get(study->document, "base"), "inputs");
-    bool found = json_is_object(json_object_get(base, "start"));
-    for (size_t c = 0; c < json_array_size(study->columns) && !found; c++)
-        found = strncmp(json_string_value(json_array_get(study->columns, c)), "start", 5) == 0;
-    return found;
-}
-
-/* First each case once, then each case again: the whole table is seen early. Ids follow one another, because among
- * ten thousand random ones of the same second two would be equal once in a hundred studies. */
-static store_status insert_jobs(job_store *store, const study_spec *study, int64_t number, time_t second, uint32_t bits,
-                                const calibration *machine)
-{
-    store_status status = STORE_OK;
-    char id[JOB_ID_SIZE];
-    for (int repeat = 0; repeat < study->repeats; repeat++) {
-        for (size_t i = 0; i < study->cases && status == STORE_OK; i++) {
-            const study_place place = { number, (int64_t)i, repeat };
-            store_write_id(id, second, ++bits);
-            status = insert_job_of_study(store, study, &place, id, machine);
-        }
-    }
-    return status;
-}
-
-store_status store_add_study(job_store *store, const study_spec *study, const study_estimate *estimate, char id[JOB_ID_SIZE])
-{
-    calibration machine;
-    store_read_calibration(store, &machine);
-    const time_t second = time(NULL);
-    uint32_t bits;
     int64_t number;
-    if (!store_random_bits(&bits)) return STORE_FAILED;
-    store_write_id(id, second, bits);
-    store_status status = store_begin(store);
-    if (status != STORE_OK) return status;
-    status = store_check_queue(store, (int64_t)study->cases * study->repeats);
-    if (status == STORE_OK) status = insert_study(store, study, estimate, id, &number);
-    for (size_t i = 0; i < study->cases && status == STORE_OK; i++) status = insert_case(store, study, number, i);
-    if (status == STORE_OK) status = insert_jobs(store, study, number, second, bits, &machine);
-    /* beds must be safe in their folders before the jobs that start from them are */
-    if (status == STORE_OK && has_start(study) && !data_folder_sync(store->data)) status = STORE_FAILED;
-    return store_end(store, status);
+    store_status status = study_stage_bring_starts(stage);
+    if (status == STORE_OK) status = store_begin(store);
+    if (status == STORE_OK) {
+        status = store_check_queue(store, (int64_t)study->cases * study->repeats);
+        if (status == STORE_OK) status = insert_study(store, study, estimate, study_stage_id(stage), &number);
+        if (status == STORE_OK) status = study_stage_copy(stage, number);
+        status = store_end(store, status);
+    }
+    if (status == STORE_OK) snprintf(id, JOB_ID_SIZE, "%s", study_stage_id(stage));
+    else study_stage_discard_starts(stage);
+    return status;
 }
 
 /* --- dismissing --- */

@@ -29,7 +29,7 @@ json_t *study_report(const json_t *document, uint64_t seed_if_missing, const cal
     problem_list warnings;
     problem_list_init(&warnings);
     study_spec_parse(document, &options, &study, problems);
-    if (study_check(&study, machine, &estimate, problems, &warnings))
+    if (study_check(&study, machine, NULL, &estimate, problems, &warnings))
         report = json_pack("{s:s, s:o, s:i, s:o, s:o}", "name", study.name, "cases", cases_of(&study), "repeats", study.repeats,
                            "estimate", study_estimate_to_json(&estimate), "warnings", job_warnings_to_json(&warnings));
     problem_list_clear(&warnings);

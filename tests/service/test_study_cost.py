@@ -1,7 +1,11 @@
 """What one POST may cost: however large its body, however many jobs there are already, whatever else is being posted."""
+import json
+import math
 import sqlite3
 
-from conftest import FAKE_WORKER, Daemon
+import pytest
+import requests
+from conftest import FAKE_WORKER, SPEC, Daemon
 
 
 def processor_seconds(daemon):
@@ -28,3 +32,87 @@ def test_a_post_does_not_walk_over_the_runs_that_there_were(tmp_path):
     finally:
         if daemon.is_running():
             daemon.stop()
+
+
+def bed(particles, spacing=1.01e-3, radius=0.029):
+    """Spheres of 1 mm side by side on a grid."""
+    places = [(i * spacing, j * spacing, k * spacing) for k in range(-4, 5) for i in range(-30, 31) for j in range(-30, 31)
+              if math.hypot(i * spacing, j * spacing) < radius]
+    return [{"position": [round(x, 7) for x in place]} for place in places[:particles]]
+
+
+def placed(particles, **changes):
+    return {"drum": {"diameter": 0.06, "length": 0.012, "rotation_rate": 3.0}, "particles": [{"diameter": 0.001}],
+            "contact": {"friction": 0.1}, "duration": {"revolutions": 0.3}, "seed": 3, "threads": 1, "start": {"particles": particles}} | changes
+
+
+CLUSTERS = [{"shape": {"spheres": [{"position": [0.0003 * (k % 4), 0.0003 * (k // 4 % 4), 0.0003 * (k // 16)], "diameter": 0.001 + 1e-6 * s}
+                                   for k in range(64)]}, "share": 1 / 4} for s in range(4)]
+RATE = "/inputs/drum/rotation_rate"
+
+
+def post_study(daemon, **study):
+    answer = requests.post(f"{daemon.url}/studies", json=study, timeout=300)
+    assert answer.status_code == 201, answer.text
+    return answer.json()["studyID"]
+
+
+def specs_of(daemon, study):
+    """In order of the cases."""
+    jobs = daemon.get(f"/jobs?study={study}&limit=500").json()["jobs"]
+    return [(job["jobID"], daemon.get(f"/jobs/{job['jobID']}/spec").text) for job in reversed(jobs)]
+
+
+def bytes_of_database(daemon):
+    with sqlite3.connect(daemon.data / "reposed.sqlite") as database:
+        return database.execute("SELECT page_count*page_size FROM pragma_page_count, pragma_page_size").fetchone()[0]
+
+
+@pytest.mark.parametrize("inputs", [placed(bed(1500)), SPEC | {"particles": CLUSTERS, "duration": {"seconds": 0.1}, "seed": 3, "threads": 1}],
+                         ids=["placed", "clusters"])
+def test_what_is_long_is_kept_once_a_study_and_each_job_is_as_if_it_had_been_posted_alone(fake, inputs):
+    alone = requests.post(f"{fake.url}/processes/drum/execution", json={"inputs": inputs}, timeout=60).json()["jobID"]
+    canonical = fake.get(f"/jobs/{alone}/spec").json()["inputs"]
+    before, spent = bytes_of_database(fake), processor_seconds(fake)
+    study = post_study(fake, base={"inputs": inputs}, vary={RATE: [1 + 0.01 * k for k in range(40)]})
+    longest = len(json.dumps(canonical))
+    # 40 jobs of some 10 kB each with their indexes, and the long list once, in as many bytes as it has indented
+    assert bytes_of_database(fake) - before < 40 * 10e3 + 8 * longest
+    assert processor_seconds(fake) - spent < 8
+    specs = specs_of(fake, study)
+    assert len(specs) == 40
+    for k, (job, text) in enumerate(specs[:3] + specs[-1:]):
+        spec = json.loads(text)
+        rate = 1 + 0.01 * (k if k < 3 else 39)
+        # the time between samples follows from the rate
+        expected = canonical | {"drum": canonical["drum"] | {"rotation_rate": rate}, "samples": spec["inputs"]["samples"]}
+        assert spec["inputs"] == expected
+        assert spec["label"] == {"study": "drum study", "case": f"rotation_rate {rate:g}"}
+        again = requests.post(f"{fake.url}/processes/drum/execution", data=text, headers={"Content-Type": "application/json"}, timeout=60)
+        assert fake.get(f"/jobs/{again.json()['jobID']}/spec").text == text  # byte for byte
+    fake.ended(specs[0][0])
+    assert (fake.data / "jobs" / specs[0][0] / "spec.json").read_text() == specs[0][1]  # what its worker was given
+
+
+def test_beds_that_are_varied_are_kept_once_each_and_named_in_the_table(fake):
+    beds = [{"particles": bed(count)} for count in (900, 800)]
+    study = post_study(fake, base={"inputs": placed(bed(10)), "label": {"particles": "part 1"}}, vary={RATE: [1, 2, 3], "/inputs/start": beds})
+    counts = [len(json.loads(text)["inputs"]["start"]["particles"]) for _, text in specs_of(fake, study)]
+    assert counts == [900, 800] * 3
+    assert {json.loads(text)["label"]["particles"] for _, text in specs_of(fake, study)} == {"part 1"}  # a label is the user's own
+    rows = fake.get(f"/studies/{study}/results").json()["cases"]
+    assert [row["inputs"]["start"] for row in rows] == ["/vary/~1inputs~1start/0", "/vary/~1inputs~1start/1"] * 3
+    with sqlite3.connect(fake.data / "reposed.sqlite") as database:
+        assert database.execute("SELECT count(*) FROM study_part").fetchone()[0] == 2
+        assert database.execute("SELECT max(length(spec)) FROM job").fetchone()[0] < 5000
+
+
+def test_a_study_is_refused_for_what_any_of_its_jobs_would_be(fake):
+    """The bed is read once; that it does not fit one of the drums, or overlaps with one of the sizes, is seen all the same."""
+    jobs = fake.get("/jobs").json()["counts"]
+    for varied, values, wrong in (("/inputs/drum/diameter", [0.06, 0.07, 0.05], "from the axis"),
+                                  ("/inputs/particles/0/diameter", [0.001, 0.0011], "overlaps particle"),
+                                  ("/inputs/drum/length", [0.012, 0.004], "along the axis")):
+        answer = requests.post(f"{fake.url}/studies", json={"base": {"inputs": placed(bed(12000)[::2])}, "vary": {varied: values}}, timeout=300)
+        assert answer.status_code == 400 and any(wrong in error["detail"] for error in answer.json()["errors"]), answer.text
+    assert fake.get("/jobs").json()["counts"] == jobs

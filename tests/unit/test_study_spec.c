@@ -105,7 +105,7 @@ static bool parse(const char *text, int64_t most_jobs, study_spec *study, study_
     assert_true(problem_list_init(problems));
     study_spec_parse(document, &options, study, problems);
     json_decref(document);
-    return study_check(study, NULL, estimate, problems, NULL);
+    return study_check(study, NULL, NULL, estimate, problems, NULL);
 }
 
 static void take(const char *text, study_spec *study)

@@ -189,7 +189,7 @@ static void a_study_tells_a_warning_once_and_where_it_comes_from(void **state)
     problem_list_init(&problems);
     problem_list_init(&warnings);
     study_spec_parse(document, &options, &study, &problems);
-    assert_true(study_check(&study, &machine, &estimate, &problems, &warnings));
+    assert_true(study_check(&study, &machine, NULL, &estimate, &problems, &warnings));
     json_t *told = job_warnings_to_json(&warnings);
     assert_int_equal(json_array_size(told), 3);
     assert_non_null(strstr(text_of(told, "/base/inputs/particles/0/density"), "2500"));
