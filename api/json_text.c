@@ -61,9 +61,8 @@ json_t *json_text_load(const char *text, size_t length, problem_list *problems)
     if (!vanishing.start) return document;
     int line = 1;
     for (const char *c = text; c < vanishing.start; c++) line += *c == '\n';
-    const bool is_cut = vanishing.length > LONGEST_SHOWN;
-    problem_list_add(problems, "", "has in line %d a number too close to 0 to be kept: %.*s%s", line,
-                     is_cut ? LONGEST_SHOWN : (int)vanishing.length, vanishing.start, is_cut ? "..." : "");
+    problem_list_add(problems, "", "has in line %d a number too close to 0 to be kept: %.*s...", line,
+                     vanishing.length > LONGEST_SHOWN ? LONGEST_SHOWN : (int)vanishing.length, vanishing.start);
     json_decref(document);
     return NULL;
 }
