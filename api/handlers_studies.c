@@ -215,11 +215,17 @@ static void respond_csv(http_response *response, const study_table *table)
     http_respond_text(response, 200, "text/csv; charset=utf-8", out.text, out.length);
 }
 
-static void show_table(api_service *service, const http_request *request, http_response *response, bool csv)
+/* limit: cases at most. */
+static void show_table(api_service *service, const http_request *request, http_response *response, bool csv, int64_t limit)
 {
     study_record study;
     study_table table;
-    if (!find_study(service, request, response, &study) || !tabulate(service, study.id, response, &table)) return;
+    char version[72];
+    if (!find_study(service, request, response, &study)) return;
+    /* Nothing in it changes but with a job's state. */
+    snprintf(version, sizeof version, "%s-%s-%lld", csv ? "csv" : "json", study.updated, (long long)limit);
+    if (http_respond_unchanged(request, response, version) || !tabulate(service, study.id, response, &table)) return;
+    while ((int64_t)json_array_size(table.cases) > limit) json_array_remove(table.cases, json_array_size(table.cases) - 1);
     if (csv) {
         respond_csv(response, &table);
     } else {
@@ -236,10 +242,14 @@ static void show_table(api_service *service, const http_request *request, http_r
 void show_study_results(api_service *service, const http_request *request, http_response *response)
 {
     bool csv;
-    if (read_format(request, response, &csv)) show_table(service, request, response, csv);
+    int64_t limit;
+    char problem[160];
+    if (!http_request_integer(request, "limit", 1, INT64_MAX, INT64_MAX, &limit, problem, sizeof problem))
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+    else if (read_format(request, response, &csv)) show_table(service, request, response, csv, csv ? INT64_MAX : limit);
 }
 
 void show_study_csv(api_service *service, const http_request *request, http_response *response)
 {
-    show_table(service, request, response, true);
+    show_table(service, request, response, true, INT64_MAX);
 }

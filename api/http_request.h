@@ -76,6 +76,8 @@ void http_respond_text(http_response *response, int status, const char *content_
 /* type NULL: about:blank. */
 void http_respond_problem(http_response *response, int status, const char *type, const char *title, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
+/* Names the version of what is answered, for the client to ask again by If-None-Match. True: it has that one, and 304 says so. */
+bool http_respond_unchanged(const http_request *request, http_response *response, const char *version);
 /* Sends a file that was opened, whole or the part asked for; takes the descriptor. immutable: it never changes
  * under this address. growing: no ETag, because the next read may give more. */
 enum http_file_kind { HTTP_FILE_IMMUTABLE, HTTP_FILE_CHANGING, HTTP_FILE_GROWING };

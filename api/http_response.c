@@ -85,6 +85,15 @@ static bool etag_is_listed(const char *list, const char *etag)
     return list && (strcmp(list, "*") == 0 || strstr(list, etag) != NULL);
 }
 
+bool http_respond_unchanged(const http_request *request, http_response *response, const char *version)
+{
+    snprintf(response->etag, sizeof response->etag, "\"%s\"", version);
+    response->cache_control = "no-cache";
+    if (!etag_is_listed(request->if_none_match, response->etag)) return false;
+    response->status = 304;
+    return true;
+}
+
 static void send_part(const http_request *request, http_response *response, uint64_t size)
 {
     /* If-Range asks for the part only while the whole is still the one the client knows. */

@@ -175,13 +175,21 @@ static bool read_duration(const http_request *request, const char *name, double 
     return false;
 }
 
+/* Of UTF-8: bytes that do not go on with a character. */
+static size_t characters_of(const char *text)
+{
+    size_t count = 0;
+    for (; *text; text++) count += ((unsigned char)*text & 0xC0) != 0x80;
+    return count;
+}
+
 bool read_job_filter(const http_request *request, job_filter *filter, char *problem, size_t size)
 {
     filter_reading reading = { filter, problem, size };
     filter->text = http_request_parameter(request, "q");
     filter->study = http_request_parameter(request, "study");
-    if (filter->text && strlen(filter->text) > LONGEST_TEXT) {
-        snprintf(problem, size, "parameter q has %zu bytes; must have at most %d", strlen(filter->text), LONGEST_TEXT);
+    if (filter->text && characters_of(filter->text) > LONGEST_TEXT) {
+        snprintf(problem, size, "parameter q has %zu characters; must have at most %d", characters_of(filter->text), LONGEST_TEXT);
         return false;
     }
     const char *datetime = http_request_parameter(request, "datetime");

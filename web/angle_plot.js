@@ -3,6 +3,7 @@
 import { svg } from './dom.js';
 import { degrees, significant } from './format.js';
 
+const LEAST_BAND = 5; // px, so that the line of the mean does not hide it
 const HEIGHT = 210, LEFT = 44, RIGHT = 10, TOP = 12, BOTTOM = 36;
 
 // Round numbers between low and high, about `wanted` of them.
@@ -67,8 +68,9 @@ function measuringWindow(repose, x, y, times) {
   const from = x(Math.max(repose.window?.start ?? times[0], times[0]));
   const to = x(Math.min(repose.window?.end ?? times[1], times[1]));
   const error = repose.standard_error_deg ?? 0;
-  const top = y(repose.angle_deg + error), bottom = y(repose.angle_deg - error);
+  const middle = y(repose.angle_deg), half = Math.max(middle - y(repose.angle_deg + error), LEAST_BAND / 2);
+  const top = middle - half, bottom = middle + half;
   return svg('g', { class: 'mean' },
-    svg('rect', { x: from, width: Math.max(to - from, 1), y: top, height: Math.max(bottom - top, 1) }),
+    svg('rect', { x: from, width: Math.max(to - from, 1), y: top, height: bottom - top }),
     svg('line', { x1: from, x2: to, y1: y(repose.angle_deg), y2: y(repose.angle_deg) }));
 }

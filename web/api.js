@@ -1,6 +1,6 @@
 // Talking with the daemon: JSON in, JSON out, and every failure an error that says what happened.
 
-const TIMEOUT = 10_000; // ms
+const SILENCE = 20_000; // ms without a byte: an answer may take as long as it likes, while it comes
 
 // What the daemon answered, when it was not what we asked for. `status` 0: no answer at all.
 export class ApiError extends Error {
@@ -16,18 +16,41 @@ export const token = {
   keep: value => sessionStorage.setItem('token', value),
 };
 
+// A header takes no other characters, and the daemon's token has none.
+export const canBeToken = text => /^[\x21-\x7e]+$/.test(text);
+
 export async function request(path, { method = 'GET', accept = 'application/json' } = {}) {
   const headers = { Accept: accept };
-  if (token.read()) headers.Authorization = `Bearer ${token.read()}`;
+  if (canBeToken(token.read() ?? '')) headers.Authorization = `Bearer ${token.read()}`;
   if (method !== 'GET') headers['Content-Type'] = 'application/json';
-  let answer;
+  const silence = new AbortController();
+  let timer = 0, answer;
+  const heard = () => {
+    clearTimeout(timer);
+    timer = setTimeout(() => silence.abort(), SILENCE);
+  };
   try {
-    answer = await fetch(path, { method, headers, cache: 'no-store', signal: AbortSignal.timeout(TIMEOUT) });
-  } catch (error) {
-    throw new ApiError(0, error.name === 'TimeoutError' ? 'no answer within 10 s' : 'no connection');
+    heard();
+    answer = await whole(await fetch(path, { method, headers, cache: 'no-store', signal: silence.signal }), heard);
+  } catch {
+    throw new ApiError(0, silence.signal.aborted ? `no answer for ${SILENCE / 1000} s` : 'no connection');
+  } finally {
+    clearTimeout(timer);
   }
   if (!answer.ok) throw new ApiError(answer.status, await reasonIn(answer));
   return answer;
+}
+
+// The same answer with all of its body. heard(): called for each piece.
+async function whole(answer, heard) {
+  heard();
+  if (!answer.body) return answer;
+  const pieces = [], reader = answer.body.getReader();
+  for (let piece = await reader.read(); !piece.done; piece = await reader.read()) {
+    heard();
+    pieces.push(piece.value);
+  }
+  return new Response(new Blob(pieces), { status: answer.status, headers: answer.headers });
 }
 
 export const json = async (path, options) => (await request(path, options)).json();

@@ -1,7 +1,7 @@
 // What both pages show of their connection: live or not, what is wrong, and the question for a token. Asking to
 // confirm is here, too.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { ApiError, token } from './api.js';
+import { ApiError, canBeToken, token } from './api.js';
 
 export function showConnected() {
   byId('token').hidden = true;
@@ -14,24 +14,41 @@ export function showFailure(error, pause, refresh) {
   if (!(error instanceof ApiError)) console.error(error);
   replaceIfChanged(byId('connection'), 'away', () => h('span', { class: 'away' }, 'not live'));
   byId('token').hidden = error.status !== 401;
+  if (error.status === 401) showTokenProblem(token.read() ? 'The daemon does not take this token: it is not the content of its token file.' : '');
   const again = `Trying again in ${Math.round(pause / 1000)} s.`;
   if (error.status === 401) showTrouble('');
+  else if (isOfAddress(error)) showTrouble(`There is nothing to show at this address: ${error.message}.`, null, '/');
   else if (error.status === 0) showTrouble(`The daemon is out of reach: ${error.message}. What you see may be old. ${again}`, refresh);
   else if (error.status) showTrouble(`The daemon answered ${error.status}: ${error.message} ${again}`, refresh);
   else showTrouble(`The answer was not understood: ${error.message}. ${again}`, refresh);
 }
 
-export function showTrouble(text, refresh = null) {
+// Nothing that asking again would mend.
+export const isOfAddress = error => [400, 404, 410, 414].includes(error.status);
+
+// way: an address to go on at; '': none.
+export function showTrouble(text, refresh = null, way = '') {
   byId('trouble').hidden = text === '';
-  replaceIfChanged(byId('trouble'), [text, Boolean(refresh)], () => text === '' ? [] : [
-    h('span', null, text), refresh ? h('button', { onclick: refresh }, 'Try now') : null]);
+  replaceIfChanged(byId('trouble'), [text, Boolean(refresh), way], () => text === '' ? [] : [
+    h('span', null, text), refresh ? h('button', { onclick: refresh }, 'Try now') : null,
+    way ? h('a', { href: way }, 'Show all jobs') : null]);
+}
+
+function showTokenProblem(text) {
+  byId('token-problem').hidden = text === '';
+  byId('token-problem').textContent = text;
 }
 
 export function takeToken(refresh) {
   byId('token').addEventListener('submit', event => {
     event.preventDefault();
-    token.keep(byId('token-value').value.trim());
-    refresh();
+    const value = byId('token-value').value.trim();
+    if (canBeToken(value)) {
+      token.keep(value);
+      refresh();
+    } else {
+      showTokenProblem('A token has only letters, digits and signs of ASCII, without spaces; this is none.');
+    }
   });
 }
 

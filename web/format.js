@@ -21,8 +21,8 @@ export const percent = share => missing(share) ? '–' : `${significant(100 * sh
 
 export function degrees(value, error) {
   if (missing(value)) return '–';
-  // As many decimals as the error has meaning, and never more than two.
-  const decimals = missing(error) ? 1 : error < 0.1 ? 2 : 1;
+  // Two digits of the error, and never more than thousandths of a degree.
+  const decimals = !(error > 0) ? 1 : Math.min(Math.max(1 - Math.floor(Math.log10(Number(error.toPrecision(2)))), 0), 3);
   const mean = value.toFixed(decimals);
   return missing(error) ? `${mean}°` : `${mean} ± ${error.toFixed(decimals)}°`;
 }

@@ -55,8 +55,9 @@ async function fetchNewSamples(id, series) {
 }
 
 function showReason(box, job) {
-  replaceIfChanged(box, [job.status, job.message], () => job.status !== 'failed' ? null
-    : h('div', { class: 'reason' }, h('h3', null, 'Why it failed'), h('p', null, job.message || 'No reason was given.')));
+  const isOpen = job.status === 'accepted' || job.status === 'running';
+  replaceIfChanged(box, [job.status, job.message], () => isOpen && job.message ? h('p', { class: 'quiet message' }, job.message)
+    : job.status !== 'failed' ? null : h('div', { class: 'reason' }, h('h3', null, 'Why it failed'), h('p', null, job.message || 'No reason was given.')));
 }
 
 function showResults(parts, results, job) {

@@ -50,12 +50,17 @@ function showName(cell, job, open, actions) {
   cell.querySelector('.opener').setAttribute('aria-expanded', String(open));
 }
 
+// What a job that waits or runs has to say, beyond that it does.
+const USUAL = ['', 'waiting for a free worker', 'starting', 'growing', 'settling', 'rotating', 'filling', 'lifting'];
+const isNews = job => CAN_BE_STOPPED.includes(job.status) && !USUAL.includes(job.message ?? '');
+
 function showState(cell, job) {
   replaceIfChanged(cell, [job.status, job.attempt, job.message], () => [
     h('span', { class: `badge ${job.status}` }, job.status),
     job.attempt > 1 ? h('small', { class: 'attempt' }, `attempt ${job.attempt}`) : null,
     job.status === 'running' ? h('progress', { max: 100, 'aria-label': 'progress' }) : null,
     job.status === 'running' ? h('small', { class: 'left' }) : null,
+    isNews(job) ? h('small', { class: 'news', title: job.message }, job.message) : null,
     job.status === 'failed' && job.message ? h('small', { class: 'why', title: job.message }, job.message) : null]);
   const bar = cell.querySelector('progress');
   if (!bar) return;

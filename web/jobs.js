@@ -2,7 +2,7 @@
 // asks the daemon for that list again and again, and shows what changed.
 import { byId, h, replaceIfChanged } from './dom.js';
 import { dismissJob, listJobs, token } from './api.js';
-import { confirmed, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
+import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { answerInWords, count } from './format.js';
 import { createRow, nameOf } from './job_row.js';
 import { startPolling } from './polling.js';
@@ -15,7 +15,10 @@ let view = readView();
 const filters = new Map(['', ...STATES].map(status => [status, createFilter(status)]));
 byId('states').append(...filters.values());
 let rows = new Map(); // by job id, in the order shown
-const refresh = startPolling(ask, (error, pause) => showFailure(error, pause, refresh));
+const refresh = startPolling(ask, (error, pause) => {
+  showFailure(error, pause, refresh);
+  if (isOfAddress(error)) for (const part of ['jobs', 'empty', 'pages']) byId(part).hidden = true;
+});
 takeToken(refresh);
 
 async function ask() {

@@ -1,6 +1,8 @@
 // Asking again and again, politely: soon while something runs, seldom when nothing does or nobody looks,
 // and ever more seldom while the daemon can't be reached.
 
+import { isOfAddress } from './connection.js';
+
 const BUSY = 2_000, IDLE = 5_000, HIDDEN = 60_000, LONGEST = 60_000; // ms
 
 // ask(): a promise that resolves to true when something is going on. Told of every failure: failed(error, ms).
@@ -16,7 +18,7 @@ export function startPolling(ask, failed) {
       failures = 0;
     } catch (error) {
       if (mine !== turn) return;
-      pause = Math.min(BUSY * 2 ** failures++, LONGEST);
+      pause = isOfAddress(error) ? LONGEST : Math.min(BUSY * 2 ** failures++, LONGEST);
       failed(error, pause);
     }
     if (mine === turn) timer = setTimeout(now, document.hidden ? Math.max(pause, HIDDEN) : pause);

@@ -1,20 +1,32 @@
 // The page of studies: a list, newest first, or one study, the one that the address names after its #.
 import { byId, h, replaceIfChanged } from './dom.js';
 import { dismissStudy, json, studyPath, token } from './api.js';
-import { confirmed, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
+import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { clock, count, duration, secondsBetween } from './format.js';
 import { startPolling } from './polling.js';
-import { caseTable } from './study_table.js';
+import { caseTable, ROWS_SHOWN } from './study_table.js';
 import { fileLink } from './file_link.js';
 
 const PAGE = 50; // studies a page
+const PAUSE_A_CASE = 40; // ms, between two looks at a table for each case that it shows: 20 s for 500
 
 let cursor = ''; // where the list begins; '': at the newest
 let shown = null; // {id, updated} of the study whose table is on the page
-const wanted = () => decodeURIComponent(location.hash.slice(1));
-const refresh = startPolling(ask, (error, pause) => showFailure(error, pause, refresh));
+const refresh = startPolling(ask, (error, pause) => {
+  showFailure(error, pause, refresh);
+  if (isOfAddress(error)) for (const part of ['list', 'study']) byId(part).hidden = true;
+});
 takeToken(refresh);
 window.addEventListener('hashchange', refresh);
+
+// What is no encoding of anything is no study's id either.
+function wanted() {
+  try {
+    return decodeURIComponent(location.hash.slice(1));
+  } catch {
+    return location.hash.slice(1);
+  }
+}
 
 async function ask() {
   return wanted() ? askForStudy(wanted()) : askForList();
@@ -81,9 +93,11 @@ function firstStudy() {
 
 async function askForStudy(id) {
   const study = await json(studyPath(id));
-  // The table changes only when a job has changed its state.
+  // The table changes only when a job has changed its state. Of a large one no more is asked for than is shown, and not at
+  // every change, but for the last.
   const isNew = shown?.id !== id || shown.updated !== study.updated;
-  const results = isNew ? await json(`${studyPath(id)}/results`) : null;
+  const isDue = shown?.id !== id || hasEnded(study) || Date.now() - shown.asked >= PAUSE_A_CASE * Math.min(study.cases, ROWS_SHOWN);
+  const results = isNew && isDue ? await json(`${studyPath(id)}/results?limit=${ROWS_SHOWN}`) : null;
   if (wanted() !== id) return true;
   showConnected();
   announceChange(study);
@@ -93,8 +107,9 @@ async function askForStudy(id) {
   if (shown?.id !== id) byId('study').replaceChildren(h('div', { id: 'head' }), h('div', { id: 'links' }), h('div', { id: 'cases', class: 'wide', tabindex: '0' }));
   replaceIfChanged(byId('head'), study, () => head(study));
   replaceIfChanged(byId('links'), id, () => links(id));
-  if (results) byId('cases').replaceChildren(...caseTable(results.cases));
-  shown = { id, updated: study.updated, status: study.status };
+  if (results) byId('cases').replaceChildren(...caseTable(results.cases, study.cases));
+  const { updated, asked } = results || !shown || shown.id !== id ? { updated: study.updated, asked: Date.now() } : shown;
+  shown = { id, updated, asked, status: study.status };
   return !hasEnded(study);
 }
 

@@ -2,7 +2,7 @@
 import { h } from './dom.js';
 import { count, degrees, percent, significant, superscript } from './format.js';
 
-const ROWS_SHOWN = 500;
+export const ROWS_SHOWN = 500;
 
 // Name in the results, heading, and how a number is written.
 const MEASURES = [
@@ -38,7 +38,8 @@ function share(mean, error) {
   return text.startsWith('(') ? `${text} %` : `(${text}) %`;
 }
 
-export function caseTable(cases) {
+// cases: the first of the study's, of which there are `all`.
+export function caseTable(cases, all) {
   const named = member => [...new Set(cases.flatMap(one => Object.keys(one[member])))];
   const inputs = named('inputs'), labels = named('label');
   const measures = MEASURES.filter(([name]) => cases.some(one => one.results[name]));
@@ -48,8 +49,8 @@ export function caseTable(cases) {
     h('thead', null, h('tr', null, ['case', ...inputs, ...labels, 'runs', ...(withRegime ? ['regime'] : [])].map(name => h('th', { scope: 'col' }, name)),
       measures.map(([, heading]) => h('th', { scope: 'col', class: 'measure' }, heading)))),
     h('tbody', null, cases.slice(0, ROWS_SHOWN).map(one => row(one, inputs, labels, measures, withRegime))));
-  const left = cases.length - ROWS_SHOWN;
-  return left > 0 ? [table, h('p', { class: 'quiet' }, `The first ${ROWS_SHOWN} cases; the CSV has all ${count(cases.length)}.`)] : [table];
+  const left = all - Math.min(cases.length, ROWS_SHOWN);
+  return left > 0 ? [table, h('p', { class: 'quiet' }, `The first ${ROWS_SHOWN} cases; the CSV has all ${count(all)}.`)] : [table];
 }
 
 function row(one, inputs, labels, measures, withRegime) {
