@@ -17,39 +17,53 @@ int density_grid_cells(const dem_scene *scene)
 
 double density_grid_place(const density_grid *grid, int cell) { return ((double)cell + 0.5 - 0.5 * grid->cells) * grid->size; }
 
-/* Length of a sphere along the axis, averaged over a disc of diameter `spread` whose centre is r from its own. */
-static double kernel_value(double r, double radius, double spread)
+enum { RINGS = 16, SPOKES = 32 };
+
+/* Points spread evenly over a disc about the origin. */
+typedef struct disc_points {
+    double u[RINGS * SPOKES], v[RINGS * SPOKES]; /* m */
+} disc_points;
+
+static void disc_points_set(disc_points *disc, double diameter)
 {
-    enum { RINGS = 16, SPOKES = 32 };
-    double sum = 0.0;
     for (int a = 0; a < RINGS; a++) {
-        const double rho = 0.5 * spread * sqrt((a + 0.5) / RINGS); /* rings of equal area */
+        const double rho = 0.5 * diameter * sqrt((a + 0.5) / RINGS); /* rings of equal area */
         for (int b = 0; b < SPOKES; b++) {
             const double phi = 2 * DEM_PI * (b + 0.5) / SPOKES;
-            const double u = r + rho * cos(phi), v = rho * sin(phi);
-            sum += 2 * sqrt(fmax(radius * radius - u * u - v * v, 0.0));
+            disc->u[a * SPOKES + b] = rho * cos(phi);
+            disc->v[a * SPOKES + b] = rho * sin(phi);
         }
+    }
+}
+
+/* Length of a sphere along the axis, averaged over a disc whose centre is r from its own. */
+static double kernel_value(double r, double radius, const disc_points *disc)
+{
+    double sum = 0.0;
+    for (int k = 0; k < RINGS * SPOKES; k++) {
+        const double u = r + disc->u[k], v = disc->v[k];
+        sum += 2 * sqrt(fmax(radius * radius - u * u - v * v, 0.0));
     }
     return sum / (RINGS * SPOKES);
 }
 
 /* over: m, the length along the axis that the volume is spread over. */
-static void kernel_fill(density_grid *grid, size_t kernel, double diameter, double over, double spread)
+static void kernel_fill(density_grid *grid, size_t kernel, double diameter, double over, const disc_points *disc)
 {
     for (int p = 0; p < KERNEL_POINTS; p++)
         grid->kernel[kernel * KERNEL_POINTS + (size_t)p] =
-            kernel_value(grid->reach * p / (KERNEL_POINTS - 1), 0.5 * diameter, spread) / over;
+            kernel_value(grid->reach * p / (KERNEL_POINTS - 1), 0.5 * diameter, disc) / over;
 }
 
 /* One kernel for each diameter that a species' spheres have. Spheres that overlap in a cluster count for less, so that
  * together they have its volume. Returns how many kernels are in use then. */
-static size_t species_kernels(density_grid *grid, const dem_drum_definition *definition, size_t k, size_t used, double spread)
+static size_t species_kernels(density_grid *grid, const dem_drum_definition *definition, size_t k, size_t used, const disc_points *disc)
 {
     const dem_species *species = &definition->species[k];
     const dem_cluster *cluster = &species->cluster;
     int32_t *of = grid->kernel_of + k * DEM_MAXIMUM_CLUSTER;
     if (cluster->sphere_count == 0) {
-        kernel_fill(grid, used, species->diameter, definition->length, spread);
+        kernel_fill(grid, used, species->diameter, definition->length, disc);
         of[0] = (int32_t)used;
         return used + 1;
     }
@@ -60,7 +74,7 @@ static size_t species_kernels(density_grid *grid, const dem_drum_definition *def
         while (cluster->sphere[like].diameter != cluster->sphere[m].diameter) like++;
         of[m] = like < m ? of[like] : (int32_t)used;
         if (like == m)
-            kernel_fill(grid, used++, cluster->sphere[m].diameter, definition->length * volume / cluster->volume, spread);
+            kernel_fill(grid, used++, cluster->sphere[m].diameter, definition->length * volume / cluster->volume, disc);
     }
     return used;
 }
@@ -82,7 +96,9 @@ dem_status density_grid_init(density_grid *grid, const dem_scene *scene)
         return DEM_NO_MEMORY;
     }
     size_t used = 0;
-    for (size_t k = 0; k < definition->species_count; k++) used = species_kernels(grid, definition, k, used, spread);
+    disc_points disc;
+    disc_points_set(&disc, spread);
+    for (size_t k = 0; k < definition->species_count; k++) used = species_kernels(grid, definition, k, used, &disc);
     return DEM_OK;
 }
 
