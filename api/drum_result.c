@@ -34,10 +34,21 @@ static bool add_words(json_t *document, const drum_result *result)
     return failed == 0;
 }
 
+/* The verdict as users read it. Where there were too few frames for anything, the run was too short. */
+static void say_verdict(drum_result *result)
+{
+    const dem_verdict verdict = result->measured.repose.frames > 0 ? result->measured.repose.verdict : DEM_TOO_SHORT;
+    result->verdict = dem_verdict_name(verdict);
+    result->steady = verdict == DEM_STEADY ? 1.0 : verdict == DEM_DRIFTING ? 0.0 : NAN;
+    result->certain = result->has_regime ? (double)result->measured.regime.is_certain : NAN;
+}
+
 json_t *drum_result_to_json(const drum_result *result)
 {
-    json_t *document = results_to_json(&drum_result_fields, result);
-    if (document && add_words(document, result)) return document;
+    drum_result whole = *result;
+    say_verdict(&whole);
+    json_t *document = results_to_json(&drum_result_fields, &whole);
+    if (document && add_words(document, &whole)) return document;
     json_decref(document);
     return NULL;
 }

@@ -1,6 +1,7 @@
 /* Results of `drum`. This file knows nothing of the core, so that the daemon can describe results without it. */
 #include <string.h>
 
+#include "dem_rules.h"
 #include "drum_process.h"
 #include "drum_result.h"
 
@@ -11,21 +12,37 @@
 #define PACKING(member) offsetof(drum_result, measured.packing.member)
 #define DRIVE(member) offsetof(drum_result, measured.drive.member)
 #define RUN(member) offsetof(drum_result, run.member)
+#define TEXT_OF(number) #number
+#define LEAST(number) "; least for a verdict: " TEXT_OF(number)
 
 static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees", "dynamic angle of repose, mean" },
-    { "repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees", "error of that mean" },
+    { "repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees",
+      "error of that mean; null: one run cannot tell (slumping beds)" },
     { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", "lowest angle of a frame" },
     { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", "highest angle of a frame" },
-    { "repose", NULL, "steady", RESULT_TRUTH, REPOSE(steady), "", "the angle no longer drifts" },
+    { "repose", NULL, "steady", RESULT_MAYBE, offsetof(drum_result, steady), "",
+      "the angle neither drifts nor moves by falls; null: nobody can know, for the verdict's reason" },
+    { "repose", NULL, "verdict", RESULT_TEXT, offsetof(drum_result, verdict), "",
+      "steady; drifting, which includes slumps and avalanches; too-short or too-few (particles, layers) to tell; null: the bed "
+      "has no surface" },
     { "repose", NULL, "drift_deg_per_revolution", RESULT_REAL, REPOSE(drift_deg_per_revolution), "degrees",
       "slope of the angle over the window" },
+    { "repose", NULL, "drift_bound_deg_per_revolution", RESULT_REAL, REPOSE(drift_bound_deg_per_revolution), "degrees",
+      "what the size of the drift stays below in 97 of 100 cases; null: too short to tell" },
     { "repose", NULL, "interface_fluctuation", RESULT_REAL, REPOSE(interface_fluctuation), "m",
       "mean over x of the standard deviation in time of the surface's height" },
     { "repose", "window", "start", RESULT_REAL, REPOSE(window_start), "s", "measuring window, from rotation start" },
     { "repose", "window", "end", RESULT_REAL, REPOSE(window_end), "s", "its end" },
+    { "repose", "window", "revolutions", RESULT_REAL, REPOSE(window_revolutions), "",
+      "turned in it" LEAST(DEM_LEAST_WINDOW_REVOLUTIONS) ", of " TEXT_OF(DEM_LEAST_REVOLUTIONS) " in all; or 3 falls" },
+    { "repose", "window", "correlation_times", RESULT_REAL, REPOSE(correlation_times), "",
+      "of the angle that it is long" LEAST(DEM_LEAST_CORRELATION_TIMES) },
     { "repose", NULL, "correlation_time", RESULT_REAL, REPOSE(correlation_time), "s", "of the angle" },
-    { "repose", NULL, "frames", RESULT_SIZE, REPOSE(frames), "", "frames in the window" },
+    { "repose", NULL, "frames", RESULT_SIZE, REPOSE(frames), "", "frames in the window" LEAST(DEM_LEAST_WINDOW_FRAMES) },
+    { "repose", NULL, "layers", RESULT_REAL, REPOSE(layers), "",
+      "depth of the bed at mid-chord, in mean diameters" LEAST(DEM_LEAST_LAYERS) ", and " TEXT_OF(
+          DEM_LEAST_PARTICLES) " particles" },
     { "repose", "slumps", "count", RESULT_WHOLE, REPOSE(slumps.count), "",
       "slumps or avalanches seen from beginning to end; null, as all below, where the bed flows all the time" },
     { "repose", "slumps", "period", RESULT_REAL, REPOSE(slumps.period.mean), "s", "from one beginning to the next, mean" },
@@ -33,12 +50,14 @@ static const result_field fields[] = {
     { "repose", "slumps", "start_deg", RESULT_REAL, REPOSE(slumps.start_deg.mean), "degrees",
       "direction of the centre of mass where they begin, mean" },
     { "repose", "slumps", "start_standard_error_deg", RESULT_REAL, REPOSE(slumps.start_deg.standard_error), "degrees",
-      "its error" },
+      "its error; null, as the next two, where the bed slides as a block, so that another bed differs by more" },
     { "repose", "slumps", "stop_deg", RESULT_REAL, REPOSE(slumps.stop_deg.mean), "degrees", "the same where they end" },
     { "repose", "slumps", "stop_standard_error_deg", RESULT_REAL, REPOSE(slumps.stop_deg.standard_error), "degrees", "its error" },
     { "repose", "slumps", "size_deg", RESULT_REAL, REPOSE(slumps.size_deg.mean), "degrees", "start less stop, mean" },
     { "repose", "slumps", "size_standard_error_deg", RESULT_REAL, REPOSE(slumps.size_deg.standard_error), "degrees", "its error" },
 
+    { "regime", NULL, "certain", RESULT_MAYBE, offsetof(drum_result, certain), "",
+      "told alike from either half of a window that is long enough, of a bed of enough particles; null: no regime" },
     { "regime", NULL, "omega2_outer", RESULT_REAL, REGIME(omega2_outer), "", "omega^2 R/g at the wall" },
     { "regime", NULL, "omega2_inner", RESULT_REAL, REGIME(omega2_inner), "", "the same at the bed's inner surface" },
     { "regime", "predicted", "stationary_eq33", RESULT_REAL, REGIME(predicted_stationary), "",
@@ -51,7 +70,7 @@ static const result_field fields[] = {
     { "regime", "evidence", "angle_fluctuation_deg", RESULT_REAL, REGIME(angle_fluctuation_deg), "degrees",
       "standard deviation in time of the direction of the centre of mass" },
     { "regime", "evidence", "flow_fluctuation", RESULT_REAL, REGIME(flow_fluctuation), "",
-      "standard deviation over mean of the surface flow's speed" },
+      "standard deviation over mean of the surface flow at mid-chord" },
     { "regime", "evidence", "airborne_fraction", RESULT_REAL, REGIME(airborne_fraction), "",
       "share of particles in flight: no contact, 3 diameters above the chord of the fill" },
     { "regime", "evidence", "wall_coverage", RESULT_REAL, REGIME(wall_coverage), "",
@@ -124,9 +143,9 @@ static const result_output outputs[] = {
 static void describe_words(json_t *properties, const char *output)
 {
     if (strcmp(output, "regime") == 0)
-        json_object_set_new(
-            properties, "name",
-            json_pack("{s:[s, s], s:s}", "type", "string", "null", "description", "flow regime; null: too few frames to tell"));
+        json_object_set_new(properties, "name",
+                            json_pack("{s:[s, s], s:s}", "type", "string", "null", "description",
+                                      "flow regime; null: too few frames, or no bed, to tell"));
     if (strcmp(output, "repose") != 0) return;
     json_object_set_new(properties, "method",
                         json_pack("{s:s, s:s}", "type", "string", "description", "how angle_deg was measured"));

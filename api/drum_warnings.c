@@ -29,9 +29,31 @@ static void warn_of_rate(const job_spec *spec, problem_list *warnings)
                          rate, revolutions_a_minute(rate), froude, what, rate, rotation_of_rpm(rate));
 }
 
+/* What its result will say, too, in its verdict. */
+static void warn_of_what_cannot_be_told(const job_spec *spec, problem_list *warnings)
+{
+    const dem_drum_definition *drum = &spec->drum;
+    const double revolutions = spec->duration * fabs(drum->rotation_rate) / (2.0 * DEM_PI);
+    const double grain = cbrt(6.0 / DEM_PI * dem_mean_volume(drum->species, drum->species_count));
+    const double layers = dem_bed_layers(drum->diameter, fmin(drum->fill_fraction, 1.0), grain);
+    if (revolutions < DEM_LEAST_REVOLUTIONS)
+        problem_list_add(warnings, "/inputs/duration",
+                         "is %.3g revolutions: too short to tell whether the angle is steady, which takes %g at least", revolutions,
+                         DEM_LEAST_REVOLUTIONS);
+    if ((double)drum->particle_count < DEM_LEAST_PARTICLES || layers < DEM_LEAST_LAYERS)
+        problem_list_add(warnings, "/inputs/particles",
+                         "are %zu, in %.3g layers: too few to tell whether the angle is steady, which takes %d, in %d layers, "
+                         "at least%s",
+                         drum->particle_count, layers, DEM_LEAST_PARTICLES, DEM_LEAST_LAYERS,
+                         (double)drum->particle_count < DEM_LEAST_BED_PARTICLES || layers < DEM_LEAST_BED_LAYERS
+                             ? "; so few have no angle"
+                             : "");
+}
+
 void drum_warn(const job_spec *spec, problem_list *warnings)
 {
     warn_of_rate(spec, warnings);
+    warn_of_what_cannot_be_told(spec, warnings);
     scene_warn(spec, warnings);
 }
 

@@ -16,7 +16,7 @@ static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees",
       "slope of the mound at the end, mean over the azimuths; negative: the middle is lower" },
     { "repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees",
-      "error of that mean for this one bed; beds of other seeds differ by more" },
+      "error of that mean; the other definitions have none, since one bed cannot tell it" },
     { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", "flattest azimuth" },
     { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", "steepest azimuth" },
     { "repose", NULL, "azimuths", RESULT_WHOLE, offsetof(fill_result, azimuths), "", "sectors" },

@@ -15,7 +15,7 @@ static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees",
       "static angle of repose, mean over the azimuths; null: too small a heap" },
     { "repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees",
-      "error of that mean for this one heap; heaps of other seeds differ by more" },
+      "error of that mean; the other definitions have none, since one heap cannot tell it" },
     { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", "flattest azimuth" },
     { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", "steepest azimuth" },
     { "repose", NULL, "azimuths", RESULT_WHOLE, offsetof(heap_result, azimuths), "", "sectors, or sides that it is seen from" },

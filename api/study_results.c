@@ -56,9 +56,9 @@ static json_t *label_of(const char *text)
 bool study_table_add_case(void *context, const study_case_row *row)
 {
     study_table *table = context;
-    json_t *one =
-        json_pack("{s:s, s:o, s:o, s:i, s:i, s:i, s:n, s:{}}", "case", row->name, "inputs", json_loads(row->inputs, 0, NULL),
-                  "label", label_of(row->label), "repeats", 0, "finished", 0, "failed", 0, "regime", "results");
+    json_t *one = json_pack("{s:s, s:o, s:o, s:i, s:i, s:i, s:n, s:n, s:n, s:n, s:{}}", "case", row->name, "inputs",
+                            json_loads(row->inputs, 0, NULL), "label", label_of(row->label), "repeats", 0, "finished", 0, "failed",
+                            0, "regime", "certain", "verdict", "steady", "results");
     if (!one || json_array_append_new(table->cases, one) != 0) table->failed = true;
     return !table->failed;
 }
@@ -71,25 +71,46 @@ static void begin_case(study_summing *summing, int64_t index)
     memset(summing->counts, 0, sizeof summing->counts);
     memset(summing->means, 0, sizeof summing->means);
     json_object_clear(summing->regimes);
+    json_object_clear(summing->verdicts);
+    summing->steady = summing->certain = (truth_of_runs){ 0 };
 }
 
 void study_summing_init(study_summing *summing, study_table *table)
 {
     summing->table = table;
     summing->regimes = json_object();
+    summing->verdicts = json_object();
     begin_case(summing, -1);
 }
 
+static void count_word(json_t *words, const json_t *word)
+{
+    const char *name = json_string_value(word);
+    if (name) json_object_set_new(words, name, json_integer(json_integer_value(json_object_get(words, name)) + 1));
+}
+
+static void count_truth(truth_of_runs *truth, const json_t *value)
+{
+    ++*(!json_is_number(value) ? &truth->unknown : json_number_value(value) != 0.0 ? &truth->yes : &truth->no);
+}
+
+/* True where every run says so, false where one says not, else null. */
+static json_t *truth_to_json(const truth_of_runs *truth)
+{
+    if (truth->no > 0) return json_false();
+    return truth->yes > 0 && truth->unknown == 0 ? json_true() : json_null();
+}
+
 /* "rolling"; "rolling 2, slumping 1". */
-static json_t *regimes_to_json(const json_t *regimes)
+static json_t *words_to_json(const json_t *words)
 {
     char text[300] = "";
     const char *name;
     json_t *runs;
-    json_object_foreach((json_t *)regimes, name, runs)
+    json_object_foreach((json_t *)words, name, runs)
     {
         const size_t length = strlen(text);
-        if (json_object_size(regimes) == 1) snprintf(text, sizeof text, "%s", name);
+        if (json_object_size(words) == 1) snprintf(text, sizeof text, "%s", name);
         else
             snprintf(text + length, sizeof text - length, "%s%s %lld", length ? ", " : "", name,
                      (long long)json_integer_value(runs));
@@ -110,7 +131,10 @@ static void end_case(study_summing *summing)
     if (json_object_set_new(one, "repeats", json_integer(all)) != 0
         || json_object_set_new(one, "finished", json_integer(summing->counts[JOB_SUCCESSFUL])) != 0
         || json_object_set_new(one, "failed", json_integer(summing->counts[JOB_FAILED])) != 0
-        || json_object_set_new(one, "regime", regimes_to_json(summing->regimes)) != 0
+        || json_object_set_new(one, "regime", words_to_json(summing->regimes)) != 0
+        || json_object_set_new(one, "certain", truth_to_json(&summing->certain)) != 0
+        || json_object_set_new(one, "verdict", words_to_json(summing->verdicts)) != 0
+        || json_object_set_new(one, "steady", truth_to_json(&summing->steady)) != 0
         || json_object_set_new(one, "results", results) != 0)
         summing->table->failed = true;
 }
@@ -130,10 +154,10 @@ bool study_summing_add_run(void *context, const study_run_row *row)
         const json_t *error = study_measures[m].run_error ? json_object_get(row->measures, study_measures[m].run_error) : NULL;
         mean_of_runs_add(&summing->means[m], json_number_value(value), json_is_number(error) ? json_number_value(error) : NAN);
     }
-    const char *regime = json_string_value(json_object_get(row->measures, "regime"));
-    if (regime)
-        json_object_set_new(summing->regimes, regime,
-                            json_integer(json_integer_value(json_object_get(summing->regimes, regime)) + 1));
+    count_word(summing->regimes, json_object_get(row->measures, "regime"));
+    count_word(summing->verdicts, json_object_get(row->measures, "verdict"));
+    count_truth(&summing->certain, json_object_get(row->measures, "certain"));
+    count_truth(&summing->steady, json_object_get(row->measures, "steady"));
     return true;
 }
 
@@ -141,7 +165,8 @@ void study_summing_end(study_summing *summing)
 {
     end_case(summing);
     json_decref(summing->regimes);
-    summing->regimes = NULL;
+    json_decref(summing->verdicts);
+    summing->regimes = summing->verdicts = NULL;
 }
 
 /* --- CSV --- */
@@ -198,7 +223,7 @@ static void write_head(const json_t *inputs, const json_t *labels, const json_t 
     text_buffer_print(out, "case");
     json_object_foreach((json_t *)inputs, name, unused) { add_name(out, "", name, ""); }
     json_object_foreach((json_t *)labels, name, unused) { add_name(out, "label/", name, ""); }
-    text_buffer_print(out, ",repeats,finished,failed,regime");
+    text_buffer_print(out, ",repeats,finished,failed,regime,certain,verdict,steady");
     json_object_foreach((json_t *)results, name, unused)
     {
         add_name(out, "", name, "");
@@ -221,6 +246,9 @@ static void write_row(const json_t *row, const json_t *inputs, const json_t *lab
     add_json(out, json_object_get(row, "finished"));
     add_json(out, json_object_get(row, "failed"));
     add_json(out, json_object_get(row, "regime"));
+    add_json(out, json_object_get(row, "certain"));
+    add_json(out, json_object_get(row, "verdict"));
+    add_json(out, json_object_get(row, "steady"));
     json_object_foreach((json_t *)results, name, unused)
     {
         const json_t *measure = json_object_get(json_object_get(row, "results"), name);

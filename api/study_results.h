@@ -25,19 +25,25 @@ void study_table_clear(study_table *table);
  * or the summing. */
 study_case_visitor study_table_add_case;
 
+/* How many runs say so, how many not, how many cannot know. */
+typedef struct truth_of_runs {
+    int64_t yes, no, unknown;
+} truth_of_runs;
+
 typedef struct study_summing {
     study_table *table;
     int64_t index; /* of the case being summed; -1: none yet */
     int64_t counts[JOB_STATUSES];
     mean_of_runs means[STUDY_MEASURES];
-    json_t *regimes; /* {"rolling": 2}: how many runs were so */
+    json_t *regimes, *verdicts; /* {"rolling": 2}: how many runs were so */
+    truth_of_runs steady, certain;
 } study_summing;
 
 void study_summing_init(study_summing *summing, study_table *table);
 study_run_visitor study_summing_add_run;
 void study_summing_end(study_summing *summing);
 
-/* One line a case. Columns: case, inputs, labels, counts, regime, then for each measure that any case has its mean and
+/* One line a case. Columns: case, inputs, labels, counts, regime, verdict, then for each measure that any case has its mean and
  * error. */
 void study_table_write_csv(const study_table *table, text_buffer *out);
 

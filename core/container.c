@@ -206,13 +206,3 @@ void container_turn_lining(const container *drum, spheres *s)
                    (vector4){ 0, 0, drum->rotation_rate });
     }
 }
-
-/* Share of a unit circle's area below the height y. */
-static double area_below(double y) { return (acos(-y) + y * sqrt(1 - y * y)) / DEM_PI; }
-
-double circle_level(double share)
-{
-    double low = -1.0, high = 1.0;
-    for (int k = 0; k < 60; k++) *(area_below(0.5 * (low + high)) < share ? &low : &high) = 0.5 * (low + high);
-    return 0.5 * (low + high);
-}

@@ -39,9 +39,6 @@ void container_place_lining(const container *drum, const dem_drum_definition *de
 /* Turn the lining to the drum's angle, with the velocity of its place there. */
 void container_turn_lining(const container *drum, spheres *spheres);
 
-/* Height, as a share of a circle's radius, below which `share` of its area lies: -1 for 0, 1 for 1. */
-double circle_level(double share);
-
 /* z brought into [-length/2, length/2): a function of z alone, so that wrapping gives the same bits whenever done. */
 static inline double wrap_axial(double z, double length, double inverse_length) { return z - length * rint(z * inverse_length); }
 static inline double squared_distance(const double a[3], const double b[3], double period, double inverse_period)

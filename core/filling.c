@@ -293,7 +293,7 @@ static region region_of_share(const container *c, const spheres *s, double share
 {
     region r = { .container = c, .room = c->inner_radius, .level = 1.0, .height = c->length };
     /* at least as high as one sphere needs */
-    if (share < 1 && c->kind == DEM_DRUM) r.level = fmax(circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / r.room - 1));
+    if (share < 1 && c->kind == DEM_DRUM) r.level = fmax(dem_circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / r.room - 1));
     if (share < 1 && c->kind != DEM_DRUM) r.height = fmin(c->length, fmax(share * c->length, 3 * s->largest_reach));
     return r;
 }

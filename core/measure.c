@@ -79,26 +79,63 @@ dem_status dem_frame_measure(dem_scene *scene, double *frame)
     return status;
 }
 
-static bool comes_in_jerks(const dem_drum_results *results)
-{
-    return results->regime.regime == DEM_SLUMPING || results->regime.regime == DEM_AVALANCHING;
-}
+bool measure_comes_in_falls(dem_regime regime) { return regime == DEM_SLUMPING || regime == DEM_AVALANCHING; }
 
-/* A bed that flows all the time has no slumps, however its angle may wander. */
-static dem_status slumps_of_window(const dem_scene *scene, const frame_window *window, dem_drum_results *results)
+/* Falls in all frames, those before any window included: the climb from rest shows where the first begins. */
+static dem_status find_falls(const dem_scene *scene, const frame_window *all, dem_slumps *falls)
 {
-    results->repose.slumps = (dem_slumps){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN } };
-    if (!comes_in_jerks(results)) return DEM_OK;
-    double *time = frame_window_column(window, FRAME_TIME), *angle = frame_window_column(window, FRAME_CENTER_OF_MASS);
+    double *time = frame_window_column(all, FRAME_TIME), *angle = frame_window_column(all, FRAME_CENTER_OF_MASS);
     dem_status status = DEM_NO_MEMORY;
     if (time && angle) {
         if (scene->definition.rotation_rate < 0)
-            for (size_t k = 0; k < window->count; k++) angle[k] = -angle[k];
-        status = measure_slumps(time, angle, window->count, &results->repose.slumps);
+            for (size_t k = 0; k < all->count; k++) angle[k] = -angle[k];
+        status = measure_slumps(time, angle, all->count, falls);
     }
     free(time);
     free(angle);
     return status;
+}
+
+static bool falls_within(const dem_scene *scene, const frame_window *window, dem_drum_results *results)
+{
+    measure_repose_results(scene, window, &results->repose);
+    measure_regime_results(scene, window, &results->repose, &results->regime);
+    return measure_comes_in_falls(results->regime.regime);
+}
+
+/* Angles and regime over the frames that tell them. A bed that moves by falls shows it after the transient, or after its
+ * first fall, which for a bed that flows is the transient. It keeps all its falls. */
+static frame_window measure_window(const dem_scene *scene, const frame_window *all, const dem_slumps *falls,
+                                   dem_drum_results *results)
+{
+    const frame_window flow = measure_window_of_flow(scene, all);
+    bool comes_in_falls = falls_within(scene, &flow, results);
+    if (!comes_in_falls && falls->count >= 2) {
+        const frame_window later = frame_window_from(all, falls->first_end);
+        comes_in_falls = falls_within(scene, &later, results);
+    }
+    if (comes_in_falls && !isnan(falls->first_start)) {
+        const frame_window every = measure_window_of_falls(scene, all, falls->first_start);
+        if (falls_within(scene, &every, results)) return every;
+    }
+    falls_within(scene, &flow, results);
+    return flow;
+}
+
+/* What one run cannot know has no error. A bed that slides as a block keeps its shape, which another bed has not: all but
+ * the direction of its centre of mass differs from bed to bed by more than over time. The drum's torque and that of the
+ * weight have the same mean; of a bed that falls, the forces that stop each fall balance those that began it, so that the
+ * torque's own error knows nothing of how the falls differ. */
+static void claim_what_a_repeat_would_show(dem_drum_results *results)
+{
+    dem_drive_result *drive = &results->drive;
+    dem_slumps *slumps = &results->repose.slumps;
+    if (!measure_comes_in_falls(results->regime.regime)) return;
+    drive->torque.standard_error = fmax(drive->torque.standard_error, drive->weight_torque.standard_error);
+    if (results->regime.regime != DEM_SLUMPING) return;
+    for (int m = 0; m < DEM_ANGLE_METHODS; m++)
+        if (m != DEM_CENTER_OF_MASS) results->repose.angle[m].standard_error_deg = NAN;
+    slumps->start_deg.standard_error = slumps->stop_deg.standard_error = slumps->size_deg.standard_error = NAN;
 }
 
 dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results)
@@ -106,17 +143,21 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
     enum { LEAST_FRAMES = 8 };
     if (count < LEAST_FRAMES) return DEM_TOO_FEW_FRAMES;
     memset(results, 0, sizeof *results);
-    frame_window window;
-    dem_status status = measure_repose_results(scene, frames, count, dem_frame_width(scene), &results->repose, &window);
+    const frame_window all = { frames, count, dem_frame_width(scene) };
+    dem_slumps falls;
+    const dem_status status = find_falls(scene, &all, &falls);
     if (status != DEM_OK) return status;
-    measure_regime_results(scene, &window, &results->repose, &results->regime);
-    /* A block that slides back and forth has no steady angle, however flat its average. */
-    if (comes_in_jerks(results)) results->repose.steady = false;
+    const frame_window window = measure_window(scene, &all, &falls, results);
+    /* A bed that flows all the time has no slumps, however its angle may wander. */
+    const bool comes_in_falls = results->regime.is_told && measure_comes_in_falls(results->regime.regime);
+    results->repose.slumps =
+        comes_in_falls ? falls : (dem_slumps){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN, NAN };
+    measure_verdict(scene, &window, results);
     results->packing.solid_fraction = frame_window_mean(&window, FRAME_SOLID_FRACTION);
     results->packing.coordination_number = frame_window_mean(&window, FRAME_COORDINATION);
     results->packing.mean_overlap = frame_window_mean(&window, FRAME_MEAN_OVERLAP);
     results->packing.overlap_99 = frame_window_mean(&window, FRAME_OVERLAP_99);
     measure_drive_results(scene, &window, &results->drive);
-    status = slumps_of_window(scene, &window, results);
-    return status == DEM_OK ? measure_segregation_results(scene, &results->segregation) : status;
+    claim_what_a_repeat_would_show(results);
+    return measure_segregation_results(scene, &results->segregation);
 }

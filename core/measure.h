@@ -37,17 +37,32 @@ typedef struct frame_window {
 double *frame_window_column(const frame_window *window, size_t column);
 double frame_window_mean(const frame_window *window, size_t column);
 double frame_window_deviation(const frame_window *window, size_t column);
+frame_window frame_window_from(const frame_window *window, double time); /* the frames from then on, the last at least */
+
+/* Of a bed that flows: where the climb from rest and the transient are over, which is after a quarter revolution (a quarter
+ * of the run where that is shorter) or when the angle has stopped drifting, whichever is later. Of one that falls: from where
+ * the surface was steepest before the first fall began. */
+frame_window measure_window_of_flow(const dem_scene *scene, const frame_window *all);
+frame_window measure_window_of_falls(const dem_scene *scene, const frame_window *all, double first_start);
+
+double measure_layers(const dem_scene *scene); /* depth of the bed at mid-chord, in mean diameters */
+bool measure_has_bed(const dem_scene *scene);  /* else there is no surface to measure an angle of */
 
 /* Angles and interface of the present configuration: frame[FRAME_SURFACE_FIT ... FRAME_SOLID_FRACTION] and the
  * interface behind the scalars. contacts: (mobile spheres) of the particle that each is a part of. */
 dem_status measure_repose_frame(const dem_scene *scene, const int32_t *contacts, double *frame);
-dem_status measure_repose_results(const dem_scene *scene, const double *frames, size_t count, size_t width,
-                                  dem_repose_result *result, frame_window *window);
+void measure_repose_results(const dem_scene *scene, const frame_window *window, dem_repose_result *result);
 
 /* Motion: frame[FRAME_AIRBORNE ... FRAME_SURFACE_LAG]; needs the frame's surface fit. */
 void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *frame);
 void measure_regime_results(const dem_scene *scene, const frame_window *window, const dem_repose_result *repose,
                             dem_regime_result *result);
+
+/* Slumping or avalanching. */
+bool measure_comes_in_falls(dem_regime regime);
+
+/* Drift, verdict, and whether the regime is certain; needs all else of angle, slumps and regime. */
+void measure_verdict(const dem_scene *scene, const frame_window *window, dem_drum_results *results);
 
 /* The drum's torque since the last frame, whose meter it resets, and that of the bed's weight: frame[FRAME_TORQUE,
  * FRAME_WEIGHT_TORQUE]. */

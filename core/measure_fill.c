@@ -124,5 +124,10 @@ dem_status dem_fill_measure(const dem_mound *mound, double cylinder_radius, dem_
     height_map_profile(&map, edge, mound->grain, &results->surface, NULL);
     measure_packing(mound, cylinder_radius, results);
     height_map_clear(&map);
+    /* All sectors share the middle, and the layer along the wall: what they differ by does not tell how another bed would
+     * differ. */
+    results->angle[DEM_CENTER_TO_WALL].standard_error_deg = results->angle[DEM_AREA_FIT].standard_error_deg = NAN;
+    if (mound->count < DEM_LEAST_BED_PARTICLES || results->height < DEM_LEAST_BED_LAYERS * mound->grain)
+        for (int m = 0; m < DEM_FILL_METHODS; m++) results->angle[m] = (dem_angle){ NAN, NAN, NAN, NAN };
     return DEM_OK;
 }

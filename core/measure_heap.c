@@ -34,18 +34,10 @@ static void fit_azimuths(const height_map *map, const dem_profile *mean, double 
     const double to = falls_to(mean->place, mean->value, mean->count, level + LOWER * (top - level), radius);
     ring_sums sums[DEM_AZIMUTHS];
     height_map_sum(map, from, to, sums);
-    /* A flank shorter than two grains has no slope to speak of. */
-    const bool has_flank = to - from >= 2 * grain;
+    /* A flank shorter than two grains has no slope to speak of, nor has a single layer with some grains on it. */
+    const bool has_flank = to - from >= 2 * grain && top - level >= grain;
     for (int a = 0; a < DEM_AZIMUTHS; a++) radians[a] = has_flank ? atan(-ring_slope(&sums[a])) : NAN;
     *angle = angle_over_azimuths(radians);
-}
-
-/* Exactly: a deviation would be some 1e-17 by rounding. */
-static bool all_equal(const double *value, size_t count)
-{
-    for (size_t k = 1; k < count; k++)
-        if (!(value[k] == value[0])) return false;
-    return true;
 }
 
 /* Cones of each sector's base: of the heap's height, and of the sector's volume; both over the level of the base. */
@@ -64,8 +56,6 @@ static void measure_cones(const height_map *map, const dem_profile *mean, double
         volume_cone[a] = atan(3 * mean_height / base[a]);
     }
     results->angle[DEM_APEX_TO_BASE] = angle_over_azimuths(height_cone);
-    /* Where the plate ends every base, all azimuths say the same, which is no sign of certainty. */
-    if (all_equal(base, DEM_AZIMUTHS)) results->angle[DEM_APEX_TO_BASE].standard_error_deg = NAN;
     results->angle[DEM_EQUAL_VOLUME] = angle_over_azimuths(volume_cone);
     results->base_diameter = 2 * statistics_mean(base, DEM_AZIMUTHS);
 }
@@ -124,11 +114,24 @@ static void measure_volume(const height_map *map, const dem_mound *mound, dem_he
     results->solid_fraction = results->volume > 0 ? solid / results->volume : NAN;
 }
 
+static void set_no_angles(dem_heap_results *results)
+{
+    for (int m = 0; m < DEM_HEAP_METHODS; m++) results->angle[m] = (dem_angle){ NAN, NAN, NAN, NAN };
+}
+
 static void set_nothing_known(dem_heap_results *results)
 {
     memset(results, 0, sizeof *results);
-    for (int m = 0; m < DEM_HEAP_METHODS; m++) results->angle[m] = (dem_angle){ NAN, NAN, NAN, NAN };
+    set_no_angles(results);
     results->base_diameter = results->static_cohesive_index = results->solid_fraction = NAN;
+}
+
+/* Another heap has another top, base and volume, which all azimuths of this one share, as sides share the outline: what they
+ * differ by does not tell. */
+static void claim_what_a_repeat_would_show(dem_heap_results *results)
+{
+    for (int m = 0; m < DEM_HEAP_METHODS; m++)
+        if (m != DEM_AZIMUTHAL_FIT) results->angle[m].standard_error_deg = NAN;
 }
 
 dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, double rim_height, dem_heap_results *results)
@@ -148,5 +151,7 @@ dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, double 
     measure_volume(&map, mound, results);
     status = measure_silhouette(&map, level, &results->angle[DEM_SILHOUETTE]);
     height_map_clear(&map);
+    claim_what_a_repeat_would_show(results);
+    if (mound->count < DEM_LEAST_BED_PARTICLES) set_no_angles(results);
     return status;
 }

@@ -73,7 +73,8 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     const double wall = scene->drum.inner_radius, inner = inner_radius(scene);
     const double angle = frame[FRAME_SURFACE_FIT] * (DEM_PI / 180), c = cos(angle), sine = sin(angle);
     /* The chord that the fill makes in the frame of the surface: in flight is what is well above it without contact. */
-    const double chord = circle_level(fmin(bed_fill(scene, frame[FRAME_SOLID_FRACTION]), 1.0)) * scene->drum.radius;
+    const double chord = dem_circle_level(fmin(bed_fill(scene, frame[FRAME_SOLID_FRACTION]), 1.0)) * scene->drum.radius;
+    const double sense = rate < 0 ? -1 : 1; /* in which the surface rises */
     mean wall_spin = { 0 }, flow = { 0 }, airborne = { 0 };
     bool bins[WALL_BINS] = { false };
     for (size_t i = 0; i < s->mobile_count; i++) {
@@ -88,9 +89,10 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
             bins[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (WALL_BINS - 1e-9))] = true;
         }
         if (rho < inner - 2 * d) s->fallen_time[i] = (float)time;
-        /* Downslope speed of the flowing layer at the middle of the chord. */
-        const double along = c * x[0] + sine * x[1], downslope = -(c * v[0] + sine * v[1]);
-        if (fabs(along) < 0.25 * scene->drum.radius && downslope > 0) mean_add(&flow, downslope);
+        /* Flow of the layer at the middle of the chord: downslope speed, over all that is there. What moves with the drum
+         * counts as 0, so that a bed at rest has a flow, too: none. */
+        const double along = c * x[0] + sine * x[1], downslope = sense * -(c * v[0] + sine * v[1]);
+        if (fabs(along) < 0.25 * scene->drum.radius) mean_add(&flow, fmax(downslope, 0.0));
     }
     frame[FRAME_AIRBORNE] = mean_of(&airborne);
     frame[FRAME_WALL_SLIP] = rate != 0 ? 1 - mean_of(&wall_spin) / rate : NAN;
@@ -111,7 +113,8 @@ static double fallen_fraction(const dem_scene *scene, double since)
 static frame_window last_revolutions(const dem_scene *scene, const frame_window *window, double *since)
 {
     const double revolution = 2 * DEM_PI / fabs(scene->definition.rotation_rate);
-    *since = fmax(window->frames[FRAME_TIME], dem_scene_time(scene) - 4 * revolution);
+    const double end = fmin(window->frames[(window->count - 1) * window->width + FRAME_TIME], dem_scene_time(scene));
+    *since = fmax(window->frames[FRAME_TIME], end - 4 * revolution);
     frame_window last = *window;
     while (last.count > 1 && last.frames[FRAME_TIME] < *since) {
         last.frames += last.width;
@@ -154,11 +157,13 @@ void measure_regime_results(const dem_scene *scene, const frame_window *window, 
     r->angle_fluctuation_deg = frame_window_deviation(window, FRAME_CENTER_OF_MASS);
     r->flow_fluctuation = frame_window_deviation(window, FRAME_FLOW_SPEED) / frame_window_mean(window, FRAME_FLOW_SPEED);
     r->airborne_fraction = frame_window_mean(window, FRAME_AIRBORNE);
-    r->curvature_deg = repose->angle[DEM_UPPER_CHORD].mean_deg - repose->angle[DEM_LOWER_CHORD].mean_deg;
+    r->curvature_deg = frame_window_mean(window, FRAME_UPPER_CHORD) - frame_window_mean(window, FRAME_LOWER_CHORD);
     double since;
     const frame_window last = last_revolutions(scene, window, &since);
     r->fallen_fraction = fallen_fraction(scene, since);
     r->surface_lag = frame_window_mean(&last, FRAME_SURFACE_LAG);
     r->wall_coverage = frame_window_mean(&last, FRAME_WALL_COVERAGE);
-    r->regime = r->wall_coverage > 0.95 && r->omega2_outer > 1 ? fast_regime(r) : slow_regime(r);
+    const bool is_fast = r->wall_coverage > 0.95 && r->omega2_outer > 1;
+    r->regime = is_fast ? fast_regime(r) : slow_regime(r);
+    r->is_told = is_fast ? particles_count(&scene->spheres) >= DEM_LEAST_BED_PARTICLES : measure_has_bed(scene);
 }

@@ -108,7 +108,7 @@ static bool is_ring(const dem_scene *scene)
 static void measure_angles(const dem_scene *scene, const int32_t *contacts, density_grid *grid, double *frame)
 {
     const double center = center_of_mass_angle(&scene->spheres);
-    const bool ring = is_ring(scene);
+    const bool ring = is_ring(scene) || !measure_has_bed(scene);
     double half_length = 0.0;
     const double angle = ring ? NAN : level_frame(grid, scene, center, &half_length);
     if (ring) density_grid_deposit(grid, scene, 0.0); /* for the solid fraction */
@@ -168,42 +168,7 @@ static dem_angle angle_of_mean_interface(const dem_scene *scene, const frame_win
     return angle;
 }
 
-/* The window starts after a quarter revolution or when the angle has stopped drifting, whichever is later; a
- * quarter of the run where that is shorter. */
-static size_t window_start(const dem_scene *scene, const double *frames, size_t count, size_t width)
-{
-    const double quarter_turn = scene->definition.rotation_rate != 0 ? 0.5 * DEM_PI / fabs(scene->definition.rotation_rate) : 0.0;
-    const double last = frames[(count - 1) * width + FRAME_TIME];
-    const double earliest = fmin(quarter_turn, 0.25 * last);
-    size_t start = 0;
-    while (start + 1 < count && frames[start * width + FRAME_TIME] < earliest) start++;
-    const frame_window rest = { frames + start * width, count - start, width };
-    double *angle = frame_window_column(&rest, FRAME_SURFACE_FIT);
-    if (angle) start += statistics_transient(angle, rest.count);
-    free(angle);
-    return start;
-}
-
-/* Steady: over the window the angle drifts by less than half a degree, or by no more than chance allows. */
-static void measure_drift(const dem_scene *scene, const frame_window *window, dem_repose_result *result)
-{
-    double *time = frame_window_column(window, FRAME_TIME), *angle = frame_window_column(window, FRAME_SURFACE_FIT);
-    result->drift_deg_per_revolution = NAN;
-    if (time && angle && window->count > 2) {
-        const double correlation = statistics_correlation_length(angle, window->count);
-        const line_fit fit = statistics_line(time, angle, window->count, correlation);
-        const double revolution = 2 * DEM_PI / fabs(scene->definition.rotation_rate);
-        const double length = time[window->count - 1] - time[0];
-        result->drift_deg_per_revolution = fit.slope * revolution;
-        result->correlation_time = correlation * length / (double)(window->count - 1);
-        result->steady = fabs(fit.slope * length) < 0.5 || fabs(fit.slope) < 2 * fit.slope_error;
-    }
-    free(time);
-    free(angle);
-}
-
-dem_status measure_repose_results(const dem_scene *scene, const double *frames, size_t count, size_t width,
-                                  dem_repose_result *result, frame_window *window)
+void measure_repose_results(const dem_scene *scene, const frame_window *window, dem_repose_result *result)
 {
     static const struct {
         dem_angle_method method;
@@ -212,14 +177,12 @@ dem_status measure_repose_results(const dem_scene *scene, const double *frames, 
         { DEM_SURFACE_FIT, FRAME_SURFACE_FIT }, { DEM_CENTER_OF_MASS, FRAME_CENTER_OF_MASS }, { DEM_THEIL_SEN, FRAME_THEIL_SEN },
         { DEM_UPPER_CHORD, FRAME_UPPER_CHORD }, { DEM_LOWER_CHORD, FRAME_LOWER_CHORD },
     };
-    const size_t start = window_start(scene, frames, count, width);
-    *window = (frame_window){ frames + start * width, count - start, width };
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
         result->angle[columns[k].method] = angle_of_column(window, columns[k].column);
     result->angle[DEM_CHORD] = angle_of_mean_interface(scene, window, &result->interface_fluctuation);
     result->frames = window->count;
     result->window_start = window->frames[FRAME_TIME];
-    result->window_end = frames[(count - 1) * width + FRAME_TIME];
-    measure_drift(scene, window, result);
-    return DEM_OK;
+    result->window_end = window->frames[(window->count - 1) * window->width + FRAME_TIME];
+    result->window_revolutions = fabs(scene->definition.rotation_rate) * (result->window_end - result->window_start) / (2 * DEM_PI);
+    result->layers = measure_layers(scene);
 }

@@ -1,30 +1,37 @@
 /* Slumps as events: falls of the angle from one turning point to the next.
  *
  * A turning point counts when the angle has gone back from it by more than a threshold, which the series itself sets: eight
- * times its noise from frame to frame (10^4 normal numbers span 7.7 deviations), or one and a half times its standard
- * deviation, whichever is more: a saw-tooth's deviation is 0.29 of its height, so that teeth above 0.43 of the usual height
- * are seen. */
+ * times its noise from frame to frame (10^4 normal numbers span 7.7 deviations), or 0.87 of the distance between its
+ * quartiles, whichever is more: a saw-tooth's quartiles are half its height apart, so that teeth above 0.43 of the usual
+ * height are seen, and one large fall does not hide the others. A bed that begins at rest climbs to its first fall: the
+ * quartiles leave that climb out. */
 #include "measure.h"
 #include "statistics.h"
 
-/* Deviation of what is independent from frame to frame: second differences do not see a steady rise or fall, and the
- * median does not see the turning points. */
+/* Deviation of what is independent from frame to frame: differences do not see a steady rise or fall, and the median does not
+ * see the turning points. Second ones take the bend of a swing of few frames for noise, which fourth ones hardly do; those
+ * see more of the turning points. Neither sees less than the noise. */
 static double noise_of(const double *angle, size_t count, double *room)
 {
     for (size_t k = 1; k + 1 < count; k++) room[k - 1] = fabs(angle[k - 1] - 2 * angle[k] + angle[k + 1]);
-    return 1.4826 * statistics_median(room, count - 2) / sqrt(6);
+    const double second = statistics_median(room, count - 2) / sqrt(6);
+    for (size_t k = 2; k + 2 < count; k++)
+        room[k - 2] = fabs(angle[k - 2] - 4 * angle[k - 1] + 6 * angle[k] - 4 * angle[k + 1] + angle[k + 2]);
+    return 1.4826 * (count > 4 ? fmin(second, statistics_median(room, count - 4) / sqrt(70)) : second);
 }
 
 /* Slumps as they are found: their beginnings' times, and angles before and after. */
 typedef struct slump_list {
     double *start_time, *start, *stop;
     size_t count;
+    double first_end;
 } slump_list;
 
-/* Walks from one extreme to the next. The first is none: the series may begin anywhere; the last is none either. */
-static void find_slumps(const double *time, const double *angle, size_t count, double threshold, slump_list *found)
+/* Walks from one extreme to the next. The first is none: the series may begin anywhere; the last is none either. Returns
+ * where the first fall after a rise begins, be its end seen or not; count: there is none. */
+static size_t find_slumps(const double *time, const double *angle, size_t count, double threshold, slump_list *found)
 {
-    size_t low = 0, high = 0, top = 0;
+    size_t low = 0, high = 0, top = 0, first = count;
     enum { EITHER, RISING, FALLING } going = EITHER;
     bool has_top = false;
     for (size_t k = 1; k < count; k++) {
@@ -33,10 +40,12 @@ static void find_slumps(const double *time, const double *angle, size_t count, d
         if (going != FALLING && angle[high] - angle[k] > threshold) {
             has_top = going == RISING;
             top = high;
+            if (has_top && first == count) first = top;
             going = FALLING;
             low = k;
         } else if (going != RISING && angle[k] - angle[low] > threshold) {
             if (going == FALLING && has_top) {
+                if (found->count == 0) found->first_end = time[low];
                 found->start_time[found->count] = time[top];
                 found->start[found->count] = angle[top];
                 found->stop[found->count++] = angle[low];
@@ -45,6 +54,7 @@ static void find_slumps(const double *time, const double *angle, size_t count, d
             high = k;
         }
     }
+    return first;
 }
 
 /* One slump's numbers are independent of the next one's: their mean's error is their deviation over the root of how many. */
@@ -65,9 +75,26 @@ static void sum_up(slump_list *found, dem_slumps *slumps)
     slumps->period = mean_of(found->start, n > 0 ? n - 1 : 0);
 }
 
+/* Reorders x. */
+static double between_quartiles(double *x, size_t count)
+{
+    statistics_median(x, count); /* sorts */
+    return x[3 * count / 4] - x[count / 4];
+}
+
+/* Where the series first reaches its median: before, it may still climb. room: (count). */
+static size_t climb_end(const double *angle, size_t count, double *room)
+{
+    memcpy(room, angle, count * sizeof *room);
+    const double usual = statistics_median(room, count);
+    size_t k = 0;
+    while (k + 3 < count && angle[k] < usual) k++;
+    return k;
+}
+
 dem_status measure_slumps(const double *time, const double *angle, size_t count, dem_slumps *slumps)
 {
-    *slumps = (dem_slumps){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN } };
+    *slumps = (dem_slumps){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN, NAN };
     double *room = array_create(5 * (count + 1), sizeof *room);
     if (!room) return DEM_NO_MEMORY;
     double *const seen_time = room + 3 * count, *const seen = room + 4 * count;
@@ -78,9 +105,14 @@ dem_status measure_slumps(const double *time, const double *angle, size_t count,
             seen[n++] = angle[k];
         }
     if (n >= 3) {
-        const double threshold = fmax(8 * noise_of(seen, n, room), 1.5 * statistics_deviation(seen, n));
-        slump_list found = { room, room + count, room + 2 * count, 0 };
-        find_slumps(seen_time, seen, n, threshold, &found);
+        const size_t climbed = climb_end(seen, n, room);
+        const double noise = noise_of(seen, n, room);
+        memcpy(room, seen + climbed, (n - climbed) * sizeof *room);
+        const double threshold = fmax(8 * noise, 0.87 * between_quartiles(room, n - climbed));
+        slump_list found = { room, room + count, room + 2 * count, 0, NAN };
+        const size_t first = find_slumps(seen_time, seen, n, threshold, &found);
+        if (first < n) slumps->first_start = seen_time[first];
+        slumps->first_end = found.first_end;
         sum_up(&found, slumps);
     }
     free(room);

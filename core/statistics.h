@@ -28,6 +28,18 @@ typedef struct line_fit {
     size_t points;
 } line_fit;
 line_fit statistics_line(const double *x, const double *y, size_t count, double correlation);
+
+/* The line, its error widened by the correlation of what is left of y about it, and what is left. residual: (count). */
+typedef struct trend {
+    line_fit line;
+    double correlation; /* length, in values, of the residuals */
+    double deviation;   /* of the residuals */
+} trend;
+trend statistics_trend(const double *x, const double *y, size_t count, double *residual);
+
+/* Student's t that 95 of 100 values stay within on either side, of 3 degrees of freedom or more. */
+double statistics_student_95(double freedom);
+
 /* Median of the slopes of all pairs (Theil 1950, Sen 1968); NaN for fewer than 2 points or out of memory. */
 double statistics_theil_sen(const double *x, const double *y, size_t count);
 

@@ -36,6 +36,12 @@ const char *dem_regime_name(dem_regime regime)
     return name[regime];
 }
 
+const char *dem_verdict_name(dem_verdict verdict)
+{
+    static const char *const name[] = { NULL, "steady", "drifting", "too-short", "too-few" };
+    return name[verdict];
+}
+
 const char *dem_angle_method_name(dem_angle_method method)
 {
     static const char *const name[] = { "surface-fit", "center-of-mass", "chord", "theil-sen", "upper-chord", "lower-chord" };

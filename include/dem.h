@@ -92,6 +92,7 @@ const char *dem_phase_name(dem_phase phase);                /* "growing", "settl
 const char *dem_scene_phase_name(const dem_scene *scene);   /* the same, but for "filling" and "lifting" where that is it */
 const char *dem_step_part_name(dem_step_part part);         /* "outer list", ... */
 const char *dem_regime_name(dem_regime regime);             /* "slipping", ... */
+const char *dem_verdict_name(dem_verdict verdict);          /* "steady", "drifting", "too-short", "too-few"; NULL: none */
 const char *dem_angle_method_name(dem_angle_method method); /* "surface-fit", "center-of-mass", ... */
 
 #endif

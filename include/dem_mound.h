@@ -31,7 +31,7 @@ typedef enum dem_heap_method {
 } dem_heap_method;
 
 typedef struct dem_heap_results {
-    dem_angle angle[DEM_HEAP_METHODS]; /* over the azimuths */
+    dem_angle angle[DEM_HEAP_METHODS]; /* over the azimuths; only azimuthal-fit can tell its error */
     double height;                     /* m, of the highest particle's top */
     double base_diameter;              /* m, mean over the azimuths */
     double volume;                     /* m3 below the surface */
@@ -48,7 +48,7 @@ typedef enum dem_fill_method {
 } dem_fill_method;
 
 typedef struct dem_fill_results {
-    dem_angle angle[DEM_FILL_METHODS]; /* over the azimuths; negative where the middle is lower */
+    dem_angle angle[DEM_FILL_METHODS]; /* over the azimuths; negative where the middle is lower; likewise radial-fit */
     double height;                     /* m, mean of the surface */
     double center_height, wall_height; /* m, means within 20 and beyond 80 % of the radius */
     double solid_fraction;             /* of the core: two grains off wall, floor and surface */

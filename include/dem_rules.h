@@ -15,6 +15,18 @@
 /* Solid fraction of a bed at rest by which fill_fraction counts particles. */
 #define DEM_BED_SOLID_FRACTION 0.6
 
+/* What a run can tell, of its bed and of its length: core/NUMERICS.md, "What a run can tell". Fewer particles or layers
+ * than of a bed have no angle; fewer than of a verdict have one that nobody can judge. */
+#define DEM_LEAST_BED_PARTICLES 30
+#define DEM_LEAST_BED_LAYERS 2
+#define DEM_LEAST_PARTICLES 100
+#define DEM_LEAST_LAYERS 4
+#define DEM_LEAST_REVOLUTIONS 0.5         /* turned in all */
+#define DEM_LEAST_WINDOW_REVOLUTIONS 0.25 /* and in the window */
+#define DEM_LEAST_WINDOW_FRAMES 40
+#define DEM_LEAST_CORRELATION_TIMES 10
+#define DEM_LEAST_FALLS 3 /* slumps or avalanches that tell as much as so many revolutions */
+
 static inline double dem_sphere_mass(double diameter, double density)
 {
     return DEM_PI / 6.0 * diameter * diameter * diameter * density;
@@ -155,6 +167,23 @@ static inline double dem_hertz_time_step(double effective_modulus, double lighte
 static inline double dem_time_step(double stiffness, double lightest_mass, double restitution)
 {
     return DEM_PI / 2.0 * sqrt(0.5 * lightest_mass / stiffness) * (1.0 + restitution) / DEM_STEPS_PER_CONTACT;
+}
+
+/* Share of a unit circle's area below the height y. */
+static inline double dem_circle_below(double y) { return (acos(-y) + y * sqrt(1 - y * y)) / DEM_PI; }
+
+/* Height, as a share of a circle's radius, below which `share` of its area lies: -1 for 0, 1 for 1. */
+static inline double dem_circle_level(double share)
+{
+    double low = -1.0, high = 1.0;
+    for (int k = 0; k < 60; k++) *(dem_circle_below(0.5 * (low + high)) < share ? &low : &high) = 0.5 * (low + high);
+    return 0.5 * (low + high);
+}
+
+/* Depth of a bed at mid-chord, in mean diameters. share: of the cross-section, that the bed takes up. */
+static inline double dem_bed_layers(double drum_diameter, double share, double mean_diameter)
+{
+    return (1.0 + dem_circle_level(share)) * 0.5 * drum_diameter / mean_diameter;
 }
 
 /* Time to make a bed, s of simulated time: from 1.4 (the paper's drum) to 2.4 (clusters, a drum half as large) falls

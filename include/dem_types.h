@@ -261,6 +261,8 @@ typedef struct dem_slumps {
     double count;                           /* those seen from their beginning to their end */
     dem_mean period;                        /* s, from one beginning to the next */
     dem_mean start_deg, stop_deg, size_deg; /* direction of the centre of mass before and after; the difference */
+    double first_start;                     /* s, of the first fall after a rise, be its end seen or not */
+    double first_end;                       /* s, of the first fall seen to its end */
 } dem_slumps;
 
 typedef enum dem_angle_method {
@@ -273,10 +275,24 @@ typedef enum dem_angle_method {
     DEM_ANGLE_METHODS
 } dem_angle_method;
 
+/* What the window lets be said of the angle. The least windows are in dem_rules.h, "What a run can tell". */
+typedef enum dem_verdict {
+    DEM_NO_VERDICT, /* the bed has no surface: it lies all around the wall */
+    DEM_STEADY,
+    DEM_DRIFTING,  /* or it moves by falls */
+    DEM_TOO_SHORT, /* for either to be known */
+    DEM_TOO_FEW    /* particles, or layers of them */
+} dem_verdict;
+
 typedef struct dem_repose_result {
     dem_angle angle[DEM_ANGLE_METHODS];
-    bool steady;
+    dem_verdict verdict;
+    bool steady; /* the verdict is DEM_STEADY */
     double drift_deg_per_revolution;
+    double drift_bound_deg_per_revolution; /* what its size stays below in 97 of 100 cases; NaN: too short to tell */
+    double window_revolutions;             /* that the drum turned in the window */
+    double correlation_times;              /* that the window is long */
+    double layers;                         /* depth of the bed at mid-chord, in mean diameters */
     double interface_fluctuation;    /* m: mean over x of the standard deviation in time of the interface height */
     double window_start, window_end; /* s since rotation began */
     double correlation_time;         /* s, of the surface-fit angle */
@@ -285,7 +301,9 @@ typedef struct dem_repose_result {
 } dem_repose_result;
 
 typedef struct dem_regime_result {
+    bool is_told; /* false: there is no bed */
     dem_regime regime;
+    bool is_certain; /* told alike from either half of a window that is long enough, of a bed of enough particles */
     double omega2_outer, omega2_inner; /* omega^2 R/g at the wall and at the bed's inner surface */
     /* predicted boundaries of Omega_i^2 for the measured angle of repose */
     double predicted_stationary;   /* Eq 33: 1/sin(phi) */
@@ -295,7 +313,7 @@ typedef struct dem_regime_result {
     double wall_slip;             /* 1 - spin of the outermost layer / spin of the drum, mean */
     double wall_slip_fluctuation; /* its standard deviation in time */
     double angle_fluctuation_deg; /* standard deviation in time of the centre of mass's direction */
-    double flow_fluctuation;      /* standard deviation over mean of the surface flow's speed */
+    double flow_fluctuation;      /* standard deviation over mean of the surface flow */
     double airborne_fraction;     /* share of particles in flight: no contact, 3 d above the surface; mean */
     double wall_coverage;         /* share of the wall's circumference that has particles against it */
     double curvature_deg;         /* upper less lower half of the chord */

@@ -54,6 +54,14 @@ export function clock(iso) {
   return `${day}, ${time.slice(0, 5)}`;
 }
 
+// What is thought of an angle, by its verdict; runs from before it was given say only whether they are steady.
+const VERDICTS = {
+  steady: 'steady', drifting: 'not steady', 'too-short': 'too short to tell', 'too-few': 'too few particles to tell',
+};
+export function verdictInWords({ verdict, steady }) {
+  return VERDICTS[verdict] ?? (steady === false ? 'not steady' : steady === true ? 'steady' : '');
+}
+
 // The answer of a job in one word: null while there is none.
 export function answerInWords(summary) {
   if (!missing(summary?.angle_deg)) return degrees(summary.angle_deg, summary.standard_error_deg);

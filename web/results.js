@@ -1,7 +1,7 @@
 // The results of a run in readable form. Fields known by name get a wording; a field added later shows
 // under its own name rather than not at all.
 import { h } from './dom.js';
-import { count, degrees, duration, millimetres, percent, significant } from './format.js';
+import { count, degrees, duration, millimetres, percent, significant, verdictInWords } from './format.js';
 import { drumPicture } from './drum_picture.js';
 
 const METHODS = {
@@ -108,13 +108,13 @@ export function angleTable(repose) {
 
 // The answer of a drum first: the angle, large, in the drum's picture, and what to think of it.
 export function answer(repose, regime, summary) {
-  const steady = repose.steady === false ? 'not steady: the angle still drifts' : 'steady';
+  const known = regime?.name && regime.certain === false ? `${regime.name}, not certain` : regime?.name;
   return h('section', { class: 'answer' },
     drumPicture({ ...summary, angle_deg: repose.angle_deg }, 116),
     h('p', null,
       h('strong', null, degrees(repose.angle_deg, repose.standard_error_deg)),
       h('span', null, `from ${degrees(repose.minimum_deg)} to ${degrees(repose.maximum_deg)}`),
-      h('span', null, [regime?.name, steady].filter(Boolean).join(', '))));
+      h('span', null, [known, verdictInWords(repose)].filter(Boolean).join(', '))));
 }
 
 export function resultsInWords(results) {

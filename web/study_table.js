@@ -46,7 +46,7 @@ export function caseTable(cases, all) {
   const withRegime = cases.some(one => one.regime);
   const table = h('table', { class: 'grid cases' },
     h('caption', { class: 'unseen' }, 'Cases, with means over their repeats and standard errors'),
-    h('thead', null, h('tr', null, ['case', ...inputs, ...labels, 'runs', ...(withRegime ? ['regime'] : [])].map(name => h('th', { scope: 'col' }, name)),
+    h('thead', null, h('tr', null, ['case', ...inputs, ...labels, 'runs', ...(withRegime ? ['regime', 'verdict'] : [])].map(name => h('th', { scope: 'col' }, name)),
       measures.map(([, heading]) => h('th', { scope: 'col', class: 'measure' }, heading)))),
     h('tbody', null, cases.slice(0, ROWS_SHOWN).map(one => row(one, inputs, labels, measures, withRegime))));
   const left = all - Math.min(cases.length, ROWS_SHOWN);
@@ -59,7 +59,7 @@ function row(one, inputs, labels, measures, withRegime) {
     inputs.map(name => h('td', null, inWords(one.inputs[name]))),
     labels.map(name => h('td', null, inWords(one.label[name]))),
     h('td', null, `${count(one.finished)} of ${count(one.repeats)}`, one.failed ? h('small', { class: 'why' }, `${count(one.failed)} failed`) : null),
-    withRegime ? h('td', null, one.regime ?? '–') : null,
+    withRegime ? [h('td', null, one.certain === false ? `${one.regime ?? '–'}, not certain` : one.regime ?? '–'), h('td', null, one.verdict ?? '–')] : null,
     measures.map(([name, , write]) => measure(one.results[name], write)));
 }
 

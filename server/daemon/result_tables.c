@@ -6,7 +6,7 @@
 #include "job_store.h"
 #include "text_buffer.h"
 
-enum { MOST_COLUMNS = 16 };
+enum { MOST_COLUMNS = 24 };
 
 /* Table <object>_result has these columns, each named as the document's member; group/member is column group_member. */
 static const struct {
@@ -14,13 +14,30 @@ static const struct {
     const char *columns[MOST_COLUMNS];
 } tables[] = {
     { "repose",
-      { "angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady", "drift_deg_per_revolution", "method",
-        "interface_fluctuation", "slumps/count", "slumps/period", "slumps/start_deg", "slumps/stop_deg", "slumps/size_deg",
-        "while_filling/angle_deg", "while_filling/standard_error_deg" } },
+      { "angle_deg",
+        "standard_error_deg",
+        "minimum_deg",
+        "maximum_deg",
+        "steady",
+        "verdict",
+        "drift_deg_per_revolution",
+        "drift_bound_deg_per_revolution",
+        "window/revolutions",
+        "window/correlation_times",
+        "layers",
+        "method",
+        "interface_fluctuation",
+        "slumps/count",
+        "slumps/period",
+        "slumps/start_deg",
+        "slumps/stop_deg",
+        "slumps/size_deg",
+        "while_filling/angle_deg",
+        "while_filling/standard_error_deg" } },
     { "surface", { "height", "center_height", "wall_height", "base_diameter", "volume", "static_cohesive_index" } },
     { "fill", { "inside", "apart", "waiting", "at_rest" } },
     { "heap", { "inside", "apart", "lost", "at_rest" } },
-    { "regime", { "name", "omega2_outer", "omega2_inner" } },
+    { "regime", { "name", "certain", "omega2_outer", "omega2_inner" } },
     { "segregation", { "radial_index", "axial_index", "lacey_index" } },
     { "packing", { "solid_fraction", "coordination_number", "mean_overlap", "overlap_99" } },
     { "drive", { "torque", "torque_standard_error", "weight_torque", "weight_torque_standard_error", "torque_number", "power" } },

@@ -278,6 +278,54 @@ static const char parts_of_studies[] = "CREATE TABLE study_part("
                                        "  number INTEGER NOT NULL, text TEXT NOT NULL,"
                                        "  PRIMARY KEY(study, number)) STRICT, WITHOUT ROWID;";
 
+static const char verdicts[] =
+    "ALTER TABLE repose_result ADD COLUMN verdict TEXT;"
+    "ALTER TABLE repose_result ADD COLUMN drift_bound_deg_per_revolution REAL;"
+    "ALTER TABLE repose_result ADD COLUMN window_revolutions REAL;"
+    "ALTER TABLE repose_result ADD COLUMN window_correlation_times REAL;"
+    "ALTER TABLE repose_result ADD COLUMN layers REAL;"
+    "ALTER TABLE regime_result ADD COLUMN certain INTEGER;";
+
+static const char run_summary_with_verdicts[] =
+    "DROP VIEW run_summary;"
+    "CREATE VIEW run_summary AS SELECT"
+    "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
+    "  i.drum_diameter, i.drum_length, i.ends, i.lifters, coalesce(i.shape, fi.shape, hi.shape) AS shape,"
+    "  fi.cylinder_diameter, fi.stream_diameter, fi.rate, fi.impact_speed,"
+    "  hi.tube_diameter, hi.lift_speed, hi.plate_diameter, hi.rim_height, hi.plate_friction,"
+    "  coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
+    "  coalesce(i.gravity, fi.gravity, hi.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles,"
+    "  coalesce(i.species, fi.species, hi.species) AS species, coalesce(i.diameter, fi.diameter, hi.diameter) AS diameter,"
+    "  coalesce(i.density, fi.density, hi.density) AS density,"
+    "  coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"
+    "  coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"
+    "  coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"
+    "  coalesce(i.rolling_friction, fi.rolling_friction, hi.rolling_friction) AS rolling_friction,"
+    "  coalesce(i.wall_rolling_friction, fi.wall_rolling_friction, hi.wall_rolling_friction) AS wall_rolling_friction,"
+    "  coalesce(i.tangential_stiffness_ratio, fi.tangential_stiffness_ratio, hi.tangential_stiffness_ratio)"
+    "   AS tangential_stiffness_ratio,"
+    "  coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, i.lining_diameter,"
+    "  coalesce(i.time_step, fi.time_step, hi.time_step) AS time_step,"
+    "  coalesce(i.duration, fi.duration, hi.duration) AS duration, coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius,"
+    "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady, a.verdict, a.drift_deg_per_revolution,"
+    "  a.drift_bound_deg_per_revolution, a.layers, a.interface_fluctuation,"
+    "  a.slumps_count, a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg,"
+    "  a.while_filling_angle_deg, a.while_filling_standard_error_deg,"
+    "  f.height, f.center_height, f.wall_height, f.base_diameter, f.static_cohesive_index, hr.lost,"
+    "  g.name AS regime, g.certain, g.omega2_outer, g.omega2_inner,"
+    "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number, p.mean_overlap, p.overlap_99,"
+    "  d.torque, d.torque_standard_error, d.torque_number, d.power,"
+    "  gr.minimum_omega2, gr.minimum_rotation_rate, gr.slip_per_revolution,"
+    "  r.steps, r.simulated_seconds, r.wall_seconds, r.particle_steps_per_second, r.maximum_overlap, r.threads"
+    " FROM job JOIN run_result r ON r.job=job.number LEFT JOIN drum_input i ON i.job=job.number"
+    " LEFT JOIN granule_input gi ON gi.job=job.number LEFT JOIN granule_result gr ON gr.job=job.number"
+    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"
+    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
+    " LEFT JOIN drive_result d ON d.job=job.number LEFT JOIN fill_input fi ON fi.job=job.number"
+    " LEFT JOIN heap_input hi ON hi.job=job.number LEFT JOIN surface_result f ON f.job=job.number"
+    " LEFT JOIN heap_result hr ON hr.job=job.number"
+    " WHERE job.status='successful';";
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
@@ -286,5 +334,6 @@ const schema_migration schema_migrations[] = {
     { { what_estimates_need } },
     { { index_of_lists } },
     { { parts_of_studies } },
+    { { verdicts, run_summary_with_verdicts } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -183,7 +183,8 @@ store_status store_list_study_cases(job_store *store, const char *id, study_case
 #define RUN_COLUMNS 2
 #define SELECT_RUNS                                                                                                                \
     "SELECT job.study_case, job.status, a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg,"                          \
-    " a.drift_deg_per_revolution, a.interface_fluctuation, g.name AS regime, s.radial_index, s.axial_index,"                       \
+    " a.drift_deg_per_revolution, a.interface_fluctuation, a.verdict, a.steady, g.name AS regime, g.certain,"                      \
+    " s.radial_index, s.axial_index,"                                                                                              \
     " s.lacey_index, p.solid_fraction, p.coordination_number, r.maximum_overlap, d.torque, d.torque_standard_error, d.power,"      \
     " a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg, gr.minimum_omega2, gr.error,"                                        \
     " gr.minimum_rotation_rate, gr.slip_per_revolution, a.while_filling_angle_deg, a.while_filling_standard_error_deg,"            \

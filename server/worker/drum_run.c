@@ -11,16 +11,13 @@
  * run. Counted in frames, so that a run which was interrupted ends at the same one. */
 static dem_status end_when_known(const scene_run *run, const char **ended_by)
 {
-    enum { FRAMES_BETWEEN_LOOKS = 10, LEAST_FRAMES = 40 };
+    enum { FRAMES_BETWEEN_LOOKS = 10 };
     if (!(run->spec->until_standard_error > 0) || run->next_sample % FRAMES_BETWEEN_LOOKS) return DEM_OK;
     dem_drum_results now;
     const dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &now);
     if (status == DEM_TOO_FEW_FRAMES) return DEM_OK;
     if (status != DEM_OK) return status;
-    /* An error is known to be what it says from ten correlation times on. */
-    const double length = now.repose.window_end - now.repose.window_start;
-    if (now.repose.steady && now.repose.frames >= LEAST_FRAMES && length >= 10 * now.repose.correlation_time
-        && now.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= run->spec->until_standard_error)
+    if (now.repose.steady && now.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= run->spec->until_standard_error)
         *ended_by = "standard-error";
     return DEM_OK;
 }
@@ -52,7 +49,7 @@ static dem_status measure_results(const scene_run *run, json_t **document)
         worker_warn("%s: the results have no measures", dem_status_text(status));
         drum_result_init(&result);
     }
-    result.has_regime = status == DEM_OK;
+    result.has_regime = status == DEM_OK && result.measured.regime.is_told;
     result.run = scene_run_facts(run);
     *document = drum_result_to_json(&result);
     return DEM_OK;

@@ -1,7 +1,9 @@
 #include "run_summary.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "job_folder.h"
 
@@ -39,6 +41,27 @@ static double number_at(const json_t *result, const char *output, const char *na
     return json_is_number(value) ? json_number_value(value) : NAN;
 }
 
+/* Of a drum: ", steady"; ", too short to tell whether it is steady". Nothing of what stands. */
+static const char *verdict_in_words(const json_t *repose)
+{
+    static const char *const words[][2] = {
+        { "steady", ", steady" },
+        { "drifting", ", not steady" },
+        { "too-short", ", the run is too short to tell whether it is steady" },
+        { "too-few", ", too few particles to tell whether it is steady" },
+    };
+    const char *verdict = json_string_value(json_object_get(repose, "verdict"));
+    for (size_t k = 0; verdict && k < sizeof words / sizeof words[0]; k++)
+        if (strcmp(verdict, words[k][0]) == 0) return words[k][1];
+    return "";
+}
+
+static void write_error(double error, char *text, size_t size)
+{
+    if (isnan(error)) snprintf(text, size, "degrees, of unknown error");
+    else snprintf(text, size, "+- %.2f degrees", error);
+}
+
 void summary_angle(const json_t *result)
 {
     const json_t *repose = json_object_get(result, "repose");
@@ -47,11 +70,14 @@ void summary_angle(const json_t *result)
         printf("angle of repose   not measured: the run is too short, or there are too few particles\n");
         return;
     }
-    const json_t *steady = json_object_get(repose, "steady");
-    printf("angle of repose   %.2f +- %.2f degrees (%s)%s\n", angle, number_at(result, "repose", "standard_error_deg"),
-           json_string_value(json_object_get(repose, "method")), json_is_false(steady) ? ", not steady" : "");
-    printf("%-18s%.2f to %.2f degrees\n", steady ? "frames" : "azimuths", number_at(result, "repose", "minimum_deg"),
-           number_at(result, "repose", "maximum_deg"));
+    const double drift = number_at(result, "repose", "drift_bound_deg_per_revolution");
+    char error[40];
+    write_error(number_at(result, "repose", "standard_error_deg"), error, sizeof error);
+    printf("angle of repose   %.2f %s (%s)%s\n", angle, error, json_string_value(json_object_get(repose, "method")),
+           verdict_in_words(repose));
+    if (!isnan(drift)) printf("drift             below %.2g degrees a revolution\n", drift);
+    printf("%-18s%.2f to %.2f degrees\n", json_object_get(repose, "steady") ? "frames" : "azimuths",
+           number_at(result, "repose", "minimum_deg"), number_at(result, "repose", "maximum_deg"));
 }
 
 void summary_fact(const json_t *result, const char *output, const char *name, const char *label, const char *unit)
@@ -73,6 +99,8 @@ void terminal_summary(const json_t *result, const char *folder)
 {
     const char *regime = json_string_value(json_object_get(json_object_get(result, "regime"), "name"));
     summary_angle(result);
-    printf("regime            %s\n", regime ? regime : "not known: the run is too short");
+    const bool certain = json_is_true(json_object_get(json_object_get(result, "regime"), "certain"));
+    printf("regime            %s%s\n", regime ? regime : "not known: the run is too short, or there are too few particles",
+           regime && !certain ? ", not certain" : "");
     summary_run(result, folder);
 }

@@ -74,9 +74,10 @@ def run():
 
 RESULT = {
     "repose": {"angle_deg": 23.5, "standard_error_deg": 0.3, "minimum_deg": 22, "maximum_deg": 25, "steady": True,
-               "drift_deg_per_revolution": 0.1, "method": "surface-fit", "other_methods": {"chord": 23.1},
+               "verdict": "steady", "drift_deg_per_revolution": 0.1, "drift_bound_deg_per_revolution": 0.4,
+               "window": {"start": 1.0, "end": 5.0, "revolutions": 2.5, "correlation_times": 30.0}, "layers": 6.5, "method": "surface-fit", "other_methods": {"chord": 23.1},
                "interface_fluctuation": 1e-4, "slumps": {"count": 12, "period": 0.56, "start_deg": 13.5}},
-    "regime": {"name": "rolling", "omega2_outer": 0.07, "omega2_inner": 0.01, "predicted": {}, "evidence": {}},
+    "regime": {"name": "rolling", "certain": True, "omega2_outer": 0.07, "omega2_inner": 0.01, "predicted": {}, "evidence": {}},
     "segregation": {"radial_index": None, "axial_index": None, "lacey_index": None},
     "packing": {"solid_fraction": 0.59, "coordination_number": 4.4, "mean_overlap": 0.001, "overlap_99": 0.004},
     "drive": {"torque": 0.012, "torque_standard_error": 1e-4, "weight_torque": 0.0121, "weight_torque_standard_error": 1e-4,
@@ -88,6 +89,11 @@ RESULT = {
 if "angle" in label:  # a number of its own for each seed
     RESULT["repose"]["angle_deg"] = label["angle"] + (spec["inputs"]["seed"] * 7919 % 101) / 50
     RESULT["run"]["seed"] = spec["inputs"]["seed"]
+if "verdicts" in label:  # one for each seed in turn
+    verdicts = label["verdicts"].split()
+    verdict = verdicts[spec["inputs"]["seed"] % len(verdicts)]
+    RESULT["repose"].update(verdict=verdict, steady={"steady": True, "drifting": False}.get(verdict))
+    RESULT["regime"]["certain"] = verdict in ("steady", "drifting")
 
 signal.signal(signal.SIGTERM, stop)
 print("a word on standard error", file=sys.stderr, flush=True)

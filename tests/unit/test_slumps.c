@@ -74,6 +74,22 @@ static void noise_neither_hides_nor_makes_slumps(void **unused)
     }
 }
 
+/* Eight frames a swing, as of a small drum that slides as a block: all swings are seen, the first after the climb too. */
+static void swings_of_few_frames_are_no_noise(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    enum { SWINGS = 12, A_SWING = 8 };
+    for (int k = 0; k < SWINGS * A_SWING + 5; k++) {
+        time[k] = INTERVAL * k;
+        angle[k] = (k < 12 ? 5 : 6) * (1 - cos(2 * 3.14159265358979 * k / A_SWING)); /* the first is less high */
+    }
+    const dem_slumps s = slumps_of(time, angle, SWINGS * A_SWING + 5);
+    CHECK_NEAR(s.count, SWINGS, 0);
+    CHECK_NEAR(s.first_start, 4 * INTERVAL, 1e-12);
+    CHECK_NEAR(s.period.mean, A_SWING * INTERVAL, 1e-12);
+}
+
 static void noise_alone_has_no_slumps(void **unused)
 {
     (void)unused;
@@ -140,6 +156,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_saw_tooth_is_found_tooth_by_tooth),
         cmocka_unit_test(noise_neither_hides_nor_makes_slumps),
+        cmocka_unit_test(swings_of_few_frames_are_no_noise),
         cmocka_unit_test(noise_alone_has_no_slumps),
         cmocka_unit_test(uneven_slumps_are_all_seen),
         cmocka_unit_test(missing_frames_are_left_out_and_too_few_have_no_slumps),
