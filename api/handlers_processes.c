@@ -73,11 +73,41 @@ static void set_default_threads(const api_service *service, const process_type *
         json_object_set_new(inputs, "threads", json_integer(service->default_threads));
 }
 
+/* As many as a usual request has several times over, and so few that whatever they say is read and checked in some tens of
+ * milliseconds: a cluster of as many spheres as they can tell of takes that long. */
+enum { SHORT_BODY = 16 << 10, FEW_VALUES = 160 };
+
+static void count_values(const json_t *value, size_t *left)
+{
+    const char *name;
+    json_t *member;
+    size_t i;
+    if (*left == 0) return;
+    --*left;
+    json_object_foreach((json_t *)value, name, member) count_values(member, left);
+    json_array_foreach(value, i, member) count_values(member, left);
+}
+
+/* Whether reading and checking it may take more than a moment. */
+static bool takes_long(const json_t *document)
+{
+    size_t left = FEW_VALUES;
+    count_values(document, &left);
+    const json_t *start = json_object_get(json_object_get(document, "inputs"), "start");
+    return left == 0 || json_is_object(start); /* whose bed may have been made by a long specification */
+}
+
 static bool read_spec(api_service *service, const process_type *type, const http_request *request, http_response *response,
                       job_spec *spec)
 {
-    json_t *document = parse_body(request, response);
+    response->wants_lane = !request->in_lane && request->body_length > SHORT_BODY;
+    json_t *document = response->wants_lane ? NULL : parse_body(request, response);
     if (!document) return false;
+    response->wants_lane = !request->in_lane && takes_long(document);
+    if (response->wants_lane) {
+        json_decref(document);
+        return false;
+    }
     problem_list problems;
     bool good = false;
     if (!problem_list_init(&problems)) {

@@ -52,7 +52,8 @@ static void add_study(api_service *service, http_response *response, study_stage
 }
 
 /* Refused whole or kept whole: every job is read, once, before any is added. */
-static void check_and_add(api_service *service, http_response *response, const study_spec *study, problem_list *problems)
+static void check_and_add(api_service *service, const http_request *request, http_response *response, const study_spec *study,
+                          problem_list *problems)
 {
     calibration machine;
     problem_list warnings;
@@ -64,9 +65,12 @@ static void check_and_add(api_service *service, http_response *response, const s
         store_drop_stage(stage);
         return;
     }
-    const study_taker taker = store_stage_taker(stage);
+    study_taker taker = store_stage_taker(stage);
+    taker.client = &request->client;
     if (study_check(study, &machine, &taker, &estimate, problems, &warnings))
         add_study(service, response, stage, study, &estimate, &warnings);
+    else if (problem_list_is_empty(problems) && store_stage_status(stage) == STORE_OK)
+        http_respond_problem(response, 503, NULL, "Nobody waits", "the client has left, and nothing of the study was added");
     else if (store_stage_status(stage) != STORE_OK) respond_store_failure(response, store_stage_status(stage), "keep the study");
     else
         http_respond_json(response, 400,
@@ -94,7 +98,7 @@ void create_study(api_service *service, const http_request *request, http_respon
     }
     study_spec_parse(document, &options, &study, &problems);
     json_decref(document);
-    check_and_add(service, response, &study, &problems);
+    check_and_add(service, request, response, &study, &problems);
     study_spec_clear(&study);
     problem_list_clear(&problems);
 }

@@ -32,6 +32,7 @@ typedef struct http_request {
     double waited; /* s that this request has already been kept waiting for a change */
     bool may_wait; /* false: answer at once (the daemon is leaving) */
     client_watch client;
+    bool in_lane; /* handled apart, where it may take seconds */
 } http_request;
 
 /* An answer that is made while it is sent. next: adds the next piece to out, which is empty, and nothing at the end;
@@ -53,6 +54,7 @@ typedef struct http_response {
     char location[HTTP_BASE_SIZE + 160], etag[80], content_range[80], link[HTTP_BASE_SIZE + 200];
     const char *cache_control, *allow, *preference_applied, *authenticate, *accept_ranges;
     int retry_after; /* s; 0: no such header */
+    bool wants_lane; /* nothing to say yet: it may take long; call the handler again with in_lane */
     double wait;     /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */
 } http_response;
 

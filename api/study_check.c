@@ -5,10 +5,15 @@
  * base and case don't go together, and the case is named. */
 #include <stdio.h>
 #include <string.h>
+#include <time.h>
 
 #include "json_pointer.h"
 #include "spec_memory.h"
 #include "study_spec.h"
+
+/* s of processor time, ten times what ten thousand usual jobs take; and how long to look for more when something is wrong. */
+#define MOST_SECONDS 60.0
+#define MOST_SECONDS_OF_WRONG 5.0
 
 enum { ENOUGH_PROBLEMS = 100, LONG_POINTER = 2 * JSON_POINTER_SIZE };
 
@@ -114,7 +119,8 @@ typedef struct checking {
     start_source source; /* the study's own, with a memory */
     study_estimate *estimate;
     told wrong, unusual;
-    bool refused; /* by the taker */
+    double started; /* s of this thread's processor time */
+    bool refused;   /* by the taker, or its client has left */
 } checking;
 
 /* The repeats of a case that was read with the seed of the last. */
@@ -157,6 +163,24 @@ static void check_case(checking *check, size_t index)
     json_decref(request);
 }
 
+static double processor_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static bool goes_on(checking *check)
+{
+    if (check->taker && client_has_left(check->taker->client)) check->refused = true;
+    if (check->refused || json_array_size(check->wrong.all->errors) >= ENOUGH_PROBLEMS) return false;
+    const double limit = problem_list_is_empty(check->wrong.all) ? MOST_SECONDS : MOST_SECONDS_OF_WRONG;
+    if (processor_seconds() - check->started < limit) return true;
+    if (limit == MOST_SECONDS)
+        problem_list_add(check->wrong.all, "", "takes more than %g s to be checked; post it in parts", MOST_SECONDS);
+    return false;
+}
+
 static void check_base(checking *check)
 {
     job_spec spec;
@@ -182,8 +206,7 @@ bool study_check(const study_spec *study, const calibration *machine, const stud
     if (study->beds) check.source = *study->beds;
     check.source.memory = spec_memory_create();
     check_base(&check);
-    for (size_t i = 0; i < study->cases && json_array_size(problems->errors) < ENOUGH_PROBLEMS && !check.refused; i++)
-        check_case(&check, i);
+    for (size_t i = 0; i < study->cases && goes_on(&check); i++) check_case(&check, i);
     spec_memory_free(check.source.memory);
     problem_list_clear(&check.wrong.of_base);
     problem_list_clear(&check.unusual.of_base);

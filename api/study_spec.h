@@ -14,6 +14,7 @@
 #include <jansson.h>
 #include <stdbool.h>
 
+#include "client_watch.h"
 #include "job_spec.h"
 
 enum { STUDY_NAME_SIZE = 201, STUDY_MOST_REPEATS = 1000, STUDY_MOST_VARIED = 8 };
@@ -54,8 +55,10 @@ typedef struct study_estimate {
     double jobs, steps, wall_seconds, memory_bytes, snapshot_bytes; /* sums; memory: of the largest job; wall: one job at a time */
 } study_estimate;
 
-/* Takes the jobs as they are read, each once: of each case its repeats. They count only when study_check says true. */
+/* Takes the jobs as they are read, each once: of each case its repeats. They count only when study_check says true. When the
+ * client has left, nobody wants them any more and the check ends. */
 typedef struct study_taker {
+    const client_watch *client;
     bool (*take)(void *context, const job_spec *spec, size_t index, int repeat); /* false: it can't; the check ends */
     void *context;
 } study_taker;

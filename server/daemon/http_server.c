@@ -91,6 +91,7 @@ static enum MHD_Result answer(http_exchange *exchange)
         http_response_clear(&exchange->response);
         route_respond(exchange->route, server->service, &exchange->request, &exchange->response);
         exchange->worked += monotonic_seconds() - start;
+        if (exchange->response.wants_lane) return answer_slowly(exchange);
         if (!(exchange->response.wait > 0.0)) break;
         const parking outcome = waiting_room_park(&server->room, exchange, changes, exchange->response.wait);
         if (outcome == PARKING_DONE) return MHD_YES;

@@ -27,17 +27,15 @@ static bool has_file(job_store *store, const start_inputs *start, problem_list *
     return file >= 0;
 }
 
-/* Of one that is canonical, and was made by this program or an earlier one. */
-static double particles_of(const json_t *spec)
+/* NaN: not known. */
+static double particles_of(job_store *store, const char *job)
 {
-    problem_list none;
-    job_spec made_by;
-    double particles = NAN;
-    if (problem_list_init(&none) && job_spec_parse(NULL, spec, 0, &made_by, &none)) {
-        particles = (double)made_by.drum.particle_count;
-        job_spec_clear(&made_by);
-    }
-    problem_list_clear(&none);
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *row =
+        sql_prepare(reader, "SELECT particles FROM drum_input WHERE job=(SELECT number FROM job WHERE id=?)", "t", job);
+    const double particles = row && sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_double(row, 0) : NAN;
+    sqlite3_finalize(row);
+    store_return_reader(store, reader);
     return particles;
 }
 
@@ -58,7 +56,7 @@ static json_t *find_bed(void *context, const start_inputs *start, double *partic
     else if (strcmp(process, "drum") != 0)
         problem_list_add(problems, "/inputs/start/job", "is \"%s\", a %s; must be a drum", start->job, process);
     if (process && strcmp(process, "drum") == 0 && has_file(context, start, problems)) {
-        *particles = particles_of(spec);
+        *particles = particles_of(context, start->job);
         return spec;
     }
     json_decref(spec);

@@ -199,6 +199,8 @@ static void *run_slow(void *context)
     slow_lane *lane = context;
     for (http_exchange *exchange; (exchange = take_slow(lane)) != NULL;) {
         const double start = monotonic_seconds();
+        http_response_clear(&exchange->response);
+        exchange->request.in_lane = true;
         route_respond(exchange->route, lane->room->service, &exchange->request, &exchange->response);
         exchange->worked = monotonic_seconds() - start;
         exchange->stage = EXCHANGE_ANSWERED;

@@ -1,7 +1,9 @@
 """What one POST may cost: however large its body, however many jobs there are already, whatever else is being posted."""
 import json
 import math
+import socket
 import sqlite3
+import time
 
 import pytest
 import requests
@@ -116,3 +118,37 @@ def test_a_study_is_refused_for_what_any_of_its_jobs_would_be(fake):
         answer = requests.post(f"{fake.url}/studies", json={"base": {"inputs": placed(bed(12000)[::2])}, "vary": {varied: values}}, timeout=300)
         assert answer.status_code == 400 and any(wrong in error["detail"] for error in answer.json()["errors"]), answer.text
     assert fake.get("/jobs").json()["counts"] == jobs
+
+
+def hostile_clusters():
+    """Spheres that nearly share one spot: working out what they have in common takes 0.7 s of processor time."""
+    return [{"shape": {"spheres": [{"position": [0, 0, 1e-6 * (37 * k % 64)], "diameter": 0.001 + 1e-8 * k} for k in range(64)]}, "share": 1 / 2}
+            for _ in range(2)]
+
+
+def test_what_takes_long_to_read_holds_up_nobody_else(fake):
+    """Far more of them at once than there are threads; all clients but one leave, and others are answered meanwhile."""
+    body = json.dumps({"inputs": SPEC | {"particles": hostile_clusters()}})
+    gone = [socket.create_connection(("127.0.0.1", fake.port)) for _ in range(12)]
+    for one in gone:
+        one.sendall(f"POST /processes/drum/execution HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
+                    f"Content-Length: {len(body)}\r\n\r\n{body}".encode())
+    before = processor_seconds(fake)
+    time.sleep(0.3)
+    for one in gone:
+        one.close()
+    assert fake.get("/healthz").status_code == 200 and fake.job(fake.submit())["status"] in ("accepted", "running", "successful")
+    answer = requests.post(f"{fake.url}/processes/drum/execution", data=body, headers={"Content-Type": "application/json"}, timeout=120)
+    assert answer.status_code in (201, 400)
+    # one that was being read when its client left, and the last: not all twelve
+    assert processor_seconds(fake) - before < 6 * 0.7
+    assert fake.stop() == 0
+
+
+def test_a_study_whose_client_has_left_is_not_read_to_its_end(fake):
+    cases = [{"name": str(k), "inputs": {"particles": [{"diameter": 0.003 + 1e-7 * k}], "seed": k}} for k in range(9000)]
+    body = json.dumps({"base": {"inputs": SPEC}, "cases": cases})
+    with socket.create_connection(("127.0.0.1", fake.port)) as one:
+        one.sendall(f"POST /studies HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\nContent-Length: {len(body)}\r\n\r\n{body}".encode())
+    assert post_study(fake, base={"inputs": SPEC})  # its turn comes after the other
+    assert [study["jobs"] for study in fake.get("/studies").json()["studies"]] == [1]
