@@ -23,7 +23,7 @@ struct job_store {
     pthread_cond_t reader_is_free;
     sqlite3 *reader[STORE_READERS]; /* the first readers_free are free */
     int readers_free;
-    sqlite3 *query; /* for users' SQL alone: it has an authorizer and limits; the slow lane is its only thread */
+    sqlite3 *query; /* for users' SQL alone: it has an authorizer and limits; the lane of what reads is its only thread */
     query_watch query_watch;
 };
 

@@ -1,15 +1,17 @@
 /* printf and format of users' SQL, conversion by conversion: SQLite's own writes "%.2147483647c" character by character
  * though the text has long been too long, and takes hours for a format of many. Here a width or a precision beyond the
- * longest text ends the call at once, and the clock is looked at before each conversion. What one conversion looks
+ * longest text ends the call at once, and the clock is looked at between conversions. What one conversion looks
  * like is still SQLite's. */
 #include <ctype.h>
 #include <limits.h>
 #include <stdint.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "query_cost.h"
 #include "query_functions.h"
+
+/* Each may make a text of the longest, in about a millisecond. */
+enum { CONVERSIONS_BETWEEN_LOOKS = 16 };
 
 /* %[flags][width][.precision][l]type */
 typedef struct conversion {
@@ -83,13 +85,30 @@ static void add_character(sqlite3_str *out, const conversion *c, const char *tex
     if (c->is_left) sqlite3_str_appendchar(out, spaces, ' ');
 }
 
-static void write_format(const conversion *c, const char *length, char format[64])
+static char *write_number(char *at, int64_t number)
 {
-    char precision[24] = "";
-    if (c->precision >= 0) snprintf(precision, sizeof precision, ".%d", (int)c->precision);
-    char width[24] = "";
-    if (c->width > 0) snprintf(width, sizeof width, "%d", (int)c->width);
-    snprintf(format, 64, "%%%s%s%s%s%s%c", c->is_left ? "-" : "", c->flags, width, precision, length, c->type);
+    char digits[20];
+    int count = 0;
+    do digits[count++] = (char)('0' + number % 10);
+    while ((number /= 10) > 0);
+    while (count > 0) *at++ = digits[--count];
+    return at;
+}
+
+/* By hand, since this is most of what a short conversion takes. */
+static void write_format(const conversion *c, char type, bool is_long, char format[64])
+{
+    char *at = format;
+    *at++ = '%';
+    if (c->is_left) *at++ = '-';
+    for (const char *flag = c->flags; *flag; flag++) *at++ = *flag;
+    if (c->width > 0) at = write_number(at, c->width);
+    if (c->precision >= 0) *at++ = '.';
+    if (c->precision >= 0) at = write_number(at, c->precision);
+    if (is_long) *at++ = 'l';
+    if (is_long) *at++ = 'l';
+    *at++ = type;
+    *at = '\0';
 }
 
 /* False: the format ends here, as SQLite's does at a type that it does not know. */
@@ -113,15 +132,14 @@ static bool add_conversion(sqlite3_str *out, conversion *c, arguments *rest, int
         add_character(out, c, text ? text : "");
     } else if (is_text) {
         sqlite3_value *value = next_argument(rest);
-        write_format(c, "", format);
-        if (c->type == 'z') format[strlen(format) - 1] = 's'; /* z would free the text */
+        write_format(c, c->type == 'z' ? 's' : c->type, false, format); /* z would free the text */
         sqlite3_str_appendf(out, format, value ? (const char *)sqlite3_value_text(value) : NULL);
     } else if (strchr(integers, c->type)) {
-        write_format(c, "ll", format);
+        write_format(c, c->type, true, format);
         sqlite3_str_appendf(out, format, (sqlite3_int64)next_integer(rest));
     } else if (strchr(reals, c->type)) {
         sqlite3_value *value = next_argument(rest);
-        write_format(c, "", format);
+        write_format(c, c->type, false, format);
         sqlite3_str_appendf(out, format, value ? sqlite3_value_double(value) : 0.0);
     }
     return true;
@@ -136,7 +154,8 @@ void query_printf(sqlite3_context *call, int count, sqlite3_value **values)
     arguments rest = { values + 1, count - 1 };
     sqlite3_str *out = sqlite3_str_new(database);
     bool in_time = true, more = true;
-    while (more && *at && sqlite3_str_errcode(out) == SQLITE_OK && (in_time = query_call_is_in_time(call))) {
+    for (int conversions = 0; more && *at && sqlite3_str_errcode(out) == SQLITE_OK; conversions++) {
+        if (conversions % CONVERSIONS_BETWEEN_LOOKS == 0 && !(in_time = query_call_is_in_time(call))) break;
         const size_t plain = strcspn(at, "%");
         if (plain > 0) sqlite3_str_append(out, at, (int)plain); /* where nothing is ever added, the answer is NULL, as SQLite's */
         at += plain;
