@@ -192,7 +192,10 @@ lint: lint-packages ## clang-tidy and cppcheck
 	@cppcheck --quiet --enable=warning,performance,portability --error-exitcode=1 \
 	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex -Iinclude -Icore -Iapi -Iserver/daemon -Iserver/worker core api server
 
-clean: ## remove what was built
+clean: ## remove what was built, and data folders in it; not while a daemon is at work on one of these
+	@for lock in $$(find $(BUILD) -maxdepth 4 -type f -name lock 2>/dev/null); do \
+	  flock -n $$lock true || { echo "a daemon is at work on $${lock%/lock}, which would be removed: stop that daemon first" >&2; exit 1; }; \
+	done
 	rm -rf $(BUILD)
 
 help: ## this list

@@ -85,18 +85,21 @@ static bool read_text(const json_t *document, const char *name, char *text, size
     return value;
 }
 
-/* A cost or size is of use only when it is a positive number. */
-static bool read_positive(const json_t *value, double *number)
+/* What no machine can be beyond: the fastest core takes some 5 ns a sphere-step, the slowest, under a checker, microseconds.
+ * A file with other figures is damaged or invented. */
+static const double COST_BOUNDS[2] = { 0.5, 1e5 }, SIZE_BOUNDS[2] = { 1.0, 1e9 }, FACTOR_BOUNDS[2] = { 0.05, 50.0 };
+
+static bool read_within(const json_t *value, const double bounds[2], double *number)
 {
     *number = json_number_value(value);
-    return *number > 0.0 && isfinite(*number);
+    return *number >= bounds[0] && *number <= bounds[1];
 }
 
 static bool read_costs(const json_t *costs, double cost[CALIBRATION_LAWS])
 {
     bool good = true;
     for (size_t law = 0; law < CALIBRATION_LAWS; law++)
-        good = good && read_positive(json_object_get(costs, law_names[law]), &cost[law]);
+        good = good && read_within(json_object_get(costs, law_names[law]), COST_BOUNDS, &cost[law]);
     return good;
 }
 
@@ -105,8 +108,8 @@ static bool read_sizes(const json_t *sizes, calibration *machine)
     bool good = json_array_size(sizes) == CALIBRATION_SIZES;
     for (size_t k = 0; good && k < CALIBRATION_SIZES; k++) {
         const json_t *one = json_array_get(sizes, k);
-        good = read_positive(json_object_get(one, "spheres"), &machine->size[k])
-               && read_positive(json_object_get(one, "factor"), &machine->size_factor[k])
+        good = read_within(json_object_get(one, "spheres"), SIZE_BOUNDS, &machine->size[k])
+               && read_within(json_object_get(one, "factor"), FACTOR_BOUNDS, &machine->size_factor[k])
                && (k == 0 || machine->size[k] > machine->size[k - 1]);
     }
     return good;

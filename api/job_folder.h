@@ -59,7 +59,8 @@ enum worker_exit {
     WORKER_BAD_SPEC = 2,
     WORKER_STOPPED = 3,   /* JOB_STOP_SIGNALS: checkpoint written, to be continued (or dismissed: the daemon knows which) */
     WORKER_NUMERICAL = 4, /* the failure event says what, where, when */
-    WORKER_DISK = 5
+    WORKER_DISK = 5,
+    WORKER_MACHINE = 6 /* memory, descriptors, threads or the like that the machine did not give */
 };
 
 #endif

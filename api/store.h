@@ -19,6 +19,7 @@ typedef enum store_status {
     STORE_CONFLICT,   /* the job is not in a state that allows this */
     STORE_FULL,       /* no room on the disk */
     STORE_QUEUE_FULL, /* as many jobs wait as may */
+    STORE_REFUSED,    /* a document that does not fit the tables */
     STORE_FAILED      /* anything else the database or the file system refused; the log has the reason */
 } store_status;
 

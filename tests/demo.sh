@@ -3,6 +3,10 @@
 set -eu
 build=${1:-build}
 data=$build/demo
+if [ -e "$data/lock" ] && ! flock -n "$data/lock" true; then
+  echo "a daemon is at work on $data, which the demo would remove: stop that daemon first" >&2
+  exit 1
+fi
 rm -rf "$data"
 mkdir -p "$data"
 "$build/reposed" serve --port 0 --data "$data" --port-file "$data/port" >"$data/daemon.log" 2>&1 &

@@ -17,7 +17,7 @@
 #include "job_folder.h"
 #include "log.h"
 
-enum { LARGEST_RESULT = 16 << 20, LONGEST_LINE = 64 };
+enum { LONGEST_LINE = 64 };
 
 static bool ends_in_tmp(const char *name)
 {
@@ -234,6 +234,18 @@ int job_file_open(const data_folder *data, const char *id, const char *folder, c
     return file;
 }
 
+static bool read_all(int file, char *text, size_t size)
+{
+    for (size_t done = 0; done < size;) {
+        const ssize_t got = read(file, text + done, size - done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return false;
+        if (got == 0) break; /* it has become shorter */
+        done += (size_t)got;
+    }
+    return true;
+}
+
 char *job_file_read(const data_folder *data, const char *id, const char *name, size_t limit)
 {
     const int file = job_file_open(data, id, NULL, name);
@@ -242,15 +254,27 @@ char *job_file_read(const data_folder *data, const char *id, const char *name, s
     char *text = NULL;
     if (fstat(file, &facts) == 0 && S_ISREG(facts.st_mode) && (size_t)facts.st_size <= limit)
         text = calloc(1, (size_t)facts.st_size + 1);
-    size_t done = 0;
-    while (text && done < (size_t)facts.st_size) {
-        const ssize_t got = read(file, text + done, (size_t)facts.st_size - done);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) break;
-        done += (size_t)got;
-    }
+    const bool good = text && read_all(file, text, (size_t)facts.st_size);
+    const int reason = errno;
     close(file);
-    return text;
+    if (!good) free(text);
+    errno = reason;
+    return good ? text : NULL;
+}
+
+bool data_folder_try_write(const data_folder *data)
+{
+    static const char name[] = "written-to-try.tmp", text[4096] = "";
+    unlinkat(data->jobs, name, 0);
+    const int file = openat(data->jobs, name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    if (file < 0) return false;
+    const ssize_t written = write(file, text, sizeof text);
+    bool good = written == (ssize_t)sizeof text && fsync(file) == 0;
+    const int reason = written >= 0 && written < (ssize_t)sizeof text ? ENOSPC : errno;
+    good = close(file) == 0 && good;
+    unlinkat(data->jobs, name, 0);
+    errno = reason;
+    return good;
 }
 
 char *job_result_read(const data_folder *data, const char *id)

@@ -35,11 +35,14 @@ bool job_folder_remove(const data_folder *data, const char *id, const atomic_boo
 int job_folder_open(const data_folder *data, const char *id); /* descriptor, -1 */
 /* A file of the folder, or with `folder` not NULL of that folder in it; never through a symbolic link. */
 int job_file_open(const data_folder *data, const char *id, const char *folder, const char *name);
-/* Whole text of a file up to `limit` bytes, for free(); NULL: not there, or larger. */
+/* Whole text of a file up to `limit` bytes, for free(); NULL: it can't be read (errno says why), or it is larger. */
 char *job_file_read(const data_folder *data, const char *id, const char *name, size_t limit);
+enum { LARGEST_RESULT = 16 << 20 };
 /* result.json as the worker wrote it, an object, for free(); NULL: not there, or not whole. */
 char *job_result_read(const data_folder *data, const char *id);
 bool data_folder_sync(const data_folder *data); /* all that was written so far is safe on the disk */
+/* Whether a file can be made, written and kept; it is removed again. False: errno says why. */
+bool data_folder_try_write(const data_folder *data);
 double data_folder_free_bytes(const data_folder *data); /* NaN: not known */
 
 #endif

@@ -12,6 +12,7 @@ store_status sql_status(sqlite3 *database, int code)
 {
     if (code == SQLITE_OK || code == SQLITE_ROW || code == SQLITE_DONE) return STORE_OK;
     log_line("database: %s (%s)", sqlite3_errmsg(database), sqlite3_errstr(code));
+    if ((code & 0xff) == SQLITE_CONSTRAINT) return STORE_REFUSED;
     const int system_reason = sqlite3_system_errno(database);
     return (code & 0xff) == SQLITE_FULL || ((code & 0xff) == SQLITE_IOERR && system_reason == ENOSPC) ? STORE_FULL : STORE_FAILED;
 }
@@ -119,6 +120,8 @@ sqlite3 *database_open_writer(const char *path)
     sqlite3 *database = open_with(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
                                   "PRAGMA busy_timeout=5000; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL;"
                                   "PRAGMA foreign_keys=ON; PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-2000;");
+    int keep = 1; /* the log and its index: on a full disk they could not be made anew, and nothing could be read */
+    if (database) sqlite3_file_control(database, NULL, SQLITE_FCNTL_PERSIST_WAL, &keep);
     if (database && migrate(database, path)) return database;
     sqlite3_close(database);
     return NULL;

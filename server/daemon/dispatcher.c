@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/eventfd.h>
-#include <sys/signalfd.h>
 #include <unistd.h>
 
 #include "job_folder.h"
@@ -19,6 +18,7 @@
 #include "worker_ends.h"
 
 #define SECONDS_TO_LEAVE 5.0    /* between SIGTERM and SIGKILL */
+#define SECONDS_TO_RECORD 10.0  /* after which the daemon leaves although the store refuses */
 #define SECONDS_OF_SILENCE 15.0 /* workers report every second, but for some steps that may take long */
 #define GIGABYTE 1073741824.0
 
@@ -36,23 +36,21 @@ void dispatcher_end_signals(sigset_t *ends)
     for (int real_time = SIGRTMIN; real_time <= SIGRTMAX; real_time++) sigaddset(ends, real_time);
 }
 
-bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job)
+bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job,
+                     int signals)
 {
     *dispatcher =
         (job_dispatcher){ .store = store, .executor = executor, .workers = workers, .threads = workers * threads_per_job };
-    sigset_t ends;
-    dispatcher_end_signals(&ends);
+    dispatcher->signals = signals;
     dispatcher->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    dispatcher->signals = signalfd(-1, &ends, SFD_CLOEXEC | SFD_NONBLOCK);
     dispatcher->slot = calloc((size_t)workers, sizeof dispatcher->slot[0]);
     dispatcher->last_round = monotonic_seconds();
-    return dispatcher->slot && dispatcher->wake >= 0 && dispatcher->signals >= 0;
+    return dispatcher->slot && dispatcher->wake >= 0;
 }
 
 void dispatcher_clear(job_dispatcher *dispatcher)
 {
     close(dispatcher->wake);
-    close(dispatcher->signals);
     free(dispatcher->slot);
 }
 
@@ -104,28 +102,47 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
     return started;
 }
 
+/* Not while the machine can't run jobs; then one after the other, until a worker is well. */
+static bool may_start(const job_dispatcher *dispatcher)
+{
+    if (!dispatcher->recovered || queue_pause_holds(&dispatcher->pause, monotonic_seconds())) return false;
+    for (int i = 0; i < dispatcher->workers; i++) {
+        const worker_slot *slot = &dispatcher->slot[i];
+        if (slot->state != SLOT_FREE && queue_pause_is_trying(&dispatcher->pause, slot->started)) return false;
+    }
+    return true;
+}
+
 /* False: no job waits that fits, or the store refuses. */
 static bool start_next_job(job_dispatcher *dispatcher)
 {
-    worker_slot *slot = free_slot(dispatcher);
+    worker_slot *slot = may_start(dispatcher) ? free_slot(dispatcher) : NULL;
     job_claim claim;
     if (!slot
         || store_claim_job(dispatcher->store, dispatcher->threads - threads_in_use(dispatcher), dispatcher->threads, &claim)
                != STORE_OK)
         return false;
-    *slot = (worker_slot){
-        .state = SLOT_WORKING, .claim = claim, .worker.watch = -1, .events = -1, .speed = NAN, .last_word = monotonic_seconds()
-    };
+    const double now = monotonic_seconds();
+    *slot = (worker_slot){ .state = SLOT_WORKING,
+                           .claim = claim,
+                           .worker.watch = -1,
+                           .events = -1,
+                           .speed = NAN,
+                           .started = now,
+                           .last_word = now,
+                           .oom_kills = worker_end_oom_kills() };
     const bool started = start_worker(dispatcher, slot);
+    const int reason = errno;
     free(slot->claim.spec);
     slot->claim.spec = NULL;
     if (started) {
         dispatcher->started++;
         log_line("job %s: attempt %d started, process %d", claim.id, claim.attempt, (int)slot->worker.process);
-    } else { /* no folder or no process to be had: as a full disk, which it most likely is */
+    } else { /* no folder or no process to be had */
         slot->state = SLOT_ENDED;
-        slot->end = (worker_end){ false, WORKER_DISK };
-        log_line("job %s: the worker can't be started: %s", claim.id, strerror(errno));
+        slot->end = (worker_end){ false, WORKER_MACHINE };
+        snprintf(slot->trouble, sizeof slot->trouble, "its worker can't be started: %s", strerror(reason));
+        queue_pause_add(&dispatcher->pause, now);
     }
     dispatcher->jobs_changed(dispatcher->context);
     return true;
@@ -147,6 +164,7 @@ static store_status record_batch(job_dispatcher *dispatcher, worker_slot *slot, 
         if (batch.any) {
             slot->last_word = monotonic_seconds();
             slot->silent = false;
+            queue_pause_note_well(&dispatcher->pause, slot->started, slot->last_word);
         }
         if (isfinite(batch.speed)) slot->speed = batch.speed;
         if (batch.failure) {
@@ -221,7 +239,9 @@ static void stop_unwanted(job_dispatcher *dispatcher)
     for (int i = 0; i < dispatcher->workers; i++) {
         worker_slot *slot = &dispatcher->slot[i];
         if (slot->state != SLOT_WORKING) continue;
-        if (!slot->claim_lost && !store_claim_holds(dispatcher->store, &slot->claim)) slot->claim_lost = true;
+        /* Leaving asks nobody: the store may be what hangs. */
+        if (!dispatcher->stopping && !slot->claim_lost && !store_claim_holds(dispatcher->store, &slot->claim))
+            slot->claim_lost = true;
         if (slot->claim_lost || dispatcher->stopping) stop_worker(dispatcher, slot);
     }
 }
@@ -230,8 +250,11 @@ static void notice_ends(job_dispatcher *dispatcher)
 {
     for (int i = 0; i < dispatcher->workers; i++) {
         worker_slot *slot = &dispatcher->slot[i];
-        if (slot->state == SLOT_WORKING && dispatcher->executor->has_ended(dispatcher->executor, &slot->worker, &slot->end))
-            slot->state = SLOT_ENDED;
+        if (slot->state != SLOT_WORKING || !dispatcher->executor->has_ended(dispatcher->executor, &slot->worker, &slot->end))
+            continue;
+        slot->state = SLOT_ENDED;
+        if (worker_end_is_of_the_machine(dispatcher, slot)) queue_pause_add(&dispatcher->pause, monotonic_seconds());
+        else queue_pause_note_end(&dispatcher->pause, slot->started);
     }
 }
 
@@ -282,10 +305,8 @@ static bool is_idle(const job_dispatcher *dispatcher)
 
 static bool take_signal(job_dispatcher *dispatcher)
 {
-    struct signalfd_siginfo signal;
-    bool any = false;
-    while (read(dispatcher->signals, &signal, sizeof signal) == (ssize_t)sizeof signal) any = true;
-    return any;
+    uint64_t count;
+    return read(dispatcher->signals, &count, sizeof count) == (ssize_t)sizeof count;
 }
 
 static void sleep_until_needed(job_dispatcher *dispatcher)
@@ -296,32 +317,64 @@ static void sleep_until_needed(job_dispatcher *dispatcher)
     for (int i = 0; i < dispatcher->workers; i++)
         if (dispatcher->slot[i].state == SLOT_WORKING && dispatcher->slot[i].worker.watch >= 0)
             watched[count++] = (struct pollfd){ .fd = dispatcher->slot[i].worker.watch, .events = POLLIN };
-    poll(watched, count, is_idle(dispatcher) ? IDLE_ROUND_MS : BUSY_ROUND_MS);
+    const bool calm = is_idle(dispatcher) && dispatcher->recovered && dispatcher->pause.setbacks == 0;
+    poll(watched, count, calm ? IDLE_ROUND_MS : BUSY_ROUND_MS);
     uint64_t ignored;
     while (read(dispatcher->wake, &ignored, sizeof ignored) > 0) continue;
+}
+
+/* What an earlier daemon left running goes first; on a full disk that has to wait, and reads are served meanwhile. */
+static void recover(job_dispatcher *dispatcher)
+{
+    if (dispatcher->recovered || dispatcher->stopping) return;
+    dispatcher->recovered = store_recover(dispatcher->store) == STORE_OK;
+    if (dispatcher->recovered) dispatcher->jobs_changed(dispatcher->context);
+    else dispatcher->store_failures++;
+}
+
+static void record(job_dispatcher *dispatcher, double *recorded)
+{
+    bool ended = false;
+    notice_ends(dispatcher);
+    for (int i = 0; i < dispatcher->workers; i++) ended = ended || dispatcher->slot[i].state == SLOT_ENDED;
+    if (!ended && monotonic_seconds() - *recorded < 0.95) return; /* progress reaches the disk once a second, not at every wake */
+    record_events(dispatcher);
+    *recorded = monotonic_seconds();
+}
+
+static void begin_to_leave(job_dispatcher *dispatcher, void (*leaving)(void *context))
+{
+    dispatcher->stopping = true;
+    dispatcher->stopping_from = monotonic_seconds();
+    log_line("leaving: workers are asked to save their state");
+    stop_unwanted(dispatcher);
+    leaving(dispatcher->context);
+}
+
+/* Ends that can't be recorded, on a full disk say, are not waited for longer than that. */
+static bool may_leave(const job_dispatcher *dispatcher)
+{
+    if (!dispatcher->stopping) return false;
+    if (is_idle(dispatcher)) return true;
+    for (int i = 0; i < dispatcher->workers; i++)
+        if (dispatcher->slot[i].state == SLOT_WORKING) return false;
+    if (monotonic_seconds() - dispatcher->stopping_from < SECONDS_TO_RECORD) return false;
+    log_line("leaving: what became of the last workers can't be recorded now; the next start does it");
+    return true;
 }
 
 void dispatcher_run(job_dispatcher *dispatcher, void (*leaving)(void *context))
 {
     double recorded = 0.0;
-    while (!dispatcher->stopping || !is_idle(dispatcher)) {
-        notice_ends(dispatcher);
-        bool ended = false;
-        for (int i = 0; i < dispatcher->workers; i++) ended = ended || dispatcher->slot[i].state == SLOT_ENDED;
-        if (ended || monotonic_seconds() - recorded >= 0.95) { /* progress reaches the disk once a second, not at every wake */
-            record_events(dispatcher);
-            recorded = monotonic_seconds();
-        }
+    while (!may_leave(dispatcher)) {
+        recover(dispatcher);
+        record(dispatcher, &recorded);
         stop_unwanted(dispatcher);
         record_ends(dispatcher);
         while (!dispatcher->stopping && start_next_job(dispatcher)) continue;
         count_work(dispatcher);
-        if (dispatcher->stopping && is_idle(dispatcher)) break;
+        if (may_leave(dispatcher)) break;
         sleep_until_needed(dispatcher);
-        if (take_signal(dispatcher) && !dispatcher->stopping) {
-            dispatcher->stopping = true;
-            log_line("leaving: workers are asked to save their state");
-            leaving(dispatcher->context);
-        }
+        if (take_signal(dispatcher) && !dispatcher->stopping) begin_to_leave(dispatcher, leaving);
     }
 }

@@ -11,6 +11,7 @@
 #include "event_tail.h"
 #include "executor.h"
 #include "job_store.h"
+#include "queue_pause.h"
 
 enum { DISPATCHER_MOST_WORKERS = 256 };
 
@@ -22,8 +23,12 @@ typedef struct worker_slot {
     worker_end end;
     int events;        /* descriptor of events.ndjson; -1: not there yet */
     int64_t events_at; /* recorded up to this offset */
+    char trouble[600]; /* what the machine lacked when it ended; "": nothing, the end is the job's own */
+    int doubts;        /* how often what it left was looked at in vain */
+    int64_t oom_kills; /* of the whole machine, when it was started */
     bool claim_lost;   /* dismissed: what it writes does not count any more */
     double stop_asked; /* monotonic s; 0: not asked to stop */
+    double started;    /* monotonic s */
     double last_word;  /* monotonic s: when it last wrote an event, or was started */
     bool silent;       /* and that this is long ago was told */
     double speed;      /* particle steps a second, as it last said; NaN: not yet */
@@ -35,8 +40,11 @@ typedef struct job_dispatcher {
     worker_executor *executor;
     int workers, threads; /* slots; threads of all workers together */
     worker_slot *slot;    /* (workers) */
-    int wake, signals;    /* eventfd; signalfd of dispatcher_end_signals */
+    int wake, signals;    /* eventfds */
+    queue_pause pause;
+    _Atomic bool recovered; /* jobs that an earlier daemon left running are put back */
     bool stopping;
+    double stopping_from; /* monotonic s */
     void (*jobs_changed)(void *context); /* told after every recorded change of a job's state */
     void *context;
     /* for the metrics, written here, read by any thread */
@@ -47,10 +55,12 @@ typedef struct job_dispatcher {
 
 /* The signals that end the daemon in good order: JOB_STOP_SIGNALS. To be blocked in all threads. */
 void dispatcher_end_signals(sigset_t *ends);
-bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job);
+/* signals: becomes readable when one of them has come (end_signals.h); the caller's. */
+bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job,
+                     int signals);
 void dispatcher_clear(job_dispatcher *dispatcher);
-/* Returns after one of the end signals, when every worker has left and its job is back in the queue. leaving is called
- * once, first. */
+/* Returns after one of the end signals, when every worker has left and its job is back in the queue, or can't be put there
+ * now: then the next start does it. leaving is called once, when the workers know. */
 void dispatcher_run(job_dispatcher *dispatcher, void (*leaving)(void *context));
 /* From any thread: look at the queue and at the jobs now. */
 void dispatcher_wake(job_dispatcher *dispatcher);

@@ -33,19 +33,35 @@ static void take_progress(event_batch *batch, const json_t *event)
     snprintf(batch->phase, sizeof batch->phase, "%s", phase ? phase : "");
 }
 
-static void take_event(event_batch *batch, json_t *event)
+static bool append(json_t *list, json_t *event) { return json_array_append(list, event) == 0; }
+
+/* False: no memory. */
+static bool take_event(event_batch *batch, json_t *event)
 {
     const char *kind = json_string_value(json_object_get(event, "event"));
-    if (!kind) return;
+    if (!kind) return true;
     batch->any = true;
     if (strcmp(kind, "progress") == 0) take_progress(batch, event);
-    else if (strcmp(kind, "sample") == 0) json_array_append(batch->samples, event);
-    else if (strcmp(kind, "snapshot") == 0) json_array_append(batch->snapshots, event);
-    else if (strcmp(kind, "checkpoint") == 0) json_array_append(batch->checkpoints, event);
+    else if (strcmp(kind, "sample") == 0) return append(batch->samples, event);
+    else if (strcmp(kind, "snapshot") == 0) return append(batch->snapshots, event);
+    else if (strcmp(kind, "checkpoint") == 0) return append(batch->checkpoints, event);
     else if (strcmp(kind, "failure") == 0 || strcmp(kind, "start") == 0) {
         json_decref(batch->failure);
         batch->failure = kind[0] == 'f' ? json_incref(event) : NULL; /* a new start forgets an earlier failure */
     }
+    return true;
+}
+
+/* False: no memory, for which no event may be skipped. */
+static bool take_line(event_batch *batch, const char *line, size_t length)
+{
+    json_error_t error;
+    json_t *event = json_loadb(line, length, 0, &error);
+    const enum json_error_code code = event ? json_error_unknown : json_error_code(&error);
+    /* The parser tells of every fault in a text, but not of all places where memory was missing. */
+    const bool good = event ? take_event(batch, event) : code != json_error_unknown && code != json_error_out_of_memory;
+    json_decref(event);
+    return good;
 }
 
 static ssize_t read_all(int file, char *text, size_t size, int64_t offset)
@@ -71,19 +87,18 @@ bool event_tail_read(int file, int64_t offset, event_batch *batch)
     const bool has_room = text && batch->samples && batch->snapshots && batch->checkpoints;
     const ssize_t length = has_room ? read_all(file, text, BATCH_BYTES, offset) : -1;
     const char *line = text;
-    for (ssize_t left = length; left > 0;) {
+    bool good = length >= 0;
+    for (ssize_t left = length; good && left > 0;) {
         const char *end = memchr(line, '\n', (size_t)left);
         if (!end && left == BATCH_BYTES) end = line + left - 1; /* no event is that long: skip the piece */
         if (!end) break;
-        json_t *event = json_loadb(line, (size_t)(end - line), 0, NULL);
-        take_event(batch, event);
-        json_decref(event);
+        good = take_line(batch, line, (size_t)(end - line));
         left -= end + 1 - line;
         line = end + 1;
     }
     if (length > 0) batch->end = offset + (line - text);
     batch->more = length == BATCH_BYTES;
     free(text);
-    if (length < 0) event_batch_clear(batch);
-    return length >= 0;
+    if (!good) event_batch_clear(batch);
+    return good;
 }

@@ -14,12 +14,13 @@
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "executor.h"
 #include "job_folder.h"
 
-enum { EXEC_FAILED = 127, SECONDS_FOR_THE_FOLDER = 10 };
+enum { EXEC_FAILED = 127, TRIES_FOR_THE_FOLDER = 500 /* of 20 ms */ };
 
 static void limit(int resource, double value)
 {
@@ -35,11 +36,36 @@ static void reset_signals(void)
     sigprocmask(SIG_SETMASK, &none, NULL);
 }
 
-static void open_streams(int folder)
+/* Opened before the fork, where a failure can still be told with its reason. */
+typedef struct worker_streams {
+    int null, log;
+} worker_streams;
+
+static bool streams_open(worker_streams *streams, int folder)
 {
-    const int null = open("/dev/null", O_RDWR);
-    const int log = openat(folder, JOB_LOG_FILE, O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW, 0600);
-    if (null < 0 || log < 0 || dup2(null, 0) < 0 || dup2(null, 1) < 0 || dup2(log, 2) < 0) _exit(WORKER_DISK);
+    *streams = (worker_streams){ open("/dev/null", O_RDWR | O_CLOEXEC), -1 };
+    if (streams->null >= 0)
+        streams->log = openat(folder, JOB_LOG_FILE, O_WRONLY | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
+    return streams->log >= 0;
+}
+
+static void streams_close(const worker_streams *streams)
+{
+    const int reason = errno;
+    if (streams->null >= 0) close(streams->null);
+    if (streams->log >= 0) close(streams->log);
+    errno = reason;
+}
+
+static void streams_take(const worker_streams *streams)
+{
+    if (dup2(streams->null, 0) < 0 || dup2(streams->null, 1) < 0 || dup2(streams->log, 2) < 0) _exit(WORKER_MACHINE);
+}
+
+static void say(const char *text)
+{
+    const ssize_t ignored = write(2, text, strlen(text));
+    (void)ignored;
 }
 
 /* The worker inherits this lock and holds it to its end: after a crash of the daemon the next attempt waits here
@@ -47,18 +73,22 @@ static void open_streams(int folder)
 static void lock_folder(int folder)
 {
     close_range(3, ~0U, CLOSE_RANGE_CLOEXEC);
-    alarm(SECONDS_FOR_THE_FOLDER);
-    while (flock(folder, LOCK_EX) != 0)
-        if (errno != EINTR) _exit(WORKER_DISK);
-    alarm(0);
+    for (int tries = 0; flock(folder, LOCK_EX | LOCK_NB) != 0; tries++) {
+        if (tries == TRIES_FOR_THE_FOLDER) {
+            say("the worker of an earlier attempt is still there\n");
+            _exit(WORKER_MACHINE);
+        }
+        nanosleep(&(struct timespec){ .tv_nsec = 20000000 }, NULL);
+    }
     fcntl(folder, F_SETFD, 0);
 }
 
-static void become_worker(const worker_order *order, const char *program, char *const *arguments, pid_t parent)
+static void become_worker(const worker_order *order, const worker_streams *streams, const char *program, char *const *arguments,
+                          pid_t parent)
 {
     setpgid(0, 0);
     reset_signals();
-    open_streams(order->job_folder_file);
+    streams_take(streams);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(WORKER_FAULT); /* the daemon died before the line above */
     lock_folder(order->job_folder_file);
@@ -68,6 +98,10 @@ static void become_worker(const worker_order *order, const char *program, char *
     limit(RLIMIT_CORE, 0.0);
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     execv(program, arguments);
+    say(program);
+    say(": ");
+    say(strerrordesc_np(errno));
+    say("\n");
     _exit(EXEC_FAILED);
 }
 
@@ -80,9 +114,11 @@ static bool start(worker_executor *executor, const worker_order *order, worker_h
     char *const arguments[] = {
         (char *)executor->program, "run", spec, "--out", (char *)order->job_folder, "--attempt", attempt, "--threads", threads, NULL
     };
+    worker_streams streams;
     const pid_t parent = getpid();
-    const pid_t process = fork();
-    if (process == 0) become_worker(order, executor->program, arguments, parent);
+    const pid_t process = streams_open(&streams, order->job_folder_file) ? fork() : -1;
+    if (process == 0) become_worker(order, &streams, executor->program, arguments, parent);
+    streams_close(&streams);
     if (process < 0) return false;
     setpgid(process, process); /* also here: whoever comes first */
     *worker = (worker_handle){ .process = process, .watch = pidfd_open(process, 0) };
@@ -96,7 +132,7 @@ static bool has_ended(worker_executor *executor, worker_handle *worker, worker_e
     const pid_t process = waitpid(worker->process, &status, WNOHANG);
     if (process == 0 || (process < 0 && errno == EINTR)) return false;
     *end = WIFSIGNALED(status) ? (worker_end){ true, WTERMSIG(status) } : (worker_end){ false, WEXITSTATUS(status) };
-    if (process < 0) *end = (worker_end){ false, WORKER_FAULT }; /* not our child: nothing to wait for */
+    if (process < 0) *end = (worker_end){ false, WORKER_MACHINE }; /* not our child: nothing to wait for */
     if (worker->watch >= 0) close(worker->watch);
     *worker = (worker_handle){ .watch = -1 };
     return true;

@@ -82,6 +82,15 @@ store_status store_end(job_store *store, store_status status)
     return status;
 }
 
+store_status store_try_write(job_store *store)
+{
+    if (pthread_mutex_trylock(&store->write_lock) != 0) return STORE_OK;
+    store_status status = sql_run(store->writer, NULL, "BEGIN IMMEDIATE", "");
+    if (status == STORE_OK) return store_end(store, sql_run(store->writer, NULL, "UPDATE job_count SET jobs=jobs", ""));
+    pthread_mutex_unlock(&store->write_lock);
+    return status;
+}
+
 /* --- adding and dismissing --- */
 
 bool store_random_bits(uint32_t *bits) { return getrandom(bits, sizeof *bits, 0) == (ssize_t)sizeof *bits; }

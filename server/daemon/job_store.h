@@ -37,6 +37,9 @@ void store_return_reader(job_store *store, sqlite3 *reader);
 store_status store_begin(job_store *store);
 store_status store_end(job_store *store, store_status status);
 
+/* Commits a change that changes nothing, to see whether that can be done; not while somebody else writes. */
+store_status store_try_write(job_store *store);
+
 /* An id of this second; bits tell it from others of the same second. */
 void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits);
 bool store_random_bits(uint32_t *bits);
@@ -89,10 +92,14 @@ store_status store_record_success(job_store *store, const job_claim *claim, cons
 store_status store_record_failure(job_store *store, const job_claim *claim, const char *message, const json_t *failure);
 /* Back into the queue. uses_attempt: the worker died; the death of the last attempt fails
  * the job. */
-store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, double delay, const char *message);
+store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, const char *message);
+/* Back into the queue after a setback that was the machine's: no attempt is used, and the job waits the longer the more
+ * setbacks it has had in a row, so that others come before it. */
+store_status store_put_off(job_store *store, const job_claim *claim, const char *message);
 bool store_claim_holds(job_store *store, const job_claim *claim);
 
-/* At start: jobs that a dead daemon left running are put back, or recorded as done where the result is there. */
+/* Jobs that a dead daemon left running are put back, with no attempt used, or recorded as done where the result is
+ * there. Anything but STORE_OK: to be called again. */
 store_status store_recover(job_store *store);
 
 /* process_tables.c: the main inputs of a job as columns of its process's table; between begin and end. */

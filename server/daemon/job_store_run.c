@@ -1,5 +1,6 @@
 /* What running a job writes. Every write a worker causes is fenced by `number AND attempt AND status='running'`: a
  * job that was dismissed or put back meanwhile is not touched. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -11,10 +12,13 @@
 #include "job_folder.h"
 #include "job_store.h"
 #include "log.h"
+#include "machine_error.h"
 
 #define FENCE " WHERE number=? AND attempt=? AND status='running'"
 
 enum { LONGEST_DELAY = 3600 /* s; no job is put off for longer */ };
+/* s: no longer, so that a job goes on soon after the machine is sound again */
+#define LONGEST_DELAY_OF_SETBACKS 60.0
 
 static double unix_seconds(void)
 {
@@ -192,7 +196,7 @@ store_status store_record_failure(job_store *store, const job_claim *claim, cons
     return status;
 }
 
-static store_status put_back(job_store *store, const job_claim *claim, bool uses_attempt, double delay, const char *message)
+static store_status put_back(job_store *store, const job_claim *claim, bool uses_attempt, const char *message)
 {
     char now[JOB_TIME_SIZE], text[1024];
     time_text(now);
@@ -203,15 +207,35 @@ static store_status put_back(job_store *store, const job_claim *claim, bool uses
     int64_t changed;
     const store_status status = sql_run(
         store->writer, &changed,
-        "UPDATE job SET status='accepted', attempt=attempt+?, not_before=?, message=?, updated=?, eta_seconds=NULL" FENCE, "idttii",
-        (int64_t)uses_attempt, delay > 0.0 ? unix_seconds() + delay : 0.0, message, now, claim->number, (int64_t)claim->attempt);
+        "UPDATE job SET status='accepted', attempt=attempt+?, setbacks=0, not_before=0, message=?, updated=?, eta_seconds=NULL" FENCE,
+        "ittii", (int64_t)uses_attempt, message, now, claim->number, (int64_t)claim->attempt);
     return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
 }
 
-store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, double delay, const char *message)
+store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, const char *message)
 {
     const store_status status = store_begin(store);
-    return status == STORE_OK ? store_end(store, put_back(store, claim, uses_attempt, delay, message)) : status;
+    return status == STORE_OK ? store_end(store, put_back(store, claim, uses_attempt, message)) : status;
+}
+
+static store_status put_off(job_store *store, const job_claim *claim, const char *message)
+{
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    int64_t changed;
+    /* 2, 4, 8, ... s */
+    const store_status status = sql_run(store->writer, &changed,
+                                        "UPDATE job SET status='accepted', setbacks=setbacks+1,"
+                                        " not_before=?+min(?,2<<min(setbacks,16)), message=?, updated=?, eta_seconds=NULL" FENCE,
+                                        "ddttii", unix_seconds(), LONGEST_DELAY_OF_SETBACKS, message, now, claim->number,
+                                        (int64_t)claim->attempt);
+    return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
+}
+
+store_status store_put_off(job_store *store, const job_claim *claim, const char *message)
+{
+    const store_status status = store_begin(store);
+    return status == STORE_OK ? store_end(store, put_off(store, claim, message)) : status;
 }
 
 /* --- after a crash --- */
@@ -248,29 +272,49 @@ static store_status record_left_events(job_store *store, job_claim *claim)
     return status;
 }
 
+/* Another job's result may have come into the folder, or one of a later attempt that this table knows nothing of. */
+static bool is_of_claim(const job_claim *claim, const char *document)
+{
+    json_t *result = json_loads(document, 0, NULL), *spec = json_loads(claim->spec, 0, NULL);
+    const json_t *run = json_object_get(result, "run"), *attempt = json_object_get(run, "attempt");
+    const json_t *seed = json_object_get(run, "seed"), *given = json_object_get(json_object_get(spec, "inputs"), "seed");
+    const bool of_it = json_is_object(run) && (!json_is_integer(attempt) || json_integer_value(attempt) <= claim->attempt)
+                       && (!json_is_integer(seed) || !json_is_integer(given) || json_integer_value(seed) == json_integer_value(given));
+    json_decref(result);
+    json_decref(spec);
+    return of_it;
+}
+
 /* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. */
 static store_status recover_one(job_store *store, job_claim *claim)
 {
-    const store_status recorded = record_left_events(store, claim);
-    if (recorded != STORE_OK) return recorded;
+    store_status status = record_left_events(store, claim);
+    if (status != STORE_OK) return status;
+    errno = 0;
+    char *text = job_file_read(store->data, claim->id, JOB_RESULT_FILE, LARGEST_RESULT);
+    if (!text && machine_error_is(errno)) return STORE_FAILED;
+    free(text);
     char *document = job_result_read(store->data, claim->id);
-    const store_status status = document ? store_record_success(store, claim, document)
-                                         : store_put_back(store, claim, true, 0.0, "the daemon stopped while it ran");
-    log_line("job %s: left running by an earlier daemon; %s", claim->id, document ? "its result is there" : "put back");
+    const bool done = document && is_of_claim(claim, document);
+    status = done ? store_record_success(store, claim, document) : STORE_REFUSED;
     free(document);
-    return status;
+    if (status == STORE_REFUSED) status = store_put_back(store, claim, false, "the daemon stopped while it ran");
+    if (status != STORE_OK) return status;
+    log_line("job %s: left running by an earlier daemon; %s", claim->id, done ? "its result is there" : "put back");
+    return STORE_OK;
 }
 
 store_status store_recover(job_store *store)
 {
     job_claim claim = { 0 };
     int64_t after = 0;
-    store_status status;
+    store_status status, worst = STORE_OK;
     while ((status = next_orphan(store, after, &claim)) == STORE_OK) {
         after = claim.number;
         status = recover_one(store, &claim);
         free(claim.spec);
-        if (status != STORE_OK) return status;
+        if (status == STORE_CONFLICT) status = STORE_OK; /* dismissed meanwhile */
+        if (status != STORE_OK) worst = status;
     }
-    return status == STORE_NOT_FOUND ? STORE_OK : status;
+    return status == STORE_NOT_FOUND ? worst : status;
 }

@@ -1,5 +1,6 @@
 /* reposed: puts the parts together. The main thread becomes the supervisor (dispatcher.h); the HTTP threads know it
  * only as "wake up". */
+#include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
 #include <signal.h>
@@ -9,11 +10,12 @@
 #include <unistd.h>
 
 #include "calibrator.h"
+#include "end_signals.h"
 #include "http_server.h"
 #include "log.h"
+#include "readiness.h"
 
-#define ROUND_TOO_LONG 30.0 /* s without a round of the supervisor: something hangs */
-#define LEAST_FREE_BYTES 67108864.0
+#define SECONDS_TO_END 25.0 /* after the signal, whatever hangs */
 
 typedef struct parts {
     config settings;
@@ -23,6 +25,8 @@ typedef struct parts {
     job_dispatcher dispatcher;
     api_service service;
     http_server server;
+    readiness readiness;
+    int signals; /* readable when the daemon is to end */
 } parts;
 
 /* --- what the handlers ask of us --- */
@@ -43,15 +47,7 @@ static void jobs_changed_by_worker(void *context)
 static bool is_ready(void *context, char *why_not, size_t size)
 {
     parts *all = context;
-    int64_t counts[JOB_STATUSES];
-    const double silence = monotonic_seconds() - all->dispatcher.last_round;
-    const double room = data_folder_free_bytes(&all->data);
-    if (store_count_jobs(all->store, counts) != STORE_OK) snprintf(why_not, size, "the database can't be read");
-    else if (silence > ROUND_TOO_LONG) snprintf(why_not, size, "the supervisor has been silent for %.0f s", silence);
-    else if (room < LEAST_FREE_BYTES)
-        snprintf(why_not, size, "the data folder's disk has %.0f MB left; needs %.0f MB", room / 1e6, LEAST_FREE_BYTES / 1e6);
-    else return true;
-    return false;
+    return readiness_look(&all->readiness, why_not, size);
 }
 
 static void write_metrics(void *context, text_buffer *out)
@@ -76,40 +72,51 @@ static void keep_memory_small(void)
     mallopt(M_TRIM_THRESHOLD, 256 * 1024);
 }
 
-/* Before any thread starts, so that all inherit it: these signals are read from a descriptor. */
-static void arrange_signals(void)
+/* Before any thread starts, so that all inherit it: one thread alone takes these signals. */
+static bool arrange_signals(parts *all)
 {
     sigset_t ends;
     dispatcher_end_signals(&ends);
     pthread_sigmask(SIG_BLOCK, &ends, NULL);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
+    return end_signals_watch(&ends, SECONDS_TO_END, &all->signals);
 }
 
-static bool announce(const parts *all)
+/* A port file that can't be written, on a full disk say, keeps nobody from reading; one of an earlier daemon would mislead. */
+static void write_port_file(const char *name, int port)
+{
+    char temporary[4096];
+    snprintf(temporary, sizeof temporary, "%s.tmp", name);
+    FILE *file = fopen(temporary, "we");
+    bool good = file && fprintf(file, "%d\n", port) > 0;
+    if (file) good = fclose(file) == 0 && good;
+    if (good && rename(temporary, name) == 0) return;
+    log_line("port file %s can't be written: %s", name, strerror(errno));
+    unlink(temporary);
+    unlink(name);
+}
+
+static void announce(const parts *all)
 {
     const char *host = all->settings.host;
     const bool six = strchr(host, ':') != NULL;
     printf("listening on http://%s%s%s:%d\n", six ? "[" : "", host, six ? "]" : "", all->server.port);
     fflush(stdout);
-    if (!all->settings.port_file) return true;
-    char temporary[4096];
-    snprintf(temporary, sizeof temporary, "%s.tmp", all->settings.port_file);
-    FILE *file = fopen(temporary, "we");
-    bool good = file && fprintf(file, "%d\n", all->server.port) > 0;
-    if (file) good = fclose(file) == 0 && good;
-    good = good && rename(temporary, all->settings.port_file) == 0;
-    if (!good) log_line("port file %s can't be written", all->settings.port_file);
-    return good;
+    if (all->settings.port_file) write_port_file(all->settings.port_file, all->server.port);
 }
 
 static bool open_parts(parts *all)
 {
     if (!data_folder_open(&all->data, all->settings.data)) return false;
     all->store = store_open(&all->data, all->settings.queue_limit);
-    if (!all->store || store_recover(all->store) != STORE_OK) return false;
+    if (!all->store) return false;
     executor_local_init(&all->executor, all->settings.worker);
-    if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.workers, all->settings.threads)) return false;
+    if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.workers, all->settings.threads, all->signals))
+        return false;
+    all->dispatcher.recovered = store_recover(all->store) == STORE_OK;
+    if (!all->dispatcher.recovered) log_line("jobs that an earlier daemon left running can't be put back now: tried again later");
+    readiness_init(&all->readiness, &all->dispatcher);
     all->dispatcher.jobs_changed = jobs_changed_by_worker;
     all->dispatcher.context = all;
     all->service = (api_service){ .store = all->store,
@@ -130,10 +137,10 @@ int main(int argc, char **argv)
     const enum config_outcome outcome = config_read(&all.settings, argc, argv);
     if (outcome != CONFIG_SERVE) return outcome == CONFIG_SHOWN ? 0 : 2;
     keep_memory_small();
-    arrange_signals();
     umask(077);
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */
-    if (!open_parts(&all) || !announce(&all)) return 1;
+    if (!arrange_signals(&all) || !open_parts(&all)) return 1;
+    announce(&all);
     calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);
     http_server_stop(&all.server);

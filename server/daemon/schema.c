@@ -326,6 +326,9 @@ static const char run_summary_with_verdicts[] =
     " LEFT JOIN heap_result hr ON hr.job=job.number"
     " WHERE job.status='successful';";
 
+/* How often in a row an attempt could not go on for want of something of the machine. */
+static const char setbacks[] = "ALTER TABLE job ADD COLUMN setbacks INTEGER NOT NULL DEFAULT 0;";
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
@@ -335,5 +338,6 @@ const schema_migration schema_migrations[] = {
     { { index_of_lists } },
     { { parts_of_studies } },
     { { verdicts, run_summary_with_verdicts } },
+    { { setbacks } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

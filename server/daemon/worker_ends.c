@@ -1,13 +1,17 @@
 /* Exit code or signal -> what becomes of the job:
  *
- *   0  result.json is there     successful
- *   3  stopped in good order    accepted again, the attempt not used up
- *   5  disk                     accepted again, attempt + 1, after a pause in which somebody may make room; failed as below
- *   2, 4, 1, 127                failed: the same worker on the same spec would end the same way
- *   a signal                    accepted again, attempt + 1; failed when three in a row saved no newer checkpoint
+ *   0  result.json is there        successful; one that can't be read for want of something is read again
+ *   3  stopped in good order       accepted again
+ *   2, 4, 1                        failed: the same worker on the same spec would end the same way
+ *   5, 6, 127, no worker at all    accepted again, after a pause: the machine had no room, memory, descriptors or program for it
+ *   SIGBUS, killed out of memory   likewise
+ *   SIGTERM and the like           accepted again: somebody stopped it
+ *   another signal                 accepted again, attempt + 1; failed when three in a row saved no newer checkpoint
  */
 #include "worker_ends.h"
 
+#include <errno.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -15,9 +19,9 @@
 
 #include "job_folder.h"
 #include "log.h"
+#include "machine_error.h"
 
-enum { LOG_TAIL = 600 };
-#define PAUSE_AFTER_FULL_DISK 30.0 /* s */
+enum { LOG_TAIL = 400, EXEC_FAILED = 127, MOST_DOUBTS = 3 };
 
 /* The last line the worker wrote to its log, for messages. */
 static void last_words(const job_dispatcher *dispatcher, const worker_slot *slot, char *text, size_t size)
@@ -53,9 +57,9 @@ static store_status fail(job_dispatcher *dispatcher, worker_slot *slot, const ch
     return status;
 }
 
-static store_status put_back(job_dispatcher *dispatcher, worker_slot *slot, bool uses_attempt, double delay, const char *why)
+static store_status put_back(job_dispatcher *dispatcher, worker_slot *slot, bool uses_attempt, const char *why)
 {
-    const store_status status = store_put_back(dispatcher->store, &slot->claim, uses_attempt, delay, why);
+    const store_status status = store_put_back(dispatcher->store, &slot->claim, uses_attempt, why);
     if (status == STORE_OK) {
         const bool was_last = uses_attempt && job_claim_is_last(&slot->claim);
         if (was_last) dispatcher->ended[JOB_FAILED]++;
@@ -65,46 +69,106 @@ static store_status put_back(job_dispatcher *dispatcher, worker_slot *slot, bool
     return status;
 }
 
-/* Where its bytes are not those that the worker wrote, the next attempt makes it anew. */
+/* A verdict only on what was read: not while reading fails, nor for want of memory. STORE_FAILED: look again later. Where its
+ * bytes are not those that the worker wrote, the next attempt makes it anew. */
 static store_status succeed(job_dispatcher *dispatcher, worker_slot *slot)
 {
-    char *document = job_result_read(dispatcher->store->data, slot->claim.id);
-    const int file = document ? -1 : job_file_open(dispatcher->store->data, slot->claim.id, NULL, JOB_RESULT_SUM_FILE);
-    store_status status;
-    if (document) {
-        status = store_record_success(dispatcher->store, &slot->claim, document);
-        if (status == STORE_OK) {
-            dispatcher->ended[JOB_SUCCESSFUL]++;
-            log_line("job %s: done", slot->claim.id);
-        }
-    } else if (file >= 0) {
-        status = put_back(dispatcher, slot, true, 0.0, "its result.json does not fit its checksum");
-    } else {
-        status = fail(dispatcher, slot, "the worker ended well but left no readable result.json");
-    }
-    if (file >= 0) close(file);
+    const data_folder *data = dispatcher->store->data;
+    errno = 0;
+    char *text = job_file_read(data, slot->claim.id, JOB_RESULT_FILE, LARGEST_RESULT);
+    if (!text && machine_error_is(errno)) return STORE_FAILED;
+    const bool is_there = text;
+    free(text);
+    char *document = job_result_read(data, slot->claim.id);
+    store_status status = document ? store_record_success(dispatcher->store, &slot->claim, document) : STORE_REFUSED;
     free(document);
+    if (status == STORE_OK) {
+        dispatcher->ended[JOB_SUCCESSFUL]++;
+        log_line("job %s: done", slot->claim.id);
+    }
+    if (status != STORE_REFUSED) return status;
+    if (is_there && ++slot->doubts < MOST_DOUBTS) return STORE_FAILED;
+    const int file = job_file_open(data, slot->claim.id, NULL, JOB_RESULT_SUM_FILE);
+    if (file < 0) return fail(dispatcher, slot, "the worker ended well but left no readable result.json");
+    close(file);
+    return put_back(dispatcher, slot, true, "its result.json does not fit its checksum");
+}
+
+static store_status put_off(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    const store_status status = store_put_off(dispatcher->store, &slot->claim, slot->trouble);
+    if (status == STORE_OK) {
+        dispatcher->put_back++;
+        log_line("job %s: %s; put off", slot->claim.id, slot->trouble);
+    }
     return status;
+}
+
+/* --- whose fault it was --- */
+
+int64_t worker_end_oom_kills(void)
+{
+    char line[128];
+    long long kills = -1;
+    FILE *file = fopen("/proc/vmstat", "re");
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "oom_kill %lld", &kills) == 1) break;
+    if (file) fclose(file);
+    return kills;
+}
+
+static const char *trouble_of_signal(const worker_slot *slot)
+{
+    if (slot->end.code == SIGBUS) return "a file that the worker needs could not be read from the disk";
+    if (slot->end.code != SIGKILL || slot->oom_kills < 0) return NULL;
+    return worker_end_oom_kills() > slot->oom_kills ? "the machine ran out of memory, and the worker was killed" : NULL;
+}
+
+static const char *trouble_of_exit(int code)
+{
+    switch (code) {
+    case WORKER_DISK: return "the worker could not write to the disk";
+    case WORKER_MACHINE: return "the machine did not give the worker what it needs";
+    case EXEC_FAILED: return "the worker program can't be started";
+    default: return NULL;
+    }
+}
+
+bool worker_end_is_of_the_machine(const job_dispatcher *dispatcher, worker_slot *slot)
+{
+    const char *what = slot->end.by_signal ? trouble_of_signal(slot) : trouble_of_exit(slot->end.code);
+    char words[LOG_TAIL + 1] = "";
+    if (!what) return false;
+    if (!slot->end.by_signal) last_words(dispatcher, slot, words, sizeof words);
+    snprintf(slot->trouble, sizeof slot->trouble, "%s%s%s", what, words[0] ? "; its last words: " : "", words);
+    return true;
+}
+
+static bool is_a_request_to_stop(int number)
+{
+    static const int requests[] = { JOB_STOP_SIGNALS };
+    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++)
+        if (requests[i] == number) return true;
+    return false;
 }
 
 static store_status record_signal(job_dispatcher *dispatcher, worker_slot *slot)
 {
     char why[160];
     snprintf(why, sizeof why, "the worker was killed by signal %d (%s)", slot->end.code, strsignal(slot->end.code));
-    if (dispatcher->stopping) return put_back(dispatcher, slot, false, 0.0, "stopped with the daemon");
-    return put_back(dispatcher, slot, true, 0.0, why);
+    if (dispatcher->stopping) return put_back(dispatcher, slot, false, "stopped with the daemon");
+    return put_back(dispatcher, slot, !is_a_request_to_stop(slot->end.code), why);
 }
 
 store_status worker_end_record(job_dispatcher *dispatcher, worker_slot *slot)
 {
+    if (slot->trouble[0]) return put_off(dispatcher, slot);
     if (slot->end.by_signal) return record_signal(dispatcher, slot);
     switch (slot->end.code) {
     case WORKER_DONE: return succeed(dispatcher, slot);
-    case WORKER_STOPPED: return put_back(dispatcher, slot, false, 0.0, "stopped in good order");
-    case WORKER_DISK: return put_back(dispatcher, slot, true, PAUSE_AFTER_FULL_DISK, "the worker could not write to the disk");
+    case WORKER_STOPPED: return put_back(dispatcher, slot, false, "stopped in good order");
     case WORKER_BAD_SPEC: return fail(dispatcher, slot, "the worker refused the specification");
     case WORKER_NUMERICAL: return fail(dispatcher, slot, "the simulation broke down");
-    case 127: return fail(dispatcher, slot, "the worker program can't be started");
     default: return fail(dispatcher, slot, "the worker ended with a fault of its own");
     }
 }

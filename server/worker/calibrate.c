@@ -6,10 +6,12 @@
 #include "calibrate.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -254,6 +256,14 @@ static void load(const char *folder, calibration *machine)
     json_decref(document);
 }
 
+/* Two that measure at once would disturb each other, and many the machine. The lock is on the program itself, to be had
+ * without any folder, and goes with the process. */
+static bool is_the_only_one(void)
+{
+    const int program = open("/proc/self/exe", O_RDONLY | O_CLOEXEC); /* stays open */
+    return program < 0 || flock(program, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
 bool calibrate(const char *wish, calibration *machine, bool *is_new)
 {
     char cache[4096];
@@ -264,6 +274,11 @@ bool calibrate(const char *wish, calibration *machine, bool *is_new)
     if (has_folder && calibrate_is_current(machine)) return true;
     if (has_cache) load(cache, machine);
     if (!has_cache || !calibrate_is_current(machine)) {
+        if (!is_the_only_one()) {
+            *machine = calibration_built_in();
+            worker_warn("another process measures this machine's speed: estimates are rough until it is done");
+            return false;
+        }
         if (!measure(machine)) {
             worker_warn("this machine's speed could not be measured: estimates are rough");
             return false;

@@ -44,7 +44,7 @@ static bool cut_unfinished_line(int fd)
 
 bool event_log_open(event_log *log)
 {
-    *log = (event_log){ .fd = open(JOB_EVENTS_FILE, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0644) };
+    *log = (event_log){ .fd = open(JOB_EVENTS_FILE, O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0644) };
     if (log->fd < 0) return fail(log, strerror(errno));
     if (!lock_for_this_worker(log->fd)) return fail(log, "another worker is at work in this folder");
     if (!cut_unfinished_line(log->fd)) return fail(log, strerror(errno));

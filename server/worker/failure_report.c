@@ -13,7 +13,7 @@ static failure_kind kind_of(dem_status status)
 {
     switch (status) {
     case DEM_OK: return (failure_kind){ "none", WORKER_FAULT };
-    case DEM_NO_MEMORY: return (failure_kind){ "no-memory", WORKER_FAULT };
+    case DEM_NO_MEMORY: return (failure_kind){ "no-memory", WORKER_MACHINE };
     case DEM_BAD_PARAMETER: return (failure_kind){ "bad-parameter", WORKER_BAD_SPEC };
     case DEM_DOES_NOT_FIT: return (failure_kind){ "does-not-fit", WORKER_BAD_SPEC };
     case DEM_NOT_A_NUMBER: return (failure_kind){ "not-a-number", WORKER_NUMERICAL };
@@ -70,8 +70,8 @@ enum worker_exit failure_report(event_log *events, dem_status status, const dem_
         json_object_set_new(event, "detail", detail_json(failure));
     }
     worker_warn("failed: %s", message);
-    event_log_add(events, event);
-    return kind.code;
+    /* An end that can't be told counts as one for want of room: the next attempt tells it. */
+    return event_log_add(events, event) || kind.code == WORKER_MACHINE ? kind.code : WORKER_DISK;
 }
 
 enum worker_exit failure_report_disk(event_log *events, const char *name)

@@ -25,7 +25,7 @@ void file_log_write_failure(const char *name, const char *reason)
 
 static bool sync_path(const char *path, int flags)
 {
-    const int fd = open(path, flags | O_CLOEXEC);
+    const int fd = open(path, flags | O_CLOEXEC | O_NOFOLLOW);
     if (fd < 0) return false;
     const bool synced = fsync(fd) == 0;
     return close(fd) == 0 && synced;
@@ -72,7 +72,8 @@ bool file_write(const char *name, const char *text, size_t length)
 {
     char temporary[PATH_MAX];
     snprintf(temporary, sizeof temporary, "%s.tmp", name);
-    const int fd = open(temporary, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+    unlink(temporary); /* made anew, and not through a symbolic link */
+    const int fd = open(temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     if (fd >= 0) {
         const bool written = write_all(fd, text, length);
         if (close(fd) == 0 && written) return file_publish(name);
@@ -112,9 +113,17 @@ char *file_read(const char *name, size_t most, size_t *length)
     return NULL;
 }
 
+DIR *file_list_folder(const char *folder)
+{
+    const int fd = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC | O_NOFOLLOW);
+    DIR *entries = fd < 0 ? NULL : fdopendir(fd);
+    if (!entries && fd >= 0) close(fd);
+    return entries;
+}
+
 void file_sweep_temporary(const char *folder)
 {
-    DIR *entries = opendir(folder);
+    DIR *entries = file_list_folder(folder);
     if (!entries) return;
     for (struct dirent *entry; (entry = readdir(entries));) {
         const size_t length = strlen(entry->d_name);

@@ -5,6 +5,7 @@
 #ifndef FILE_PUBLISH_H
 #define FILE_PUBLISH_H
 
+#include <dirent.h>
 #include <stdbool.h>
 #include <stddef.h>
 
@@ -16,6 +17,9 @@ bool file_write(const char *name, const char *text, size_t length);
 
 /* The whole file, with a \0 after it; to be freed. NULL: not there or not readable (logged unless not there). */
 char *file_read(const char *name, size_t most, size_t *length);
+
+/* NULL: not there, or no folder but a symbolic link. */
+DIR *file_list_folder(const char *folder);
 
 /* Left over from a worker that died while writing. */
 void file_sweep_temporary(const char *folder);

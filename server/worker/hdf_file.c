@@ -43,7 +43,8 @@ void hdf_create(hdf_file *file, const char *name)
     *file = (hdf_file){ .file = H5I_INVALID_HID, .name = name };
     const hid_t properties = properties_without_times(H5P_FILE_CREATE);
     if (!is_good(file, properties)) return;
-    file->file = H5Fcreate(temporary, H5F_ACC_TRUNC, properties, H5P_DEFAULT);
+    unlink(temporary); /* made anew, and not through a symbolic link */
+    file->file = H5Fcreate(temporary, H5F_ACC_EXCL, properties, H5P_DEFAULT);
     is_good(file, file->file);
     H5Pclose(properties);
 }

@@ -134,10 +134,11 @@ enum worker_exit job_run(const job_spec *spec, const char *folder, const run_opt
     const job_runner *runner = runner_of(spec->process);
     char *text = job_spec_to_text(spec), *brief = job_spec_to_brief(spec);
     event_log events = { .fd = -1 };
-    enum worker_exit exit = WORKER_FAULT;
+    enum worker_exit exit = WORKER_MACHINE;
     if (!text || !brief) worker_warn("out of memory");
-    else if (!runner) worker_warn("no runner for the process %s", spec->process);
+    else if (!runner) exit = WORKER_FAULT;
     else if (run_folder_enter(folder, &events)) exit = run_in_folder(runner, &(job_context){ spec, options, brief, &events }, text);
+    else exit = WORKER_DISK;
     event_log_close(&events);
     free(text);
     free(brief);

@@ -1,5 +1,7 @@
 /* repose: one virtual test, run or checked. With no daemon at all it serves a laptop, a test or a batch
  * system; the daemon starts it for every attempt at a job. */
+#include <errno.h>
+#include <fcntl.h>
 #include <getopt.h>
 #include <limits.h>
 #include <math.h>
@@ -15,6 +17,7 @@
 #include "hdf_file.h"
 #include "job_run.h"
 #include "json_text.h"
+#include "machine_error.h"
 #include "run_profile.h"
 #include "run_summary.h"
 #include "spec_file.h"
@@ -23,6 +26,7 @@
 #include "variant.h"
 #include "version.h"
 #include "worker_log.h"
+#include "worker_memory.h"
 
 enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
 
@@ -47,7 +51,8 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "\n"                                                                                                                           \
     "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"        \
     "of another SPEC in DIR are never overwritten.\n"                                                                              \
-    "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk.\n"
+    "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk,\n"               \
+    "6 memory, descriptors or the like that the machine did not give.\n"
 
 static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE "repose COMMAND --help | --help | --version\n" HELP_EXIT;
 
@@ -174,13 +179,34 @@ static enum worker_exit refuse(problem_list *problems)
 
 static const char *path_of(const char *name) { return strcmp(name, "-") == 0 ? "/dev/stdin" : name; }
 
-/* The spec, or the problem document on stdout. */
+/* Whether the spec's file can't be opened for want of something of the machine. */
+static bool machine_keeps_from(const char *path)
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC);
+    const bool keeps = file < 0 && machine_error_is(errno);
+    if (file >= 0) close(file);
+    return keeps;
+}
+
+/* The spec, or the problem document on stdout. Refused only when it has problems twice: a call that failed once, for want of
+ * memory say, is no problem of the spec. */
 static enum worker_exit load_spec(const char *name, const char *folder, job_spec *spec)
 {
     problem_list problems;
-    problem_list_init(&problems);
-    const bool loaded = spec_file_load(path_of(name), &start_files, seed_if_missing(folder), spec, &problems);
-    const enum worker_exit exit = loaded ? WORKER_DONE : refuse(&problems);
+    const uint64_t seed = seed_if_missing(folder);
+    bool loaded = false;
+    for (int looks = 0; looks < 2 && !loaded; looks++) {
+        if (looks > 0) problem_list_clear(&problems);
+        problem_list_init(&problems);
+        loaded = spec_file_load(path_of(name), &start_files, seed, spec, &problems);
+    }
+    enum worker_exit exit = WORKER_DONE;
+    if (!loaded && (worker_memory_was_short() || machine_keeps_from(path_of(name)))) {
+        worker_warn("%s can't be read: no memory, or no descriptor", name);
+        exit = WORKER_MACHINE;
+    } else if (!loaded) {
+        exit = refuse(&problems);
+    }
     problem_list_clear(&problems);
     return exit;
 }
@@ -307,6 +333,7 @@ int main(int argc, char **argv)
         fputs(help, stderr);
         return WORKER_BAD_SPEC;
     }
+    worker_memory_watch();
     char *word = argv[1];
     argv[1] = argv[0];
     int exit = WORKER_DONE;

@@ -23,6 +23,27 @@ static bool make_folder(const char *name)
     return false;
 }
 
+/* What is there is ours: no symbolic link, behind which a file of somebody else may lie, nor a pipe or device. */
+static bool is_plain(const char *name, mode_t kind)
+{
+    struct stat found;
+    if (lstat(name, &found) != 0) return errno == ENOENT || errno == ENAMETOOLONG;
+    if ((found.st_mode & S_IFMT) == kind) return true;
+    worker_warn("%s in the job folder is no %s but %s: it is not used, and not replaced", name,
+                kind == S_IFDIR ? "folder" : "plain file", S_ISLNK(found.st_mode) ? "a symbolic link" : "something else");
+    return false;
+}
+
+static bool all_is_plain(void)
+{
+    static const char *const files[] = { JOB_SPEC_FILE,       JOB_START_FILE,  JOB_EVENTS_FILE, JOB_SERIES_FILE, JOB_FIELDS_FILE,
+                                         JOB_CHECKPOINT_FILE, JOB_RESULT_FILE, JOB_PROFILE_FILE,
+                                         JOB_EARLIER_CHECKPOINT_FILE };
+    bool plain = is_plain(JOB_SNAPSHOT_FOLDER, S_IFDIR);
+    for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) plain = is_plain(files[i], S_IFREG) && plain;
+    return plain;
+}
+
 bool run_folder_enter(const char *folder, event_log *events)
 {
     events->fd = -1;
@@ -31,7 +52,7 @@ bool run_folder_enter(const char *folder, event_log *events)
         worker_warn("can't enter the folder %s: %s", folder, strerror(errno));
         return false;
     }
-    if (!event_log_open(events) || !make_folder(JOB_SNAPSHOT_FOLDER)) return false;
+    if (!all_is_plain() || !event_log_open(events) || !make_folder(JOB_SNAPSHOT_FOLDER)) return false;
     file_sweep_temporary(".");
     file_sweep_temporary(JOB_SNAPSHOT_FOLDER);
     return true;
@@ -47,7 +68,7 @@ static bool is_snapshot_name(const char *name)
 
 static void remove_snapshots(void)
 {
-    DIR *entries = opendir(JOB_SNAPSHOT_FOLDER);
+    DIR *entries = file_list_folder(JOB_SNAPSHOT_FOLDER);
     if (!entries) return;
     for (struct dirent *entry; (entry = readdir(entries));)
         if (is_snapshot_name(entry->d_name)) unlinkat(dirfd(entries), entry->d_name, 0);

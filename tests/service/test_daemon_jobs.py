@@ -1,13 +1,14 @@
 """The life of a job, told by the daemon's answers."""
 import csv
 import io
+import shutil
 import sqlite3
 import time
 
 import pytest
 import requests
 
-from conftest import SPEC
+from conftest import FAKE_WORKER, SPEC, Daemon
 
 OGC = "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/"
 
@@ -111,23 +112,61 @@ def test_a_failed_job_says_why(fake, what, message):
     assert "a word on standard error" in fake.get(f"/jobs/{job}/log").text
 
 
-def test_a_full_disk_puts_the_job_off(fake):
-    job = fake.submit(fake="disk")
-    info = fake.until(job, lambda info: info["attempt"] == 2)
-    assert info["status"] == "accepted" and "disk" in info["message"]
-    time.sleep(1.5)
-    assert fake.job(job)["attempt"] == 2  # not at once again
+@pytest.mark.parametrize("what, message", [("disk", "could not write to the disk"), ("machine", "did not give")])
+def test_what_the_machine_lacks_puts_a_job_off(fake, what, message):
+    info = fake.until(fake.submit(fake=what), lambda info: message in info["message"])
+    assert info["status"] == "accepted" and info["attempt"] == 1 and "a word on standard error" in info["message"]
+
+
+@pytest.mark.torture
+def test_what_the_machine_lacks_fails_no_job_however_often(fake):
+    jobs = [fake.submit(fake="disk") for _ in range(3)]
+    for job in jobs:
+        fake.until(job, lambda _: fake.log().count(f"{job}: attempt 1 started") == 4, 120)  # more often than a job may die
+    assert {fake.job(job)["attempt"] for job in jobs} == {1}
+    assert {fake.job(job)["status"] for job in jobs} <= {"accepted", "running"}
+
+
+def test_the_queue_goes_on_by_itself_when_the_machine_is_sound_again(fake):
+    held = [fake.submit(fake="until there is room") for _ in range(2)]
+    fake.until(held[0], lambda info: "could not write to the disk" in info["message"])
+    after = fake.submit()
+    (fake.data / "jobs" / "room").touch()
+    assert {fake.ended(job)["status"] for job in [*held, after]} == {"successful"}
+    assert {fake.job(job)["attempt"] for job in held} == {1}
+
+
+def test_a_job_for_which_the_machine_never_suffices_does_not_hold_up_others(fake):
+    hopeless = fake.submit(fake="machine")
+    fake.until(hopeless, lambda info: "did not give" in info["message"])
+    assert fake.ended(fake.submit(), 20)["status"] == "successful"
+    assert fake.job(hopeless)["status"] in ("accepted", "running")
 
 
 def test_a_clock_set_back_does_not_hold_up_a_job_that_was_put_off(fake):
     import sqlite3
     job = fake.submit(fake="disk")
-    fake.until(job, lambda info: info["attempt"] == 2)
+    fake.until(job, lambda info: "disk" in info["message"])
     fake.stop()
     with sqlite3.connect(fake.data / "reposed.sqlite") as database:  # as if the clock had been a day ahead then
-        database.execute("UPDATE job SET not_before = not_before + 86400")
+        database.execute("UPDATE job SET not_before = not_before + 86400, message = ''")
     fake.start()
-    fake.until(job, lambda info: info["attempt"] == 3, 10)
+    fake.until(job, lambda info: "disk" in info["message"], 10)
+
+
+def test_a_worker_program_that_is_gone_holds_up_jobs_and_fails_none(tmp_path):
+    program = tmp_path / "worker"
+    shutil.copy(FAKE_WORKER, program)
+    daemon = Daemon(tmp_path, worker=program).start()
+    program.unlink()
+    try:
+        job = daemon.submit()
+        info = daemon.until(job, lambda info: "can't be started" in info["message"])
+        assert "No such file or directory" in info["message"] and info["status"] == "accepted" and info["attempt"] == 1
+        shutil.copy(FAKE_WORKER, program)
+        assert daemon.ended(job)["status"] == "successful"
+    finally:
+        daemon.stop()
 
 
 def test_numbers_come_back_as_they_were_written(fake):
