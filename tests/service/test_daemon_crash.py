@@ -1,4 +1,5 @@
 """kill -9 of a worker or of the daemon in the middle of a job loses nothing."""
+import fcntl
 import json
 import os
 import signal
@@ -8,7 +9,7 @@ import time
 import pytest
 import requests
 
-from conftest import BUILD, SPEC
+from conftest import BUILD, ROOT, SPEC
 
 # Long enough that a worker can be seen at work and killed: the first report of progress comes after a second.
 LONG = SPEC | {"duration": {"seconds": 40.0}, "fill_fraction": 0.5, "snapshots": {"interval": 0.5}}
@@ -203,6 +204,32 @@ def test_a_newer_database_is_refused(fake):
     command = [BUILD / "reposed", "serve", "--port", "0", "--data", fake.data]
     second = subprocess.run(command + fake.options, capture_output=True, text=True, timeout=10)
     assert second.returncode == 1 and "schema version 99" in second.stderr
+
+
+@pytest.mark.parametrize("name", ["events.ndjson", "snapshots", "result.json"])
+def test_no_symbolic_link_in_a_job_folder_is_followed(tmp_path, name):
+    stranger, out = tmp_path / "stranger", tmp_path / "out"
+    stranger.mkdir() if name == "snapshots" else stranger.write_text("untouched")
+    out.mkdir()
+    (out / name).symlink_to(stranger)
+    (tmp_path / "spec.json").write_text(json.dumps({"process": "granule", "inputs": {"friction": 0.5}}))
+    done = subprocess.run([BUILD / "repose", "run", tmp_path / "spec.json", "--out", out], capture_output=True, text=True, timeout=60)
+    assert done.returncode == 5 and f"{name} in the job folder" in done.stderr
+    assert list(stranger.iterdir()) == [] if name == "snapshots" else stranger.read_text() == "untouched"
+
+
+def test_the_demo_and_make_clean_leave_a_folder_alone_that_a_daemon_has(tmp_path):
+    data = tmp_path / "build" / "demo"
+    data.mkdir(parents=True)
+    with open(data / "lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        demo = subprocess.run(["sh", ROOT / "tests/demo.sh", tmp_path / "build"], capture_output=True, text=True, timeout=30)
+        clean = subprocess.run(["make", "-C", ROOT, "clean", f"BUILD={tmp_path}/build"], capture_output=True, text=True, timeout=60)
+        assert demo.returncode == 1 and "a daemon is at work on" in demo.stderr
+        assert clean.returncode != 0 and "a daemon is at work on" in clean.stderr
+        assert data.exists()
+    assert subprocess.run(["make", "-C", ROOT, "clean", f"BUILD={tmp_path}/build"], capture_output=True, timeout=60).returncode == 0
+    assert not data.exists()
 
 
 # --- the same with the real worker ---

@@ -59,3 +59,19 @@ def test_an_end_that_can_not_be_recorded_is_recorded_later(small_disk):
     info = small_disk.until(slow, lambda info: "could not write to the disk" in info["message"], 20)
     assert info["status"] == "accepted" and info["attempt"] == 1
     assert "reposed_store_failures_total 0" not in small_disk.get("/metrics").text
+
+
+def test_a_stop_ends_and_a_start_serves_reads_on_a_full_disk(small_disk):
+    job = small_disk.submit(fake="slow", seconds="4")
+    small_disk.until(job, lambda info: info["progress"] > 0)
+    ballast = fill(small_disk)
+    assert small_disk.stop(seconds=30) == 0
+    with open(ballast, "ab", buffering=0) as file, pytest.raises(OSError):  # what the stop has left
+        while True:
+            file.write(b"x" * 512)
+    small_disk.start()
+    assert small_disk.job(job)["status"] in ("accepted", "running") and small_disk.job(job)["attempt"] == 1
+    answer = small_disk.get("/readyz")
+    assert answer.status_code == 503 and "No space left on device" in answer.json()["detail"]
+    ballast.unlink()
+    assert small_disk.ended(job)["status"] == "successful" and small_disk.job(job)["attempt"] == 1

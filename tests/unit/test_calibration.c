@@ -118,8 +118,12 @@ static void what_is_no_calibration_is_not_used(void **state)
     }
     json_t *document = calibration_to_json(&machine);
     json_t *spheres = json_object_get(json_object_get(document, "nanoseconds_a_sphere_step"), "spheres");
-    json_object_set_new(spheres, "walton-braun", json_real(-1));
-    assert_false(calibration_from_json(document, &read));
+    static const double absurd[] = { -1, 0, 1e-300, 1e-3, 1e9, 1e300 };
+    for (size_t k = 0; k < sizeof absurd / sizeof absurd[0]; k++) {
+        json_object_set_new(spheres, "walton-braun", json_real(absurd[k]));
+        assert_false(calibration_from_json(document, &read));
+        assert_memory_equal(read.sphere, built_in.sphere, sizeof built_in.sphere);
+    }
     json_decref(document);
 }
 
