@@ -382,7 +382,7 @@ def test_two_workers_do_not_write_in_one_folder(tmp_path):
     try:
         wait_until(lambda: events(out, "start"))
         code, _, stderr = run(spec, out)
-        assert code == 1 and "another worker is at work" in stderr
+        assert code == 5 and "another worker is at work" in stderr
         assert first.poll() is None
     finally:
         first.kill()
