@@ -55,8 +55,9 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
                                         .in_double = spec->inputs.precision > 0,
                                         .threads = drum->threads };
     estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &estimate.load);
-    estimate.memory_bytes =
-        dem_memory_estimate(spheres + lining_spheres(drum)) + frame_bytes * spec->duration / spec->sample_interval;
+    const double frames = frame_bytes * spec->duration / spec->sample_interval;
+    estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum)) + frames;
+    estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames);
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;
 }

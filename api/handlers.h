@@ -9,14 +9,14 @@ route_handler show_landing, show_conformance, show_api, show_asset, show_health,
 /* handlers_processes.c */
 route_handler list_processes, show_process, execute_process;
 /* handlers_jobs.c */
-route_handler list_jobs, show_job, dismiss_job;
+route_handler list_jobs, show_job, remove_job, retry_job;
 /* handlers_results.c */
 route_handler show_results, show_spec, show_log;
 /* handlers_series.c */
 route_handler list_samples, list_snapshots, send_snapshot;
 route_handler list_samples, list_snapshots, send_fields;
 /* handlers_studies.c */
-route_handler create_study, list_studies, show_study, dismiss_study, show_study_results, show_study_csv, show_study_spec;
+route_handler create_study, list_studies, show_study, remove_study, show_study_results, show_study_csv, show_study_spec;
 /* handlers_query.c */
 route_handler run_query;
 
@@ -35,5 +35,11 @@ bool read_job_filter(const http_request *request, job_filter *filter, char *prob
 /* Shared between handlers that take a document. parse_body: NULL, and the response says why. */
 json_t *parse_body(const http_request *request, http_response *response);
 uint64_t choose_seed(void);
+/* Shared between handlers of DELETE. ?only=dismiss keeps what has ended, ?only=delete lets go on what has not. False: it is
+ * neither, and the response says so. */
+typedef struct removal {
+    bool may_dismiss, may_delete;
+} removal;
+bool read_removal(const http_request *request, http_response *response, removal *asked);
 
 #endif

@@ -1,4 +1,4 @@
-/* The list of jobs, one job, and dismissing it. */
+/* The list of jobs, one job, and dismissing, deleting or trying it again. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -56,11 +56,50 @@ void show_job(api_service *service, const http_request *request, http_response *
     job_record_clear(&job);
 }
 
-void dismiss_job(api_service *service, const http_request *request, http_response *response)
+/* What is told of a deleted job: what it was, as OGC has it a dismissed one, and nothing that could be asked for. */
+static json_t *deleted_info(const job_record *job)
+{
+    json_t *info = status_info(job);
+    json_object_set_new(info, "status", json_string(job_status_name(JOB_DISMISSED)));
+    json_object_set_new(info, "message", json_sprintf("deleted with its folder; it was %s", job_status_name(job->status)));
+    json_object_set_new(info, "links", json_pack("[o]", link_to("up", "application/json", "/jobs")));
+    return info;
+}
+
+bool read_removal(const http_request *request, http_response *response, removal *asked)
+{
+    const char *only = http_request_parameter(request, "only");
+    const bool dismiss = only && strcmp(only, "dismiss") == 0, delete = only && strcmp(only, "delete") == 0;
+    *asked = (removal){ .may_dismiss = !delete, .may_delete = !dismiss };
+    if (!only || dismiss || delete) return true;
+    http_respond_problem(response, 400, NULL, "Bad parameter", "parameter only is \"%.40s\"; must be dismiss or delete", only);
+    return false;
+}
+
+static void delete_job(api_service *service, http_response *response, const job_record *job)
+{
+    const store_status status = store_delete_job(service->store, job->id);
+    if (status == STORE_OK) {
+        service->jobs_deleted(service->daemon);
+        http_respond_json(response, 200, deleted_info(job));
+    } else if (status == STORE_CONFLICT) {
+        http_respond_problem(response, 409, NULL, "The job has not ended", "job %s waits or runs, and is not deleted", job->id);
+    } else if (status == STORE_NOT_FOUND) {
+        respond_no_such_job(response, job->id);
+    } else {
+        respond_store_failure(response, status, "delete the job");
+    }
+}
+
+/* One that waits or runs is dismissed; one that has ended is deleted. */
+void remove_job(api_service *service, const http_request *request, http_response *response)
 {
     const char *id = request->segment[0];
-    const store_status status = job_id_is_valid(id) ? store_dismiss_job(service->store, id) : STORE_NOT_FOUND;
+    removal asked;
     job_record job;
+    if (!read_removal(request, response, &asked)) return;
+    store_status status = job_id_is_valid(id) ? STORE_CONFLICT : STORE_NOT_FOUND;
+    if (status == STORE_CONFLICT && asked.may_dismiss) status = store_dismiss_job(service->store, id);
     if (status == STORE_OK) {
         service->jobs_changed(service->daemon);
     } else if (status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
@@ -68,12 +107,32 @@ void dismiss_job(api_service *service, const http_request *request, http_respons
         return;
     }
     if (!find_job(service, request, response, &job)) return;
-    if (status == STORE_CONFLICT && job.status != JOB_DISMISSED)
+    if (status == STORE_CONFLICT && asked.may_delete) delete_job(service, response, &job);
+    else if (status == STORE_CONFLICT && job.status != JOB_DISMISSED)
         http_respond_problem(response, 409, NULL, "The job has ended",
                              "job %s is %s; its results are kept and it can't be dismissed any more", job.id,
                              job_status_name(job.status));
     else /* dismissing twice is no mistake */ http_respond_json(response, 200, status_info(&job));
     job_record_clear(&job);
+}
+
+void retry_job(api_service *service, const http_request *request, http_response *response)
+{
+    const char *id = request->segment[0];
+    const store_status status = job_id_is_valid(id) ? store_retry_job(service->store, id) : STORE_NOT_FOUND;
+    job_record job;
+    if (status != STORE_OK && status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
+        respond_store_failure(response, status, "put the job into the queue");
+        return;
+    }
+    if (!find_job(service, request, response, &job)) return;
+    if (status == STORE_CONFLICT)
+        http_respond_problem(response, 409, NULL, "The job can't be tried again",
+                             "job %s is %s; only a failed or dismissed job can be tried again", job.id,
+                             job_status_name(job.status));
+    else http_respond_json(response, 200, status_info(&job));
+    job_record_clear(&job);
+    if (status == STORE_OK) service->jobs_changed(service->daemon); /* now, so that it is shown as accepted */
 }
 
 typedef struct job_page {

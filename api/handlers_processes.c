@@ -97,6 +97,13 @@ static bool takes_long(const json_t *document)
     return left == 0 || json_is_object(start); /* whose bed may have been made by a long specification */
 }
 
+static bool fits_disk(api_service *service, const job_spec *spec, problem_list *problems)
+{
+    const job_estimate estimate = job_spec_estimate(spec, NULL);
+    job_check_disk(job_estimate_disk_bytes(&estimate), store_free_bytes(service->store), "/inputs/snapshots/interval", problems);
+    return problem_list_is_empty(problems);
+}
+
 static bool read_spec(api_service *service, const process_type *type, const http_request *request, http_response *response,
                       job_spec *spec)
 {
@@ -116,6 +123,10 @@ static bool read_spec(api_service *service, const process_type *type, const http
         set_default_threads(service, type, document);
         const start_source beds = store_beds(service->store);
         good = job_spec_parse_with(&beds, type->name, document, choose_seed(), spec, &problems);
+        if (good && !fits_disk(service, spec, &problems)) {
+            job_spec_clear(spec);
+            good = false;
+        }
         if (!good)
             http_respond_json(response, 400,
                               problem_json(400, "about:blank", "The specification can't be run",

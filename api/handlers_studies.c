@@ -68,6 +68,8 @@ static void check_and_add(api_service *service, const http_request *request, htt
     study_taker taker = store_stage_taker(stage);
     taker.client = &request->client;
     if (study_check(study, &machine, &taker, &estimate, problems, &warnings))
+        job_check_disk(estimate.disk_bytes, store_free_bytes(service->store), "/base/inputs/snapshots/interval", problems);
+    if (store_stage_status(stage) == STORE_OK && problem_list_is_empty(problems))
         add_study(service, response, stage, study, &estimate, &warnings);
     else if (problem_list_is_empty(problems) && store_stage_status(stage) == STORE_OK)
         http_respond_problem(response, 503, NULL, "Nobody waits", "the client has left, and nothing of the study was added");
@@ -170,11 +172,34 @@ void show_study_spec(api_service *service, const http_request *request, http_res
     else respond_store_failure(response, status, "read the study");
 }
 
-void dismiss_study(api_service *service, const http_request *request, http_response *response)
+static void delete_study(api_service *service, http_response *response, const study_record *study)
+{
+    const store_status status = store_delete_study(service->store, study->id);
+    if (status == STORE_OK) {
+        service->jobs_deleted(service->daemon);
+        json_t *info = study_info(study);
+        json_object_set_new(info, "message", json_sprintf("deleted with its %lld jobs", (long long)study->jobs));
+        json_object_set_new(info, "links", json_pack("[o]", link_to("up", "application/json", "/studies")));
+        http_respond_json(response, 200, info);
+    } else if (status == STORE_CONFLICT) {
+        http_respond_problem(response, 409, NULL, "The study has not ended", "jobs of study %s wait or run, and nothing is deleted",
+                             study->id);
+    } else if (status == STORE_NOT_FOUND) {
+        respond_no_such_study(response, study->id);
+    } else {
+        respond_store_failure(response, status, "delete the study");
+    }
+}
+
+/* What waits or runs is dismissed; a study that has ended is deleted. */
+void remove_study(api_service *service, const http_request *request, http_response *response)
 {
     const char *id = request->segment[0];
-    const store_status status = job_id_is_valid(id) ? store_dismiss_study(service->store, id) : STORE_NOT_FOUND;
+    removal asked;
     study_record study;
+    if (!read_removal(request, response, &asked)) return;
+    store_status status = job_id_is_valid(id) ? STORE_CONFLICT : STORE_NOT_FOUND;
+    if (status == STORE_CONFLICT && asked.may_dismiss) status = store_dismiss_study(service->store, id);
     if (status == STORE_OK) {
         service->jobs_changed(service->daemon);
     } else if (status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
@@ -182,7 +207,8 @@ void dismiss_study(api_service *service, const http_request *request, http_respo
         return;
     }
     if (!find_study(service, request, response, &study)) return;
-    if (status == STORE_CONFLICT && study.counts[JOB_DISMISSED] == 0)
+    if (status == STORE_CONFLICT && asked.may_delete) delete_study(service, response, &study);
+    else if (status == STORE_CONFLICT && study.counts[JOB_DISMISSED] == 0)
         http_respond_problem(response, 409, NULL, "The study has ended",
                              "all %lld jobs of study %s have ended; their results are kept", (long long)study.jobs, study.id);
     else /* dismissing twice is no mistake */ http_respond_json(response, 200, study_info(&study));

@@ -3,9 +3,32 @@
 
 #include "process_type.h"
 
-job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine)
+job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine) { return spec->type->estimate(spec, machine); }
+
+/* The file's structure and the fields over the cross-section; each sphere with its three contacts. */
+#define CHECKPOINT_FILE_BYTES 100e3
+#define CHECKPOINT_SPHERE_BYTES 350.0
+/* Less than that is not too much for any disk: where it doesn't fit the disk is full, and that is said. */
+#define SMALL_JOB_BYTES 2e6
+
+double scene_checkpoint_bytes(double spheres, double frame_bytes)
 {
-    return spec->type->estimate(spec, machine);
+    return CHECKPOINT_FILE_BYTES + CHECKPOINT_SPHERE_BYTES * spheres + frame_bytes;
+}
+
+double job_estimate_disk_bytes(const job_estimate *estimate)
+{
+    return fmax(0.0, estimate->snapshot_bytes) + 3.0 * fmax(0.0, estimate->checkpoint_bytes); /* NaN counts for nothing */
+}
+
+void job_check_disk(double bytes, double free_bytes, const char *pointer, problem_list *problems)
+{
+    if (bytes > free_bytes && bytes > SMALL_JOB_BYTES)
+        problem_list_add(
+            problems, pointer,
+            "makes about %.3g GB of snapshots and checkpoints; must be less than the %.3g GB that are free on the data "
+            "folder's disk",
+            1e-9 * bytes, 1e-9 * free_bytes);
 }
 
 json_t *job_estimate_to_json(const job_estimate *estimate)
@@ -24,6 +47,7 @@ json_t *job_estimate_to_json(const job_estimate *estimate)
         { "memory_bytes", estimate->memory_bytes, true },
         { "snapshots", estimate->snapshots, true },
         { "snapshot_bytes", estimate->snapshot_bytes, true },
+        { "checkpoint_bytes", estimate->checkpoint_bytes, true },
     };
     json_t *document = json_object();
     for (size_t m = 0; m < sizeof members / sizeof members[0]; m++) {

@@ -126,7 +126,7 @@ typedef struct job_spec {
 
 /* NaN: the process has no such thing. */
 typedef struct job_estimate {
-    double particles, steps, wall_seconds, memory_bytes, snapshots, snapshot_bytes;
+    double particles, steps, wall_seconds, memory_bytes, snapshots, snapshot_bytes, checkpoint_bytes; /* of one */
     double simulated_seconds, time_step, stiffness; /* settling included; s; N/m */
     calibration_load load;                          /* what each step has to do; no spheres: the process has no steps */
 } job_estimate;
@@ -150,6 +150,13 @@ char *job_spec_to_brief(const job_spec *spec);
 
 /* machine: how fast this one is; NULL takes cautious built-in figures. */
 job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine);
+/* What the files of a job take: its snapshots, two checkpoints and the one that is being written. */
+double job_estimate_disk_bytes(const job_estimate *estimate);
+/* Adds a problem at the pointer, that of the interval between snapshots, where files of so many bytes do not fit into what is
+ * free of the data folder's disk (NaN: not known). */
+void job_check_disk(double bytes, double free_bytes, const char *pointer, problem_list *problems);
+/* A checkpoint of a scene with so many spheres, and frames that take so many bytes. */
+double scene_checkpoint_bytes(double spheres, double frame_bytes);
 json_t *job_estimate_to_json(const job_estimate *estimate);
 
 /* What can be run but was hardly meant so, in the words of problems: a pointer and what is there (job_warnings.c). */

@@ -15,6 +15,7 @@ typedef struct http_route {
     route_handler *handler;
     bool slow; /* may take seconds: answered apart, so that nothing else waits for it */
     bool open; /* needs no token */
+    bool bodiless; /* a POST that needs no body, and so no Content-Type */
 } http_route;
 
 extern const http_route route_table[];

@@ -16,7 +16,8 @@ typedef struct api_service {
     const char *api_file;               /* the OpenAPI document, YAML */
     int default_threads;                /* of a job that does not ask */
     void *daemon;                       /* first argument of the functions below */
-    void (*jobs_changed)(void *daemon); /* a job was added or dismissed */
+    void (*jobs_changed)(void *daemon); /* a job was added, dismissed or put into the queue again */
+    void (*jobs_deleted)(void *daemon); /* their folders are to be removed */
     bool (*is_ready)(void *daemon, char *why_not, size_t size);
     void (*write_metrics)(void *daemon, text_buffer *out);
 } api_service;

@@ -83,7 +83,9 @@ job_estimate standing_estimate(const job_spec *spec, const calibration *machine,
                                         .in_double = spec->inputs.precision > 0,
                                         .threads = scene->threads };
     estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &estimate.load);
-    estimate.memory_bytes = dem_memory_estimate(spheres) + FRAME_BYTES * spec->duration / spec->sample_interval;
+    const double frames = FRAME_BYTES * spec->duration / spec->sample_interval;
+    estimate.memory_bytes = dem_memory_estimate(spheres) + frames;
+    estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames);
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;
 }

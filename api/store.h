@@ -69,6 +69,12 @@ start_source store_beds(job_store *store);
 store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE]);
 /* STORE_CONFLICT: it has already ended. */
 store_status store_dismiss_job(job_store *store, const char *id);
+/* Deletes an ended job: its row, all that the tables have of it, and its folder. STORE_CONFLICT: it has not ended. */
+store_status store_delete_job(job_store *store, const char *id);
+/* A failed or dismissed job into the queue once more, to go on from its checkpoint. STORE_CONFLICT: it is neither. */
+store_status store_retry_job(job_store *store, const char *id);
+/* Of the disk that the folders of jobs are on; NaN: not known. */
+double store_free_bytes(const job_store *store);
 
 store_status store_find_job(job_store *store, const char *id, job_record *job);
 store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context); /* newest first */
@@ -97,6 +103,8 @@ store_status store_add_study(job_store *store, study_stage *stage, const study_s
                              char id[JOB_ID_SIZE]);
 /* Dismisses its jobs that have not ended. STORE_CONFLICT: all have. */
 store_status store_dismiss_study(job_store *store, const char *id);
+/* Deletes it with all its jobs, as store_delete_job. STORE_CONFLICT: not all have ended. */
+store_status store_delete_study(job_store *store, const char *id);
 store_status store_find_study(job_store *store, const char *id, study_record *study);
 store_status store_list_studies(job_store *store, int64_t before, int64_t limit, study_visitor *visit,
                                 void *context);                               /* newest first */

@@ -94,6 +94,7 @@ static void add_estimate(const study_spec *study, const job_spec *spec, const ca
     if (one.steps > 0.0) estimate->steps += one.steps * study->repeats;
     if (one.wall_seconds > 0.0) estimate->wall_seconds += one.wall_seconds * study->repeats;
     if (one.snapshot_bytes > 0.0) estimate->snapshot_bytes += one.snapshot_bytes * study->repeats;
+    estimate->disk_bytes += job_estimate_disk_bytes(&one) * study->repeats;
     if (one.memory_bytes > estimate->memory_bytes) estimate->memory_bytes = one.memory_bytes;
 }
 

@@ -7,6 +7,7 @@
 job_status study_status(const study_record *study)
 {
     const int64_t *counts = study->counts;
+    if (study->jobs == 0) return JOB_DISMISSED; /* each was deleted by itself */
     if (counts[JOB_ACCEPTED] == study->jobs) return JOB_ACCEPTED;
     if (counts[JOB_ACCEPTED] + counts[JOB_RUNNING] > 0) return JOB_RUNNING;
     return counts[JOB_FAILED] > 0 ? JOB_FAILED : counts[JOB_DISMISSED] > 0 ? JOB_DISMISSED : JOB_SUCCESSFUL;

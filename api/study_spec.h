@@ -53,6 +53,7 @@ size_t study_value_index(const study_spec *study, size_t index, size_t column);
 
 typedef struct study_estimate {
     double jobs, steps, wall_seconds, memory_bytes, snapshot_bytes; /* sums; memory: of the largest job; wall: one job at a time */
+    double disk_bytes;                                              /* of all files */
 } study_estimate;
 
 /* Takes the jobs as they are read, each once: of each case its repeats. They count only when study_check says true. When the

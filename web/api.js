@@ -74,7 +74,7 @@ export function listJobs({ status, q, study, cursor, limit }) {
 }
 
 export const jobPath = id => `/jobs/${encodeURIComponent(id)}`;
-export const dismissJob = id => json(jobPath(id), { method: 'DELETE' });
+export const dismissJob = id => json(`${jobPath(id)}?only=dismiss`, { method: 'DELETE' });
 
 export const studyPath = id => `/studies/${encodeURIComponent(id)}`;
-export const dismissStudy = id => json(studyPath(id), { method: 'DELETE' });
+export const dismissStudy = id => json(`${studyPath(id)}?only=dismiss`, { method: 'DELETE' });

@@ -184,10 +184,13 @@ static bool token_matches(const char *token, const char *authorization)
     return difference == 0;
 }
 
-static bool admits_body(const http_headers *headers, const http_request *request, http_response *response, size_t *length)
+static bool admits_body(const http_headers *headers, const http_request *request, bool takes_no_body, http_response *response,
+                        size_t *length)
 {
     *length = 0;
     const bool posts = strcmp(request->method, "POST") == 0;
+    const bool has_none = headers->encodings == 0 && (!headers->length || strcmp(headers->length, "0") == 0);
+    if (has_none && takes_no_body) return true;
     if (headers->encodings > 0 || (posts && !headers->length))
         return refuse(response, 411, "Length required", "send the body with a Content-Length");
     if (posts && !is_json(request->content_type))
@@ -213,5 +216,5 @@ bool http_guard_admits(const http_guard *guard, const http_headers *headers, con
     if (writes && !origin_is_ours(request))
         return refuse(response, 403, "Foreign page",
                       "writes are taken from this service's own page or from programs, not from other pages");
-    return admits_body(headers, request, response, body_length);
+    return admits_body(headers, request, route->bodiless, response, body_length);
 }

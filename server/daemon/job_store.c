@@ -105,6 +105,8 @@ void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits)
 
 int64_t store_queue_limit(const job_store *store) { return store->queue_limit; }
 
+double store_free_bytes(const job_store *store) { return data_folder_free_bytes(store->data); }
+
 store_status store_check_queue(job_store *store, int64_t jobs)
 {
     sqlite3_stmt *statement = sql_prepare(store->writer, "SELECT jobs FROM job_count WHERE status='accepted'", "");
@@ -156,6 +158,16 @@ bool store_bring_start(job_store *store, const char *from, double snapshot, cons
     return job_folder_add_start(store->data, id, from, is_snapshot ? JOB_SNAPSHOT_FOLDER : NULL, name);
 }
 
+/* The largest that a job ever had. */
+static store_status last_number(job_store *store, int64_t *number)
+{
+    sqlite3_stmt *row =
+        sql_prepare(store->writer, "SELECT max(number,coalesce((SELECT max(number) FROM job),0)) FROM last_deleted", "");
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    if (code == SQLITE_ROW) *number = sqlite3_column_int64(row, 0);
+    return row ? sql_finish(row, code) : STORE_FAILED;
+}
+
 static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
 {
     static const study_place of_no_study = { 0, 0, 0 };
@@ -174,7 +186,9 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
     store_status status = store_begin(store);
     if (status == STORE_OK) {
         status = store_check_queue(store, 1);
-        if (status == STORE_OK) status = store_insert_job(store->writer, 0, spec, id, text, &of_no_study, &machine);
+        int64_t last = 0;
+        if (status == STORE_OK) status = last_number(store, &last);
+        if (status == STORE_OK) status = store_insert_job(store->writer, last + 1, spec, id, text, &of_no_study, &machine);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);

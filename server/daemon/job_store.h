@@ -71,7 +71,7 @@ typedef struct job_claim {
     double estimated_seconds, estimated_memory_bytes;
     char *spec;         /* owned; NULL once the worker has started */
     int64_t saved_step; /* of the furthest checkpoint that any attempt told of, */
-    int saved_in;       /* and the attempt that told; 0: none yet */
+    int saved_in;       /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
 } job_claim;
 
 /* Takes the oldest job that waits, if it needs no more threads than are free (a job of more than `all_threads`

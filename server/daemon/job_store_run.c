@@ -38,7 +38,8 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
                           .attempt = sqlite3_column_int(statement, 2),
                           .threads = sqlite3_column_int(statement, 3),
                           .estimated_seconds = sqlite3_column_double(statement, 4),
-                          .estimated_memory_bytes = sqlite3_column_double(statement, 5) };
+                          .estimated_memory_bytes = sqlite3_column_double(statement, 5),
+                          .saved_in = sqlite3_column_int(statement, 8) };
     snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
     const char *spec = (const char *)sqlite3_column_text(statement, 6);
     claim->spec = spec ? study_parts_expand(sqlite3_db_handle(statement), sqlite3_column_int64(statement, 7), spec) : NULL;
@@ -61,7 +62,7 @@ store_status store_claim_job(job_store *store, int free_threads, int all_threads
         " WHERE number=(SELECT number FROM job WHERE status='accepted' AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY number LIMIT "
         "1)"
         " AND min(threads,?3)<=?4"
-        " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec, study",
+        " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec, study, attempts_before",
         "tdiid", now, unix, (int64_t)all_threads, (int64_t)free_threads, unix + LONGEST_DELAY);
     status = store_end(store, statement ? read_claim(statement, claim) : STORE_FAILED);
     if (status != STORE_OK) {
@@ -157,7 +158,8 @@ void job_claim_note(job_claim *claim, const event_batch *events)
         const int64_t step = whole(event, "step");
         if (step <= claim->saved_step) continue;
         claim->saved_step = step;
-        claim->saved_in = (int)whole(event, "attempt");
+        const int attempt = (int)whole(event, "attempt");
+        if (attempt > claim->saved_in) claim->saved_in = attempt;
     }
 }
 
@@ -245,7 +247,7 @@ static store_status next_orphan(job_store *store, int64_t after, job_claim *clai
 {
     sqlite3_stmt *statement =
         sql_prepare(store->writer,
-                    "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study FROM job"
+                    "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study, attempts_before FROM job"
                     " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
                     "i", after);
     return statement ? read_claim(statement, claim) : STORE_FAILED;

@@ -11,6 +11,7 @@
 
 #include "calibrator.h"
 #include "end_signals.h"
+#include "folder_remover.h"
 #include "http_server.h"
 #include "log.h"
 #include "readiness.h"
@@ -27,6 +28,7 @@ typedef struct parts {
     http_server server;
     readiness readiness;
     int signals; /* readable when the daemon is to end */
+    folder_remover remover;
 } parts;
 
 /* --- what the handlers ask of us --- */
@@ -41,6 +43,13 @@ static void jobs_changed_by_request(void *context)
 static void jobs_changed_by_worker(void *context)
 {
     parts *all = context;
+    waiting_room_jobs_changed(&all->server.room);
+}
+
+static void jobs_deleted(void *context)
+{
+    parts *all = context;
+    folder_remover_wake(&all->remover);
     waiting_room_jobs_changed(&all->server.room);
 }
 
@@ -125,9 +134,11 @@ static bool open_parts(parts *all)
                                   .default_threads = all->settings.threads,
                                   .daemon = all,
                                   .jobs_changed = jobs_changed_by_request,
+                                  .jobs_deleted = jobs_deleted,
                                   .is_ready = is_ready,
                                   .write_metrics = write_metrics };
     if (all->service.web_folder < 0) log_line("no page: the folder %s can't be opened", all->settings.web);
+    if (!folder_remover_start(&all->remover, all->store)) return false;
     return http_server_open(&all->server, &all->settings, &all->service) && http_server_start(&all->server);
 }
 
@@ -144,6 +155,7 @@ int main(int argc, char **argv)
     calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);
     http_server_stop(&all.server);
+    folder_remover_stop(&all.remover);
     dispatcher_clear(&all.dispatcher);
     store_close(all.store);
     data_folder_close(&all.data);

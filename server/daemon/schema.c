@@ -329,6 +329,16 @@ static const char run_summary_with_verdicts[] =
 /* How often in a row an attempt could not go on for want of something of the machine. */
 static const char setbacks[] = "ALTER TABLE job ADD COLUMN setbacks INTEGER NOT NULL DEFAULT 0;";
 
+/* leaving: ids of deleted jobs whose folders have to go. A number is never used twice, because what a worker writes is fenced
+ * by it. */
+static const char retried_and_deleted_jobs[] =
+    "ALTER TABLE job ADD COLUMN attempts_before INTEGER NOT NULL DEFAULT 0;" /* made before it was tried again on request */
+    "CREATE TABLE leaving(id TEXT PRIMARY KEY, since REAL NOT NULL) STRICT, WITHOUT ROWID;"
+    "CREATE TABLE last_deleted(number INTEGER NOT NULL) STRICT;"
+    "INSERT INTO last_deleted VALUES(0);"
+    "CREATE TRIGGER job_number_kept AFTER DELETE ON job BEGIN"
+    "  UPDATE last_deleted SET number=old.number WHERE number<old.number; END;";
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
@@ -339,5 +349,6 @@ const schema_migration schema_migrations[] = {
     { { parts_of_studies } },
     { { verdicts, run_summary_with_verdicts } },
     { { setbacks } },
+    { { retried_and_deleted_jobs } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -269,7 +269,7 @@ store_status study_stage_copy(study_stage *stage, int64_t study)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
-    sqlite3_stmt *row = sql_prepare(stage->store->writer, "SELECT coalesce(max(number),0) FROM job", "");
+    sqlite3_stmt *row = sql_prepare(stage->store->writer, "SELECT max(number,coalesce((SELECT max(number) FROM job),0)) FROM last_deleted", "");
     const int64_t last_job = row && sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int64(row, 0) : -1;
     sqlite3_finalize(row);
     store_status status = last_job < 0 ? STORE_FAILED : STORE_OK;

@@ -90,10 +90,10 @@ def test_a_worker_that_ignores_the_request_is_killed(fake):
         time.sleep(0.1)
 
 
-def test_an_ended_job_can_not_be_dismissed(fake):
+def test_an_ended_job_is_kept_where_it_is_only_to_be_dismissed(fake):
     job = fake.submit()
     fake.ended(job)
-    answer = requests.delete(f"{fake.url}/jobs/{job}")
+    answer = requests.delete(f"{fake.url}/jobs/{job}?only=dismiss")
     assert answer.status_code == 409 and "successful" in answer.json()["detail"]
     assert fake.job(job)["status"] == "successful"
 

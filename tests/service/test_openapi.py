@@ -160,9 +160,14 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     for format in ("json", "csv"):
         call("/query", f"{url}/query?sql=select id, angle_deg from run_summary&format={format}", 200)
     call("/jobs/{id}/results", f"{url}/jobs/{endless}/results", 404)
-    for unfinished in (endless, created.json()["jobID"], endless):  # the last a second time
-        call("/jobs/{id}", f"{url}/jobs/{unfinished}", 200, "DELETE")
+    call("/jobs/{id}", f"{url}/jobs/{endless}?only=delete", 409, "DELETE")
+    call("/jobs/{id}", f"{url}/jobs/{created.json()['jobID']}?only=dismiss", 200, "DELETE")
+    call("/jobs/{id}", f"{url}/jobs/{endless}", 200, "DELETE")
     call("/jobs/{id}/results", f"{url}/jobs/{endless}/results", 404)
+    call("/jobs/{id}/retry", f"{url}/jobs/{endless}/retry", 200, "POST")
+    call("/jobs/{id}/retry", f"{url}/jobs/{done}/retry", 409, "POST")
+    for once in (200, 200, 404):  # dismissed, deleted, gone
+        call("/jobs/{id}", f"{url}/jobs/{endless}", once, "DELETE")
 
     study = {"name": "of the contract", "base": {"inputs": SPEC}, "repeats": 2,
              "cases": [{"name": "one", "inputs": {"contact": {"friction": 0.2}}, "label": {"paper": "25"}}]}
@@ -176,11 +181,13 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/studies/{id}/results.csv", f"{study}/results.csv", 200)
     again = call("/studies/{id}/spec", f"{study}/spec", 200).json()
     call("/jobs", f"{url}/jobs?study={study.removeprefix(f'{url}/studies/')}", 200)
-    call("/studies/{id}", f"{study}", 409, "DELETE")
+    call("/studies/{id}", f"{study}?only=dismiss", 409, "DELETE")
     again = call("/studies", f"{url}/studies", 201, "POST", json=again).headers["Location"]
-    call("/studies/{id}", again, 200, "DELETE")
+    call("/studies/{id}", f"{again}?only=dismiss", 200, "DELETE")
     older = call("/studies", f"{url}/studies?limit=1", 200).json()["links"][1]["href"]
     call("/studies", older, 200)
+    call("/studies/{id}", study, 200, "DELETE")
+    call("/studies/{id}", study, 404)
 
     assert called == set(contract.operations)
     addresses = {re.sub(r"{\w+}", "", path) for _, path in contract.operations}
@@ -201,6 +208,8 @@ def test_every_error_is_a_documented_problem(daemon, contract):
         (404, "/processes/{process}", {"url": f"{url}/processes/stirrer"}),
         (404, jobs, {"url": f"{url}/jobs/{NO_JOB}"}),
         (404, jobs, {"method": "DELETE", "url": f"{url}/jobs/{NO_JOB}"}),
+        (400, jobs, {"method": "DELETE", "url": f"{url}/jobs/{NO_JOB}?only=look"}),
+        (404, "/jobs/{id}/retry", {"method": "POST", "url": f"{url}/jobs/{NO_JOB}/retry"}),
         (404, "/jobs/{id}/results", {"url": f"{url}/jobs/{NO_JOB}/results"}),
         (404, "/jobs/{id}/snapshots/{file}", {"url": f"{url}/jobs/{NO_JOB}/snapshots/000000.hdf"}),
         (404, "/jobs/{id}/fields.hdf", {"url": f"{url}/jobs/{NO_JOB}/fields.hdf"}),

@@ -1,0 +1,99 @@
+/* Jobs that have ended: tried again, or deleted with all that the tables have of them. Studies likewise. */
+#include <stdlib.h>
+#include <time.h>
+
+#include "database.h"
+#include "job_store.h"
+#include "log.h"
+
+/* The first column of the first row, a number or a count; between begin and end. */
+static store_status read_number(job_store *store, const char *sql, const char *id, int64_t *number)
+{
+    sqlite3_stmt *statement = sql_prepare(store->writer, sql, "t", id);
+    if (!statement) return STORE_FAILED;
+    const int code = sqlite3_step(statement);
+    *number = code == SQLITE_ROW ? sqlite3_column_int64(statement, 0) : 0;
+    const store_status status = sql_finish(statement, code);
+    return status == STORE_OK && code != SQLITE_ROW ? STORE_NOT_FOUND : status;
+}
+
+/* The attempts that it has made do not count against it any more. What a dying worker of an earlier one still writes is
+ * fenced off by the new number. */
+static store_status put_into_queue(job_store *store, const char *id)
+{
+    int64_t may_be;
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    store_status status = read_number(store, "SELECT status IN ('failed','dismissed') FROM job WHERE id=?", id, &may_be);
+    if (status == STORE_OK && !may_be) return STORE_CONFLICT;
+    if (status == STORE_OK) status = store_check_queue(store, 1);
+    if (status != STORE_OK) return status;
+    return sql_run(
+        store->writer, NULL,
+        "UPDATE job SET status='accepted', message='waiting for a free worker: to be tried again', attempts_before=attempt,"
+        " attempt=attempt+1, setbacks=0, not_before=0, failure=NULL, finished=NULL, eta_seconds=NULL, updated=? WHERE id=?",
+        "tt", now, id);
+}
+
+store_status store_retry_job(job_store *store, const char *id)
+{
+    const store_status status = store_begin(store);
+    return status == STORE_OK ? store_end(store, put_into_queue(store, id)) : status;
+}
+
+static double unix_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_REALTIME, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+/* Out of the way before the answer is sent; what is in them goes later (folder_remover.h). */
+static void put_folders_aside(job_store *store, double since)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT id FROM leaving WHERE since=?", "d", since);
+    int code = SQLITE_ERROR;
+    while (statement && (code = sqlite3_step(statement)) == SQLITE_ROW)
+        job_folder_put_aside(store->data, (const char *)sqlite3_column_text(statement, 0));
+    if (statement) sql_finish(statement, code);
+    store_return_reader(store, reader);
+}
+
+static store_status delete_job(job_store *store, const char *id, double since)
+{
+    int64_t has_ended;
+    store_status status = read_number(store, "SELECT status NOT IN ('accepted','running') FROM job WHERE id=?", id, &has_ended);
+    if (status == STORE_OK && !has_ended) return STORE_CONFLICT;
+    if (status == STORE_OK) status = sql_run(store->writer, NULL, "INSERT INTO leaving(id,since) VALUES(?,?)", "td", id, since);
+    if (status == STORE_OK) status = sql_run(store->writer, NULL, "DELETE FROM job WHERE id=?", "t", id);
+    return status;
+}
+
+/* Its jobs first: they refer to it. */
+static store_status delete_study(job_store *store, const char *id, double since)
+{
+    int64_t unfinished, number = 0;
+    store_status status = read_number(store, "SELECT accepted+running FROM study WHERE id=?", id, &unfinished);
+    if (status == STORE_OK && unfinished > 0) return STORE_CONFLICT;
+    if (status == STORE_OK) status = read_number(store, "SELECT number FROM study WHERE id=?", id, &number);
+    if (status == STORE_OK)
+        status =
+            sql_run(store->writer, NULL, "INSERT INTO leaving(id,since) SELECT id, ? FROM job WHERE study=?", "di", since, number);
+    if (status == STORE_OK) status = sql_run(store->writer, NULL, "DELETE FROM job WHERE study=?", "i", number);
+    if (status == STORE_OK) status = sql_run(store->writer, NULL, "DELETE FROM study WHERE number=?", "i", number);
+    return status;
+}
+
+static store_status delete_one(job_store *store, store_status (*from_tables)(job_store *, const char *, double), const char *id)
+{
+    const double since = unix_seconds();
+    store_status status = store_begin(store);
+    if (status == STORE_OK) status = store_end(store, from_tables(store, id, since));
+    if (status == STORE_OK) put_folders_aside(store, since);
+    return status;
+}
+
+store_status store_delete_job(job_store *store, const char *id) { return delete_one(store, delete_job, id); }
+
+store_status store_delete_study(job_store *store, const char *id) { return delete_one(store, delete_study, id); }
