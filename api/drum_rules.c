@@ -11,7 +11,13 @@
 #include "start_rules.h"
 
 #define SAMPLES_PER_REVOLUTION 40.0
-#define LEAST_DRUM_DIAMETERS 8.0   /* a bed a few particles deep has no surface to speak of */
+#define LEAST_DRUM_DIAMETERS 8.0 /* a bed a few particles deep has no surface to speak of */
+/* From runs at fills from 0.5 to 0.95: of spheres, dumbbells and tetrahedra 0.95 can be packed; of cubes 0.85, but not 0.9;
+ * of spheres within a lining of their own size 0.65, but not 0.7, a tenth of the drum's diameter each. */
+#define MOST_FILL 0.95
+#define MOST_FILL_OF_BLOCKS 0.87
+#define BLOCK_SPHERES 8
+#define LINING_DEPTH 0.85          /* of its diameter, that it takes off the radius */
 #define LEAST_PARTICLES 8.0        /* fewer make no bed; they may be placed one by one */
 #define LEAST_LENGTH_DIAMETERS 3.0 /* below, a particle would feel its own periodic image */
 
@@ -148,12 +154,36 @@ static double share_of_lifters(const dem_drum_definition *drum)
     return (double)l->count * l->height * l->width / (0.25 * DEM_PI * drum->diameter * drum->diameter);
 }
 
-static void check_room_beside_lifters(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+/* Share of the drum that is not behind a lining of touching spheres, whose hollows take up little. */
+static double share_within_lining(const dem_drum_definition *drum)
 {
-    const double fill = drum->fill_fraction, most = 0.95 * (1.0 - share_of_lifters(drum));
-    if (fill <= 0.95 && fill > most)
+    if (!(drum->lining.diameter > 0.0)) return 1.0;
+    const double covered = fmin(1.0, drum->lining.diameter / drum->lining.pitch);
+    const double within = 1.0 - LINING_DEPTH * drum->lining.diameter * covered * covered / (0.5 * drum->diameter);
+    return within * within;
+}
+
+/* By volume: blocks of eight spheres and more leave more pores between them than the solid fraction that fills are counted by. */
+static double most_fill(const dem_drum_definition *drum)
+{
+    double volume = 0.0, filled = 0.0;
+    for (size_t s = 0; s < drum->species_count; s++) {
+        const dem_species *species = &drum->species[s];
+        const double share = species->share * dem_species_volume(species);
+        volume += share;
+        filled += share * (species->cluster.sphere_count >= BLOCK_SPHERES ? MOST_FILL_OF_BLOCKS : MOST_FILL);
+    }
+    return filled / volume * (1.0 - share_of_lifters(drum)) * share_within_lining(drum);
+}
+
+static void check_room(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+{
+    const double fill = drum->fill_fraction, most = most_fill(drum);
+    if (fill <= MOST_FILL && fill > most)
         problem_list_add(problems, isnan(inputs->particle_count) ? "/inputs/fill_fraction" : "/inputs/particle_count",
-                         "makes a fill of %g; must be at most %.3g beside these lifters", fill, most);
+                         "makes a fill of %g; must be at most %.3g, what particles of these shapes can be packed to%s%s", fill,
+                         most, drum->lifters.count ? " beside these lifters" : "",
+                         drum->lining.diameter > 0.0 ? " within this lining" : "");
 }
 
 static void check_least(const drum_inputs *inputs, double count, problem_list *problems)
@@ -228,7 +258,7 @@ static double derive_drum(drum_inputs *inputs, dem_drum_definition *drum, proble
     check_ends(inputs, problems);
     const bool good_lifters = check_lifters(inputs, drum, problems);
     derive_particle_count(inputs, drum, problems);
-    if (good_lifters) check_room_beside_lifters(inputs, drum, problems);
+    if (good_lifters && !drum->is_placed) check_room(inputs, drum, problems);
     return scene_derive_contact(inputs, largest_impact(inputs, drum), drum, problems);
 }
 

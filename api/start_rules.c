@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "dem_cluster.h"
+#include "dem_rules.h"
 #include "process_type.h"
 #include "spec_memory.h"
 #include "spec_text.h"
@@ -14,6 +15,7 @@
 
 /* Of the smaller diameter: as far as spheres may overlap when a run begins, the most that maximum_overlap can ask for. */
 #define MOST_START_OVERLAP 0.05
+#define COINCIDING 0.99 /* of it: so much is all of it */
 enum { ENOUGH_OVERLAPS = 20 };
 #define AN_ID "20261122-014455-3f9a2c71"
 
@@ -165,10 +167,58 @@ static void check_inside(const placed_sphere *s, const dem_drum_definition *drum
                          2 * s->radius, s->x[2], -along, along);
 }
 
+/* m that a sphere is in the bar that overlaps it most; below 0: outside. Bars stand about the angles 2 pi k/count at first. */
+static double depth_in_bars(const double x[2], double radius, const dem_drum_definition *drum)
+{
+    const dem_lifters *bars = &drum->lifters;
+    double deepest = -INFINITY;
+    for (size_t k = 0; k < bars->count; k++) {
+        const double angle = 2.0 * DEM_PI * (double)k / (double)bars->count;
+        const double along = x[0] * cos(angle) + x[1] * sin(angle), across = x[1] * cos(angle) - x[0] * sin(angle);
+        const double below = 0.5 * drum->diameter - bars->height - along, beside = fabs(across) - 0.5 * bars->width;
+        const double away =
+            below > 0.0 && beside > 0.0 ? sqrt(below * below + beside * beside) : fmax(below, beside); /* of the centre */
+        if (along > 0.0) deepest = fmax(deepest, radius - away);
+    }
+    return deepest;
+}
+
+/* The same of the lining's spheres, rows of them around the wall: the one that is nearest. */
+static double depth_in_lining(const placed_sphere *s, const double x[2], const dem_drum_definition *drum)
+{
+    const dem_lining *lining = &drum->lining;
+    const double at = 0.5 * (drum->diameter - lining->diameter);
+    const double around = floor(2.0 * DEM_PI * at / lining->pitch + 1e-9), along = floor(drum->length / lining->pitch + 1e-9);
+    const double angle = round(atan2(x[1], x[0]) * around / (2.0 * DEM_PI)) * 2.0 * DEM_PI / around, step = drum->length / along;
+    const double place = (s->x[2] + 0.5 * drum->length) / step - 0.5;
+    const double row = drum->ends.are_walls ? fmin(fmax(round(place), 0.0), along - 1.0) : round(place);
+    const double dx = x[0] - at * cos(angle), dy = x[1] - at * sin(angle), dz = (place - row) * step;
+    return s->radius + 0.5 * lining->diameter - sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+/* rate: of rotation as asked for; below 0 bars and lining are the mirror image, too. */
+static void check_beside_wall(const placed_sphere *s, const dem_drum_definition *drum, double rate, problem_list *problems)
+{
+    const double x[2] = { rate < 0.0 ? -s->x[0] : s->x[0], s->x[1] };
+    const double in_bars = drum->lifters.count ? depth_in_bars(x, s->radius, drum) : -INFINITY;
+    const double in_lining = drum->lining.diameter > 0.0 ? depth_in_lining(s, x, drum) : -INFINITY;
+    const double most =
+        MOST_START_OVERLAP * 2 * fmin(s->radius, drum->lining.diameter > 0.0 ? 0.5 * drum->lining.diameter : s->radius);
+    char pointer[80];
+    if (!(in_bars > most) && !(in_lining > most)) return;
+    snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/position", s->particle);
+    problem_list_add(problems, pointer, "puts a sphere of %g m %.3g m into %s; must be at most %.3g m", 2 * s->radius,
+                     fmax(in_bars, in_lining), in_bars > in_lining ? "a lifter" : "the lining", most);
+}
+
 static void tell_overlap(const placed_pair *pair, problem_list *problems)
 {
     char pointer[80];
     snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/position", pair->high);
+    if (pair->overlap * MOST_START_OVERLAP > COINCIDING * pair->most) {
+        problem_list_add(problems, pointer, "coincides with particle %zu; each must have a place of its own", pair->low);
+        return;
+    }
     problem_list_add(problems, pointer, "overlaps particle %zu by %.3g m; must be at most %.3g m, %g of the smaller diameter",
                      pair->low, pair->overlap, pair->most, MOST_START_OVERLAP);
 }
@@ -193,7 +243,10 @@ void start_check_particles(const drum_inputs *inputs, const dem_drum_definition 
         problem_list_add(problems, "/inputs/start/particles", "could not be looked at: out of memory");
         return;
     }
-    for (size_t i = 0; i < count && !problem_list_is_full(problems); i++) check_inside(&spheres[i], drum, problems);
+    for (size_t i = 0; i < count && !problem_list_is_full(problems); i++) {
+        check_inside(&spheres[i], drum, problems);
+        check_beside_wall(&spheres[i], drum, inputs->rotation_rate, problems);
+    }
     if (!spec_memory_knows_apart(inputs->memory, &inputs->start, drum)) check_overlaps(spheres, count, drum, problems);
     if (json_array_size(problems->errors) == before) spec_memory_keep_sound(inputs->memory, &inputs->start, drum);
     free(spheres);
@@ -248,9 +301,10 @@ void start_compare(const job_spec *spec, const json_t *origin, problem_list *pro
     const double rate = json_number_value(json_object_get(json_object_get(then, "drum"), "rotation_rate"));
     const bool remembers = spec->inputs.start.checkpoint > 0.0 || json_is_true(json_object_get(origin, "is_checkpoint"));
     if (remembers && (rate < 0.0) != (spec->inputs.rotation_rate < 0.0))
-        problem_list_add(problems, "/inputs/drum/rotation_rate",
-                         "turns the other way than the bed's checkpoint, whose contacts remember theirs; must turn the same way, or "
-                         "start from a snapshot");
+        problem_list_add(
+            problems, "/inputs/drum/rotation_rate",
+            "turns the other way than the bed's checkpoint, whose contacts remember theirs; must turn the same way, or "
+            "start from a snapshot");
     json_t *now = spec_inputs_write(spec->type->inputs, (const char *)spec + spec->type->inputs_at);
     for (size_t k = 0; now && k < sizeof compared / sizeof compared[0]; k++) {
         char pointer[40];

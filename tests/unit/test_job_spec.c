@@ -652,8 +652,7 @@ static void particles_outside_the_drum_or_within_each_other_are_all_told(void **
         "/inputs/start/particles/4/species: is 2; must be in [0, 1]: particles has 2 kinds\n"
         "/inputs/start/particles/0/position: puts a sphere of 0.004 m at 0.0233 m from the axis; must be at most 0.0232 m, inside "
         "the drum\n"
-        "/inputs/start/particles/3/position: overlaps particle 1 by 0.004 m; must be at most 0.0002 m, 0.05 of the smaller "
-        "diameter\n"
+        "/inputs/start/particles/3/position: coincides with particle 1; each must have a place of its own\n"
         "/inputs/start/particles/2/position: overlaps particle 1 by 0.0003 m; must be at most 0.0002 m, 0.05 of the smaller "
         "diameter\n"
         "/inputs/start/particles/3/position: overlaps particle 2 by 0.0003 m; must be at most 0.0002 m, 0.05 of the smaller "
@@ -766,6 +765,53 @@ static void shares_of_four_digits_sum_to_one(void **state)
     job_spec_clear(&spec);
 }
 
+/* A drum of 40 mm with 4 mm spheres and these members besides. */
+static void expect_of_small_drum(const char *drum, const char *rest, const char *found)
+{
+    char text[900];
+    snprintf(text, sizeof text,
+             "{\"inputs\": {\"drum\": {\"diameter\": 0.04, \"length\": 0.012, \"rotation_rate\": 6%s},"
+             " \"particles\": [{\"diameter\": 0.004}], \"duration\": {\"seconds\": 0.05}%s}}",
+             drum, rest);
+    char *problems = problems_of(load(text));
+    if (*found ? !strstr(problems, found) : *problems) fail_msg("%s gives:\n%sexpected:\n%s", text, problems, found);
+    free(problems);
+}
+
+#define AT(x, y) ", \"start\": {\"particles\": [{\"position\": [" x ", " y ", 0]}]}"
+#define BARS ", \"lifters\": {\"count\": 4, \"height\": 0.008, \"width\": 0.008}"
+#define LINING ", \"wall\": {\"lining\": {\"diameter\": 0.004}}"
+
+static void what_can_not_be_packed_is_refused(void **state)
+{
+    (void)state;
+    expect_of_small_drum("", ", \"fill_fraction\": 0.75" LINING, "/inputs/fill_fraction: makes a fill of 0.75; must be at most 0.65");
+    expect_of_small_drum("", ", \"fill_fraction\": 0.65" LINING, "");
+    expect_of_small_drum("", ", \"fill_fraction\": 0.95", "");
+    expect_of_small_drum(BARS, ", \"fill_fraction\": 0.85", "beside these lifters");
+    static const char cubes[] = "[{\"shape\": \"cube\", \"diameter\": 0.002}]";
+    for (int refused = 0; refused < 2; refused++) {
+        json_t *request = minimal_with("particles", cubes);
+        json_object_set_new(json_object_get(request, "inputs"), "fill_fraction", json_real(refused ? 0.9 : 0.85));
+        char *problems = problems_of(request);
+        assert_true(refused ? strstr(problems, "must be at most 0.87") != NULL : *problems == '\0');
+        free(problems);
+    }
+}
+
+static void a_start_within_a_bar_or_the_lining_is_refused(void **state)
+{
+    (void)state;
+    expect_of_small_drum(BARS, AT("0", "-0.014"), "particles/0/position: puts a sphere of 0.004 m 0.004 m into a lifter");
+    expect_of_small_drum(BARS, AT("0.0055", "-0.014"), "into a lifter"); /* beside the bar, which ends at 4 mm: half a radius in */
+    expect_of_small_drum(BARS, AT("0.0061", "-0.014"), "");
+    expect_of_small_drum(BARS, AT("0", "-0.0099"), "");
+    expect_of_small_drum("", LINING AT("0.0175", "0"), "into the lining");
+    expect_of_small_drum("", LINING AT("0.0139", "0"), "");
+    expect_of_small_drum("", ", \"start\": {\"particles\": [{\"position\": [0, 0, 0]}, {\"position\": [0, 0, 0]}]}",
+                         "particles/1/position: coincides with particle 0");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -797,6 +843,8 @@ int main(void)
         cmocka_unit_test(a_long_message_is_cut_between_characters),
         cmocka_unit_test(a_rate_may_be_given_in_revolutions_a_minute),
         cmocka_unit_test(shares_of_four_digits_sum_to_one),
+        cmocka_unit_test(what_can_not_be_packed_is_refused),
+        cmocka_unit_test(a_start_within_a_bar_or_the_lining_is_refused),
         cmocka_unit_test(the_estimate_grows_with_what_is_asked),
         cmocka_unit_test(the_description_has_every_default_and_range_that_the_parser_has),
     };
