@@ -1,5 +1,6 @@
 #include "hdf_file.h"
 
+#include <errno.h>
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,12 +9,16 @@
 #include "file_publish.h"
 #include "file_seal.h"
 #include "worker_log.h"
+#include "worker_memory.h"
 
 enum { ROWS_OF_A_CHUNK = 16384, GZIP_LEVEL = 4 };
 
+/* Without memory the first failed call is the last: what comes after may crash, and what could not be read for want of it is
+ * not damaged. */
 static herr_t log_error_stack(hid_t stack, void *unused)
 {
     (void)unused;
+    if (errno == ENOMEM) worker_memory_end();
     return H5Eprint2(stack, stderr);
 }
 
@@ -40,6 +45,7 @@ void hdf_create(hdf_file *file, const char *name)
 {
     char temporary[PATH_MAX];
     snprintf(temporary, sizeof temporary, "%s.tmp", name);
+    errno = 0; /* from here on a want of memory is that of HDF5 */
     *file = (hdf_file){ .file = H5I_INVALID_HID, .name = name };
     const hid_t properties = properties_without_times(H5P_FILE_CREATE);
     if (!is_good(file, properties)) return;

@@ -1,5 +1,6 @@
 #include "hdf_read.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -15,6 +16,7 @@ hid_t hdf_open_sealed(const char *name, file_state *state)
 {
     *state = file_seal_look(name);
     if (*state != FILE_WHOLE) return H5I_INVALID_HID;
+    errno = 0;                /* from here on a want of memory is that of HDF5 */
     H5PLset_loading_state(0); /* no file makes us load code */
     const hid_t file = H5Fopen(name, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0) *state = FILE_DAMAGED;

@@ -309,8 +309,9 @@ static enum worker_exit run(int argc, char **argv, char *word)
     if (exit != WORKER_DONE) return exit;
     job_run_hold_signals();
     if (!take_over(&line, spec.inputs.precision > 0 ? "double" : "single", word, argv)) {
+        exit = machine_error_is(errno) ? WORKER_MACHINE : WORKER_FAULT;
         job_spec_clear(&spec);
-        return WORKER_FAULT;
+        return exit;
     }
     if (line.threads) spec.threads = spec.drum.threads = line.threads;
     line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;

@@ -56,8 +56,10 @@ bool variant_take_over(const char *isa, const char *precision, char *const *argv
     else snprintf(other, sizeof other, "%.*s/repose-%s-%s", folder, own, precision, isa);
     errno = ENOEXEC; /* a program under another's name would hand over to itself for ever */
     if (strcmp(other, own) != 0) execv(other, argv);
-    if (same_precision) worker_warn("%s: %s; going on with %s, which is slower", other, strerror(errno), dem_build_isa());
-    else fprintf(stderr, "repose: %s: %s; it is needed for %s precision\n", other, strerror(errno), precision);
+    const int reason = errno;
+    if (same_precision) worker_warn("%s: %s; going on with %s, which is slower", other, strerror(reason), dem_build_isa());
+    else fprintf(stderr, "repose: %s: %s; it is needed for %s precision\n", other, strerror(reason), precision);
+    errno = reason;
     return same_precision;
 }
 

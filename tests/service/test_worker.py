@@ -447,5 +447,5 @@ def test_too_little_memory_is_said_so(tmp_path):
     spec["inputs"]["snapshots"]["interval"] = 0
     limit = lambda: resource.setrlimit(resource.RLIMIT_AS, (200_000_000, 200_000_000))
     code, _, stderr = run(write_spec(tmp_path, spec), tmp_path / "job", preexec_fn=limit)
-    assert code == 1, stderr
+    assert code == 6, stderr
     assert events(tmp_path / "job", "failure")[0]["status"] == "no-memory"
