@@ -238,8 +238,9 @@ def test_a_file_made_to_do_harm_is_refused(stopped, tmp_path, harm):
 
 # --- under the daemon
 
-def test_the_daemon_takes_no_damaged_result_and_keeps_its_own_copy_of_the_specification(tmp_path):
-    """The worker program here damages what `repose` has written, the first time."""
+@pytest.fixture
+def damaging(tmp_path):
+    """A daemon whose worker program damages what `repose` has written, the first time."""
     program = tmp_path / "worker"
     program.write_text(f"""#!/bin/sh
 [ "$1" = run ] || exit 0
@@ -249,16 +250,19 @@ cp "$2" "$4/spec.seen.$6"
 exit 0
 """)
     program.chmod(0o755)
-    for daemon in conftest.run_daemon(tmp_path, worker=program, options=["--workers", "1"]):
-        blocker = daemon.submit(SPEC["inputs"] | {"duration": {"seconds": 1.0}})
-        job = daemon.submit(SPEC["inputs"])
-        spec = daemon.data / "jobs" / job / "spec.json"
-        text = spec.read_bytes()
-        spec.write_bytes(text.replace(b'"friction": 0.3', b'"friction": 0.7'))  # while it waits
-        daemon.ended(blocker)
-        info = daemon.ended(job, 120)
-        assert info["status"] == "successful" and info["attempt"] == 2
-        assert spec.read_bytes() == text == spec.with_name("spec.seen.1").read_bytes()
-        kept = json.loads(spec.with_name("result.json").read_text())
-        answer = daemon.get(f"/jobs/{job}/results").json()
-        assert answer == kept and answer["repose"]["angle_deg"] != 89.0
+    yield from conftest.run_daemon(tmp_path, worker=program, options=["--workers", "1"])
+
+
+def test_the_daemon_takes_no_damaged_result_and_keeps_its_own_copy_of_the_specification(damaging):
+    blocker = damaging.submit(SPEC["inputs"] | {"duration": {"seconds": 1.0}})
+    job = damaging.submit(SPEC["inputs"])
+    spec = damaging.data / "jobs" / job / "spec.json"
+    text = spec.read_bytes()
+    spec.write_bytes(text.replace(b'"friction": 0.3', b'"friction": 0.7'))  # while it waits
+    damaging.ended(blocker)
+    info = damaging.ended(job, 120)
+    assert info["status"] == "successful" and info["attempt"] == 2
+    assert spec.read_bytes() == text == spec.with_name("spec.seen.1").read_bytes()
+    kept = json.loads(spec.with_name("result.json").read_text())
+    answer = damaging.get(f"/jobs/{job}/results").json()
+    assert answer == kept and answer["repose"]["angle_deg"] != 89.0

@@ -274,7 +274,7 @@ def test_a_study_goes_on_after_a_crash(fake):
     fake.start()
     info = ended(fake, study)
     assert info["counts"]["successful"] == 4 and info["progress"] == 100
-    assert sorted(job["attempt"] for job in jobs_of(fake, study)) == [1, 1, 2, 2]
+    assert [job["attempt"] for job in jobs_of(fake, study)] == [1, 1, 1, 1]  # a daemon that dies uses up none
 
 
 def test_posting_a_kept_study_again_gives_the_same_jobs(fake):
