@@ -22,6 +22,15 @@ static json_t *field_schema(const result_field *field)
     return schema;
 }
 
+/* Of every process (result_warnings.h). */
+static json_t *warnings_schema(void)
+{
+    return json_pack("{s:s, s:s, s:{s:s, s:[s, s], s:{s:{s:s, s:s}, s:{s:s}}}}", "type", "array", "description",
+                     "what the run knows of itself and its numbers do not show at a glance", "items", "type", "object", "required",
+                     "field", "text", "properties", "field", "type", "string", "description", "JSON Pointer into the results",
+                     "text", "type", "string");
+}
+
 /* The properties that a field is one of: those of the output itself or of an object in it. Borrowed. */
 static json_t *properties_of(json_t *properties, const char *group)
 {
@@ -42,6 +51,7 @@ json_t *result_outputs_description(const result_table *table)
             if (strcmp(field->output, table->output[o].name) != 0) continue;
             json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field));
         }
+        if (strcmp(table->output[o].name, "run") == 0) json_object_set_new(properties, "warnings", warnings_schema());
         json_object_set_new(description, table->output[o].name,
                             json_pack("{s:s, s:s, s:{s:s, s:o}}", "title", table->output[o].name, "description",
                                       table->output[o].meaning, "schema", "type", "object", "properties", properties));

@@ -56,9 +56,9 @@ static json_t *label_of(const char *text)
 bool study_table_add_case(void *context, const study_case_row *row)
 {
     study_table *table = context;
-    json_t *one = json_pack("{s:s, s:o, s:o, s:i, s:i, s:i, s:n, s:n, s:n, s:n, s:{}}", "case", row->name, "inputs",
+    json_t *one = json_pack("{s:s, s:o, s:o, s:i, s:i, s:i, s:n, s:n, s:n, s:n, s:i, s:{}}", "case", row->name, "inputs",
                             json_loads(row->inputs, 0, NULL), "label", label_of(row->label), "repeats", 0, "finished", 0, "failed",
-                            0, "regime", "certain", "verdict", "steady", "results");
+                            0, "regime", "certain", "verdict", "steady", "warnings", 0, "results");
     if (!one || json_array_append_new(table->cases, one) != 0) table->failed = true;
     return !table->failed;
 }
@@ -73,6 +73,7 @@ static void begin_case(study_summing *summing, int64_t index)
     json_object_clear(summing->regimes);
     json_object_clear(summing->verdicts);
     summing->steady = summing->certain = (truth_of_runs){ 0 };
+    summing->warnings = 0;
 }
 
 void study_summing_init(study_summing *summing, study_table *table)
@@ -135,6 +136,7 @@ static void end_case(study_summing *summing)
         || json_object_set_new(one, "certain", truth_to_json(&summing->certain)) != 0
         || json_object_set_new(one, "verdict", words_to_json(summing->verdicts)) != 0
         || json_object_set_new(one, "steady", truth_to_json(&summing->steady)) != 0
+        || json_object_set_new(one, "warnings", json_integer(summing->warnings)) != 0
         || json_object_set_new(one, "results", results) != 0)
         summing->table->failed = true;
 }
@@ -158,6 +160,7 @@ bool study_summing_add_run(void *context, const study_run_row *row)
     count_word(summing->verdicts, json_object_get(row->measures, "verdict"));
     count_truth(&summing->certain, json_object_get(row->measures, "certain"));
     count_truth(&summing->steady, json_object_get(row->measures, "steady"));
+    summing->warnings += (int64_t)json_number_value(json_object_get(row->measures, "warnings"));
     return true;
 }
 
@@ -223,7 +226,7 @@ static void write_head(const json_t *inputs, const json_t *labels, const json_t 
     text_buffer_print(out, "case");
     json_object_foreach((json_t *)inputs, name, unused) { add_name(out, "", name, ""); }
     json_object_foreach((json_t *)labels, name, unused) { add_name(out, "label/", name, ""); }
-    text_buffer_print(out, ",repeats,finished,failed,regime,certain,verdict,steady");
+    text_buffer_print(out, ",repeats,finished,failed,regime,certain,verdict,steady,warnings");
     json_object_foreach((json_t *)results, name, unused)
     {
         add_name(out, "", name, "");
@@ -249,6 +252,7 @@ static void write_row(const json_t *row, const json_t *inputs, const json_t *lab
     add_json(out, json_object_get(row, "certain"));
     add_json(out, json_object_get(row, "verdict"));
     add_json(out, json_object_get(row, "steady"));
+    add_json(out, json_object_get(row, "warnings"));
     json_object_foreach((json_t *)results, name, unused)
     {
         const json_t *measure = json_object_get(json_object_get(row, "results"), name);

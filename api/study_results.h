@@ -37,13 +37,14 @@ typedef struct study_summing {
     mean_of_runs means[STUDY_MEASURES];
     json_t *regimes, *verdicts; /* {"rolling": 2}: how many runs were so */
     truth_of_runs steady, certain;
+    int64_t warnings; /* of all its runs */
 } study_summing;
 
 void study_summing_init(study_summing *summing, study_table *table);
 study_run_visitor study_summing_add_run;
 void study_summing_end(study_summing *summing);
 
-/* One line a case. Columns: case, inputs, labels, counts, regime, verdict, then for each measure that any case has its mean and
+/* One line a case. Columns: case, inputs, labels, counts, regime, verdict, warnings, then for each measure that any case has its mean and
  * error. */
 void study_table_write_csv(const study_table *table, text_buffer *out);
 

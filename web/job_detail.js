@@ -5,6 +5,7 @@ import { bytes, clock, count, significant } from './format.js';
 import { ApiError, jobPath, json } from './api.js';
 import { anglePlot } from './angle_plot.js';
 import { viewOf } from './process_views.js';
+import { warningsOf } from './results.js';
 import { fileLink } from './file_link.js';
 
 const SNAPSHOTS_SHOWN = 200;
@@ -62,7 +63,7 @@ function showReason(box, job) {
 
 function showResults(parts, results, job) {
   const view = viewOf(job.processID);
-  parts.answer.replaceChildren(view.answer(results, job.summary ?? {}));
+  parts.answer.replaceChildren(...[warningsOf(results), view.answer(results, job.summary ?? {})].filter(Boolean));
   parts.results.replaceChildren(view.results(results));
 }
 

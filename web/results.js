@@ -86,8 +86,16 @@ function facts(object) {
 
 const isRecord = value => value !== null && typeof value === 'object' && !Array.isArray(value);
 
+// What the run knows of itself and its numbers do not show at a glance; runs from before there were warnings have no list.
+export function warningsOf(results) {
+  const warnings = results.run?.warnings ?? [];
+  return warnings.length === 0 ? null : h('div', { class: 'reason warnings', role: 'note' },
+    h('h3', null, warnings.length === 1 ? 'A warning' : `${count(warnings.length)} warnings`),
+    warnings.map(({ field, text }) => h('p', null, h('code', null, field), ` ${text}`)));
+}
+
 export function section(title, object, ...extra) {
-  const plain = Object.fromEntries(Object.entries(object ?? {}).filter(([, value]) => !isRecord(value)));
+  const plain = Object.fromEntries(Object.entries(object ?? {}).filter(([name, value]) => !isRecord(value) && name !== 'warnings'));
   return h('section', null, h('h3', null, title), ...extra, facts(plain));
 }
 

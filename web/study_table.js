@@ -58,7 +58,8 @@ function row(one, inputs, labels, measures, withRegime) {
     h('th', { scope: 'row' }, one.case),
     inputs.map(name => h('td', null, inWords(one.inputs[name]))),
     labels.map(name => h('td', null, inWords(one.label[name]))),
-    h('td', null, `${count(one.finished)} of ${count(one.repeats)}`, one.failed ? h('small', { class: 'why' }, `${count(one.failed)} failed`) : null),
+    h('td', null, `${count(one.finished)} of ${count(one.repeats)}`, one.failed ? h('small', { class: 'why' }, `${count(one.failed)} failed`) : null,
+      one.warnings ? h('small', { class: 'why' }, one.warnings === 1 ? '1 warning' : `${count(one.warnings)} warnings`) : null),
     withRegime ? [h('td', null, one.certain === false ? `${one.regime ?? '–'}, not certain` : one.regime ?? '–'), h('td', null, one.verdict ?? '–')] : null,
     measures.map(([name, , write]) => measure(one.results[name], write)));
 }

@@ -106,7 +106,7 @@ store_status store_recover(job_store *store);
 store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec);
 
 /* result_tables.c: spreads the results document over the tables; between begin and end. */
-store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document);
+store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document, const json_t *results);
 
 /* query.c: the limits, the authorizer and the functions of users' SQL, on store->query. False: no memory. */
 bool query_connection_restrict(job_store *store);

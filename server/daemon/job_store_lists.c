@@ -22,7 +22,8 @@
     " coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"                                             \
     " coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, coalesce(i.duration, fi.duration, hi.duration) AS duration," \
     " coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"                     \
-    " a.standard_error_deg, a.steady, a.verdict, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds"               \
+    " a.standard_error_deg, a.steady, a.verdict, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds,"   \
+    " r.warnings"                                                                                                                  \
     " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"                         \
     " LEFT JOIN fill_input fi ON fi.job=job.number LEFT JOIN heap_input hi ON hi.job=job.number"                                   \
     " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                                 \

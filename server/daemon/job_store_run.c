@@ -13,6 +13,7 @@
 #include "job_store.h"
 #include "log.h"
 #include "machine_error.h"
+#include "result_warnings.h"
 
 #define FENCE " WHERE number=? AND attempt=? AND status='running'"
 
@@ -182,11 +183,17 @@ static store_status end_job(job_store *store, const job_claim *claim, job_status
 
 store_status store_record_success(job_store *store, const job_claim *claim, const char *document)
 {
+    char message[1024];
+    json_t *results = json_loads(document, 0, NULL);
+    result_message(results, message, sizeof message);
     store_status status = store_begin(store);
-    if (status != STORE_OK) return status;
-    status = end_job(store, claim, JOB_SUCCESSFUL, "done", NULL);
-    if (status == STORE_OK) status = result_tables_fill(store->writer, claim->number, document);
-    return store_end(store, status);
+    if (status == STORE_OK) {
+        status = end_job(store, claim, JOB_SUCCESSFUL, message, NULL);
+        if (status == STORE_OK) status = result_tables_fill(store->writer, claim->number, document, results);
+        status = store_end(store, status);
+    }
+    json_decref(results);
+    return status;
 }
 
 store_status store_record_failure(job_store *store, const job_claim *claim, const char *message, const json_t *failure)

@@ -44,7 +44,7 @@ static const struct {
     { "granule", { "minimum_omega2", "error", "minimum_rotation_rate", "slip_per_revolution", "slip_onset_deg" } },
     { "run",
       { "particles", "steps", "time_step", "simulated_seconds", "wall_seconds", "particle_steps_per_second", "maximum_overlap",
-        "threads", "seed" } },
+        "threads", "seed", "warnings" } },
 };
 
 static void bind_json(sqlite3_stmt *statement, int index, const json_t *value)
@@ -52,6 +52,7 @@ static void bind_json(sqlite3_stmt *statement, int index, const json_t *value)
     if (json_is_boolean(value)) sqlite3_bind_int(statement, index, json_is_true(value));
     else if (json_is_integer(value)) sqlite3_bind_int64(statement, index, json_integer_value(value));
     else if (json_is_real(value)) sqlite3_bind_double(statement, index, json_real_value(value));
+    else if (json_is_array(value)) sqlite3_bind_int64(statement, index, (int64_t)json_array_size(value)); /* how many */
     else if (json_is_string(value)) sqlite3_bind_text(statement, index, json_string_value(value), -1, SQLITE_STATIC);
     else sqlite3_bind_null(statement, index);
 }
@@ -89,15 +90,13 @@ static store_status fill_table(sqlite3 *writer, int64_t job, size_t table, const
     return sql_finish(statement, sqlite3_step(statement));
 }
 
-store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document)
+store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document, const json_t *results)
 {
-    json_t *results = json_loads(document, 0, NULL);
     store_status status =
         results ? sql_run(writer, NULL, "INSERT OR REPLACE INTO result VALUES(?,?)", "it", job, document) : STORE_FAILED;
     for (size_t i = 0; status == STORE_OK && i < sizeof tables / sizeof tables[0]; i++) {
         const json_t *object = json_object_get(results, tables[i].object);
         if (object) status = fill_table(writer, job, i, object);
     }
-    json_decref(results);
     return status;
 }

@@ -339,6 +339,9 @@ static const char retried_and_deleted_jobs[] =
     "CREATE TRIGGER job_number_kept AFTER DELETE ON job BEGIN"
     "  UPDATE last_deleted SET number=old.number WHERE number<old.number; END;";
 
+/* How many. NULL: a run from before there were any. */
+static const char warnings_of_runs[] = "ALTER TABLE run_result ADD COLUMN warnings INTEGER;";
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
@@ -350,5 +353,6 @@ const schema_migration schema_migrations[] = {
     { { verdicts, run_summary_with_verdicts } },
     { { setbacks } },
     { { retried_and_deleted_jobs } },
+    { { warnings_of_runs } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -188,7 +188,7 @@ store_status store_list_study_cases(job_store *store, const char *id, study_case
     " s.lacey_index, p.solid_fraction, p.coordination_number, r.maximum_overlap, d.torque, d.torque_standard_error, d.power,"      \
     " a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg, gr.minimum_omega2, gr.error,"                                        \
     " gr.minimum_rotation_rate, gr.slip_per_revolution, a.while_filling_angle_deg, a.while_filling_standard_error_deg,"            \
-    " f.height, f.base_diameter, f.static_cohesive_index, hr.lost"                                                                 \
+    " f.height, f.base_diameter, f.static_cohesive_index, hr.lost, r.warnings"                                                     \
     " FROM job LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                        \
     " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"                           \
     " LEFT JOIN drive_result d ON d.job=job.number LEFT JOIN surface_result f ON f.job=job.number"                                 \

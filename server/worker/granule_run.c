@@ -27,7 +27,7 @@ enum worker_exit granule_run(const job_context *job)
     granule_result result;
     granule_result_set(&result, &solved, &facts);
     worker_log("least omega^2 R/g %.9g, found in %.3f s", solved.minimum_omega2, facts.wall_seconds);
-    return job_run_write_result(job->events, granule_result_to_json(&result));
+    return job_run_write_result(job->spec, job->events, granule_result_to_json(&result));
 }
 
 static double number_at(const json_t *result, const char *name)

@@ -14,6 +14,7 @@
 #include "granule_run.h"
 #include "heap_run.h"
 #include "json_text.h"
+#include "result_warnings.h"
 #include "run_folder.h"
 #include "run_summary.h"
 #include "start_file.h"
@@ -83,9 +84,9 @@ void job_run_catch_signals(void)
 
 bool job_run_is_asked_to_stop(void) { return stop_requested; }
 
-enum worker_exit job_run_write_result(event_log *events, json_t *document)
+enum worker_exit job_run_write_result(const job_spec *spec, event_log *events, json_t *document)
 {
-    char *text = document ? json_text_write(document) : NULL;
+    char *text = result_warnings_add(spec, document) ? json_text_write(document) : NULL;
     json_decref(document);
     if (!text) return failure_report(events, DEM_NO_MEMORY, NULL);
     /* The events must be safe before the file that says all is done. */

@@ -36,7 +36,7 @@ void job_run_hold_signals(void);
 void job_run_catch_signals(void);
 bool job_run_is_asked_to_stop(void);
 
-/* The last thing a runner does. Takes over the reference; NULL: there was no memory for it. */
-enum worker_exit job_run_write_result(event_log *events, json_t *document);
+/* The last thing a runner does: adds the warnings. Takes over the reference; NULL: there was no memory for it. */
+enum worker_exit job_run_write_result(const job_spec *spec, event_log *events, json_t *document);
 
 #endif

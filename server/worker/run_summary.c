@@ -85,6 +85,17 @@ void summary_fact(const json_t *result, const char *output, const char *name, co
     printf("%-18s%.4g %s\n", label, number_at(result, output, name), unit);
 }
 
+static void summary_warnings(const json_t *warnings)
+{
+    size_t i;
+    json_t *warning;
+    json_array_foreach(warnings, i, warning)
+    {
+        printf("warning           %s %s\n", json_string_value(json_object_get(warning, "field")),
+               json_string_value(json_object_get(warning, "text")));
+    }
+}
+
 void summary_run(const json_t *result, const char *folder)
 {
     char spent[40];
@@ -92,6 +103,7 @@ void summary_run(const json_t *result, const char *folder)
     printf("run               %.0f particles, %.0f steps, %s, largest overlap %.2g of a diameter\n",
            number_at(result, "run", "particles"), number_at(result, "run", "steps"), spent,
            number_at(result, "run", "maximum_overlap"));
+    summary_warnings(json_object_get(json_object_get(result, "run"), "warnings"));
     printf("files             %s/%s, %s/%s (ParaView)\n", folder, JOB_RESULT_FILE, folder, JOB_SERIES_FILE);
 }
 

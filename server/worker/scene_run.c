@@ -267,7 +267,7 @@ static enum worker_exit write_result(scene_run *r)
         json_decref(document);
         return fail_for_disk(r, "the fields");
     }
-    return job_run_write_result(r->events, document);
+    return job_run_write_result(r->spec, r->events, document);
 }
 
 static bool write_profile(const scene_run *r)

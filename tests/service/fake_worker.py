@@ -94,6 +94,10 @@ if "verdicts" in label:  # one for each seed in turn
     verdict = verdicts[spec["inputs"]["seed"] % len(verdicts)]
     RESULT["repose"].update(verdict=verdict, steady={"steady": True, "drifting": False}.get(verdict))
     RESULT["regime"]["certain"] = verdict in ("steady", "drifting")
+if "warnings" in label:  # how many there are, likewise
+    counts = label["warnings"].split()
+    RESULT["run"]["warnings"] = [{"field": f"/run/fact_{k}", "text": f"is <b>odd</b> {k}"}
+                                 for k in range(int(counts[spec["inputs"]["seed"] % len(counts)]))]
 
 signal.signal(signal.SIGTERM, stop)
 print("a word on standard error", file=sys.stderr, flush=True)

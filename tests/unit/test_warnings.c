@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "job_spec.h"
+#include "result_warnings.h"
 #include "study_spec.h"
 
 static json_t *load(const char *text)
@@ -202,6 +203,38 @@ static void a_study_tells_a_warning_once_and_where_it_comes_from(void **state)
     json_decref(document);
 }
 
+/* How many warnings a run with this contact has whose largest overlap was this. */
+static size_t warnings_of_overlap(const char *contact, double largest)
+{
+    char text[300];
+    snprintf(text, sizeof text,
+             "{\"inputs\": {\"drum\": {\"diameter\": 0.126, \"length\": 0.0189, \"rotation_rate\": 1.5708},"
+             " \"particles\": [{\"diameter\": 0.00378}], \"contact\": {%s}}}",
+             contact);
+    json_t *request = load(text), *results = json_pack("{s:{s:f}}", "run", "maximum_overlap", largest);
+    job_spec spec;
+    problem_list problems;
+    problem_list_init(&problems);
+    assert_true(job_spec_parse(NULL, request, 1, &spec, &problems));
+    assert_true(result_warnings_add(&spec, results));
+    const size_t count = json_array_size(json_object_get(json_object_get(results, "run"), "warnings"));
+    job_spec_clear(&spec);
+    problem_list_clear(&problems);
+    json_decref(request);
+    json_decref(results);
+    return count;
+}
+
+static void an_overlap_above_what_was_asked_for_by_half_is_told(void **unused)
+{
+    (void)unused;
+    assert_int_equal(warnings_of_overlap("\"maximum_overlap\": 0.02", 0.0299), 0);
+    assert_int_equal(warnings_of_overlap("\"maximum_overlap\": 0.02", 0.0301), 1);
+    /* An impact of 1 m/s, v sqrt(m/K1): some 0.035 and a tenth of it. */
+    assert_int_equal(warnings_of_overlap("\"stiffness\": 4e3", 0.02), 0);
+    assert_int_equal(warnings_of_overlap("\"stiffness\": 4e5", 0.02), 1);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -209,6 +242,7 @@ int main(void)
         cmocka_unit_test(what_is_usual_is_not_warned_of),
         cmocka_unit_test(a_drum_is_understood_in_other_words),
         cmocka_unit_test(a_study_tells_a_warning_once_and_where_it_comes_from),
+        cmocka_unit_test(an_overlap_above_what_was_asked_for_by_half_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
