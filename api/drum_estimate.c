@@ -7,15 +7,23 @@
 /* A snapshot: so much for the file's structure, and for each sphere after compression. */
 #define SNAPSHOT_FILE_BYTES 30e3
 #define SNAPSHOT_PARTICLE_BYTES 60.0
-/* A frame of measurement: some 16 numbers and the interface's height at steps of d/4, kept in memory. */
-#define FRAME_NUMBERS 16.0
+/* A frame of measurement, kept in memory: so many numbers and the interface's height at steps of d/4, or pairs of column and
+ * height where those that the spheres reach are fewer. */
+#define FRAME_NUMBERS 20.0
 #define FRAME_NUMBERS_PER_DIAMETER 4.0
+/* A cell of the fields: its sums, what is told from them, and both on their way to the disk. */
+#define FIELD_CELL_BYTES 272.0
+/* Beside the sphere-steps, s: of a run, of a step, and of a cell of the fields. They count where spheres are few. */
+#define RUN_SECONDS 0.05
+#define STEP_SECONDS 4.5e-7
+#define FIELD_CELL_SECONDS 2.5e-6
 
-static double smallest_diameter(const dem_drum_definition *drum)
+/* diameter: m, of the mean volume. */
+static double interface_numbers(const dem_drum_definition *drum, double spheres, double diameter)
 {
-    double diameter = NAN;
-    for (size_t s = 0; s < drum->species_count; s++) diameter = fmin(diameter, dem_species_diameter(&drum->species[s]));
-    return diameter;
+    const double columns = FRAME_NUMBERS_PER_DIAMETER * drum->diameter / diameter;
+    const double of_sphere = FRAME_NUMBERS_PER_DIAMETER * (dem_largest_sphere(drum) + diameter) / diameter + 2.0;
+    return fmin(columns, 2.0 * spheres * of_sphere);
 }
 
 static double lining_spheres(const dem_drum_definition *drum)
@@ -36,8 +44,9 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
 {
     const dem_drum_definition *drum = &spec->drum;
     const double particles = (double)drum->particle_count, spheres = particles * drum_spheres_a_particle(drum);
-    const double frame_bytes =
-        sizeof(double) * (FRAME_NUMBERS + FRAME_NUMBERS_PER_DIAMETER * drum->diameter / smallest_diameter(drum));
+    const double diameter = cbrt(6.0 / DEM_PI * dem_mean_volume(drum->species, drum->species_count));
+    const double side = dem_field_cells(drum->diameter, diameter), field_cells = side * side;
+    const double frame_bytes = sizeof(double) * (FRAME_NUMBERS + interface_numbers(drum, spheres, diameter));
 
     job_estimate estimate = {
         .particles = particles,
@@ -54,9 +63,10 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
                                         .rolling_friction = dem_has_rolling_friction(drum),
                                         .in_double = spec->inputs.precision > 0,
                                         .threads = drum->threads };
-    estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &estimate.load);
+    estimate.wall_seconds = RUN_SECONDS + FIELD_CELL_SECONDS * field_cells
+                            + estimate.steps * (STEP_SECONDS + calibration_seconds_a_step(machine, &estimate.load));
     const double frames = frame_bytes * spec->duration / spec->sample_interval;
-    estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum)) + frames;
+    estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum)) + FIELD_CELL_BYTES * field_cells + frames;
     estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames);
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;

@@ -28,12 +28,11 @@ enum cell_sum {
 /* Before the cells: frames (the table's first number, which whoever keeps it may read). */
 enum { HEADER = 1 };
 
-enum { CELLS_A_DIAMETER = 2, POINTS_A_CELL = 4, MOST_CELLS = 512 };
+enum { POINTS_A_CELL = 4 };
 
 size_t dem_fields_cells(const dem_scene *scene)
 {
-    const double cells = ceil(2 * scene->drum.radius / (mean_diameter(scene) / CELLS_A_DIAMETER) - 1e-9);
-    return (size_t)fmin(cells, MOST_CELLS);
+    return (size_t)dem_field_cells(2 * scene->drum.radius, mean_diameter(scene));
 }
 
 size_t dem_fields_size(const dem_scene *scene)

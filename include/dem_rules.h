@@ -193,8 +193,14 @@ static inline double dem_settling_time_estimate(double drum_diameter, double gra
     return 1.8 * sqrt(drum_diameter / gravity);
 }
 
-/* Resident memory of a run, bytes. */
-static inline double dem_memory_estimate(double particles) { return 20e6 + 1500.0 * particles; }
+/* Resident memory of a run, bytes, without its tables of results: from drums of 1 to 20,000 spheres. */
+static inline double dem_memory_estimate(double sphere_count) { return 15.7e6 + 850.0 * sphere_count; }
+
+/* Cells a side of a drum's fields: half a mean diameter wide, or wider where there would be more than 512. */
+static inline double dem_field_cells(double drum_diameter, double mean_diameter)
+{
+    return fmin(ceil(2.0 * drum_diameter / mean_diameter - 1e-9), 512.0);
+}
 
 /* Of particles, walls or plate: then every contact carries a moment. */
 static inline bool dem_has_rolling_friction(const dem_drum_definition *d)
