@@ -7,7 +7,7 @@ defined=$(nm --defined-only "$build"/core/*/libdem.a | awk 'NF == 3 {print $3}' 
 outside=$(printf '%s\n' "$undefined" | grep -vxF "$defined" | grep -vE '^(GOMP_|omp_)' |
   grep -vxE '__(asan|ubsan|tsan|stack_chk|sanitizer|popcount)_?.*|_GLOBAL_OFFSET_TABLE_' |
   grep -vxE 'acos|atan2?|cbrt|ceil|cos|exp|floor|fmaf?|fmaxf?|fminf?|hypot|ilogb|log|pow|remainder|rint|sin|sincos|sqrt|tan|trunc' |
-  grep -vxE 'aligned_alloc|madvise|mallopt|malloc|calloc|free|memcpy|memmove|memset|memcmp|qsort|strcmp|sched_yield|__assert_fail')
+  grep -vxE 'aligned_alloc|madvise|mallopt|malloc|calloc|realloc|free|memcpy|memmove|memset|memcmp|qsort|strcmp|sched_yield|__assert_fail')
 printed=$(printf '%s\n' "$undefined" | grep -xE 'f?printf|puts|fopen|open|read|write|exit|abort|time|clock_gettime|socket')
 status=0
 if [ -n "$outside$printed" ]; then
