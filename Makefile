@@ -1,6 +1,6 @@
 # reposed: virtual rotary-drum tests. `make help` lists the targets.
 
-PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev
+PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
@@ -99,7 +99,7 @@ $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
 	$(SAY) link $@
-	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lm
+	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lz -lm
 # Changes when ISA or DOUBLE does, so that what is built for one is not taken for the other.
 $(BUILD)/variant: FORCE
 	@mkdir -p $(@D)
@@ -115,7 +115,7 @@ $(BUILD)/tests/unit/%: tests/unit/%.c $(DEM) $(BUILD)/libapi.a $(DAEMON_PARTS) $
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
-	  $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lm -o $@
+	  $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lz -lm -o $@
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
 define variant_tests

@@ -4,6 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "http_compress.h"
+
 enum { READ_AT_ONCE = 32 << 10, MOST_PIECE_BYTES = 4 << 20 };
 
 /* --- headers --- */
@@ -84,6 +86,20 @@ static struct MHD_Response *reply_in_pieces(http_response *response)
     return reply;
 }
 
+/* The same answer compressed is other bytes: its tag is then a weak one, and so is that of a client which has it already. */
+static void weaken_etag(http_response *response)
+{
+    char strong[sizeof response->etag];
+    memcpy(strong, response->etag, sizeof strong);
+    if (*strong) snprintf(response->etag, sizeof response->etag, "W/%.*s", (int)sizeof strong - 3, strong);
+}
+
+static bool has_weak_etag(const http_request *request, const http_response *response)
+{
+    const char *at = request->if_none_match && *response->etag ? strstr(request->if_none_match, response->etag) : NULL;
+    return at && at - request->if_none_match >= 2 && strncmp(at - 2, "W/", 2) == 0;
+}
+
 static struct MHD_Response *reply_of(http_response *response)
 {
     if (response->pieces.context) return reply_in_pieces(response);
@@ -98,9 +114,17 @@ static struct MHD_Response *reply_of(http_response *response)
     return reply;
 }
 
-struct MHD_Response *http_reply_make(http_response *response)
+struct MHD_Response *http_reply_make(const http_request *request, http_response *response)
 {
-    struct MHD_Response *reply = reply_of(response);
-    if (reply) add_headers(reply, response);
+    const bool compressed = http_compress_is_wanted(request, response);
+    struct MHD_Response *reply = compressed ? http_compress_reply(response) : reply_of(response);
+    if (!reply) return NULL;
+    if (compressed || (response->status == 304 && has_weak_etag(request, response))) weaken_etag(response);
+    if (compressed) {
+        response->accept_ranges = NULL; /* of the file as it is */
+        add_header(reply, "Content-Encoding", "gzip");
+    }
+    if (response->status == 304 || http_compress_is_text(response)) add_header(reply, "Vary", "Accept-Encoding");
+    add_headers(reply, response);
     return reply;
 }

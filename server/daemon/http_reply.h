@@ -1,4 +1,5 @@
-/* A handler's answer as the HTTP library sends it: from memory, from a file, or in pieces. */
+/* A handler's answer as the HTTP library sends it: from memory, from a file, or in pieces; compressed where the client
+ * takes that. */
 #ifndef HTTP_REPLY_H
 #define HTTP_REPLY_H
 
@@ -7,6 +8,6 @@
 #include "http_request.h"
 
 /* Takes body, file and pieces out of the response. NULL: no memory. */
-struct MHD_Response *http_reply_make(http_response *response);
+struct MHD_Response *http_reply_make(const http_request *request, http_response *response);
 
 #endif

@@ -59,7 +59,7 @@ static enum MHD_Result send_response(http_exchange *exchange)
 {
     http_response *response = &exchange->response;
     hold_answer(exchange);
-    struct MHD_Response *reply = http_reply_make(response);
+    struct MHD_Response *reply = http_reply_make(&exchange->request, response);
     if (!reply) return MHD_NO;
     metrics_count(&exchange->server->metrics, exchange->route, response->status, exchange->worked);
     if (response->status >= 500) log_line("%s %s: answered %d", exchange->request.method, exchange->request.path, response->status);
