@@ -67,7 +67,8 @@ typedef struct drum_inputs {
     double share_by;                                   /* a share_basis */
     double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
     double contact_law, friction, rolling_friction, tangential_stiffness_ratio;
-    double restitution, unloading_slope;               /* one of the two */
+    double restitution, unloading_slope; /* one of the two */
+    double latch_damping;
     double unloading;                                  /* 0: constant, 1: variable */
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
     double poissons_ratio;

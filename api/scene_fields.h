@@ -60,7 +60,7 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
     { SPEC_CONTACT, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(rolling_friction), \
       .meaning = "coefficient of rolling friction between particles: a contact bears a moment of it times the normal force " \
                  "times the effective radius. Default: none" }, \
-    { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.3, 1.0), .fallback = 0.8, \
+    { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.1, 1.0), .fallback = 0.8, \
       .excludes = "unloading_slope", AT(restitution), \
       .meaning = "coefficient of normal restitution; with variable unloading: of the hardest impact expected" }, \
     { SPEC_CONTACT, "unloading", FIELD_CHOICE, .unit = "", .choices = unloading_choices, AT(unloading), \
@@ -70,6 +70,9 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
       .excludes = "restitution", AT(unloading_slope), \
       .meaning = "S of variable unloading, instead of restitution. Default: such that the hardest impact expected " \
                  "has restitution" }, \
+    { SPEC_CONTACT, "latch_damping", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.3, AT(latch_damping), \
+      .meaning = "of walton-braun: share of critical damping of the unloading spring while an overlap grows back to one that " \
+                 "it had before. Piles come to rest by it; a collision by itself has none of it. 0: none" }, \
     { SPEC_CONTACT, "tangential_stiffness_ratio", FIELD_REAL, .unit = "", RANGE(0.05, 1.5), .fallback = 0.8, \
       AT(tangential_stiffness_ratio), .meaning = "initial tangential over normal loading stiffness" }, \
     { SPEC_CONTACT, "maximum_overlap", FIELD_REAL, .unit = "", RANGE(0.0005, 0.05), .fallback = 0.01, .excludes = "stiffness", \

@@ -16,8 +16,8 @@
 #define MOST_SNAPSHOT_BYTES 1e12
 #define MOST_SAMPLES 2e5
 #define MOST_SHARE_ERROR 1.000001e-4 /* of the sum of shares, which are often given in four digits */
-#define LEAST_RESTITUTION 0.3 /* as restitution's own range has it */
-#define MOST_OVERLAP 0.25     /* of the smallest diameter: beyond half a radius a run is stopped */
+#define LEAST_RESTITUTION 0.1        /* as restitution's own range has it */
+#define MOST_OVERLAP 0.25            /* of the smallest diameter: beyond half a radius a run is stopped */
 
 double scene_of_species(const dem_drum_definition *scene, double (*number)(const dem_species *), bool largest)
 {
@@ -111,6 +111,7 @@ typedef struct collision {
     double heaviest, lightest; /* kg; the lightest that a contact can move */
     double smallest, largest;  /* m, diameters of spheres, also those of clusters */
     double speed;              /* m/s */
+    double fastest;            /* m/s, that or what two particles of the start can meet at: the step must do for it */
 } collision;
 
 static void check_unloading(const drum_inputs *inputs, problem_list *problems)
@@ -144,6 +145,14 @@ static void derive_unloading(const drum_inputs *inputs, const collision *worst, 
             inputs->unloading_slope, scene->contact.restitution, most, LEAST_RESTITUTION);
 }
 
+/* Of the fastest impact; with variable unloading that may be another than the one that restitution is of. */
+static double least_restitution(const dem_contact_parameters *contact, const collision *worst)
+{
+    if (contact->unloading_slope == 0.0 || !(worst->fastest > worst->speed)) return contact->restitution;
+    const double overlap = worst->fastest * sqrt(worst->heaviest / contact->stiffness);
+    return 1.0 / sqrt(1.0 + contact->unloading_slope * overlap);
+}
+
 /* Loading stiffness K1, and from it the time step. Returns the largest overlap expected, as a share of the smallest diameter. */
 static double derive_linear(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
 {
@@ -158,7 +167,11 @@ static double derive_linear(const drum_inputs *inputs, const collision *worst, d
             ? inputs->stiffness
             : dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest);
     if (inputs->unloading == 1.0 && scene->contact.law == DEM_WALTON_BRAUN) derive_unloading(inputs, worst, scene, problems);
-    scene->time_step = dem_time_step(scene->contact.stiffness, worst->lightest, scene->contact.restitution);
+    if (scene->contact.law == DEM_SPRING_DASHPOT)
+        scene->time_step = dem_time_step(scene->contact.stiffness, worst->lightest, scene->contact.restitution);
+    else
+        scene->time_step =
+            dem_latching_time_step(scene->contact.stiffness, worst->lightest, least_restitution(&scene->contact, worst));
     return worst->speed * sqrt(worst->heaviest / scene->contact.stiffness) / worst->smallest;
 }
 
@@ -181,8 +194,21 @@ static double derive_hertzian(const drum_inputs *inputs, const collision *worst,
     const double overlap = worst->smallest * MOST_OVERLAP * pow(least / (effective * plane_strain), 0.4);
     scene->contact.particle = scene->contact.wall = (dem_elasticity){ effective * plane_strain, inputs->poissons_ratio };
     scene->contact.stiffness = 4.0 / 3.0 * effective * sqrt(radius * overlap);
-    scene->time_step = dem_hertz_time_step(effective, worst->lightest, 0.25 * worst->smallest, worst->speed);
+    scene->time_step = dem_hertz_time_step(effective, worst->lightest, 0.25 * worst->smallest, worst->fastest);
     return overlap / worst->smallest;
+}
+
+/* Sum of the two largest speeds, m/s. */
+static double fastest_meeting(const start_inputs *start)
+{
+    double first = 0.0, second = 0.0;
+    for (size_t k = 0; k < start->particle_count; k++) {
+        const double *v = start->particles[k].velocity, speed = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+        if (!(speed > second)) continue;
+        second = fmin(speed, first);
+        first = fmax(speed, first);
+    }
+    return first + second;
 }
 
 double scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems)
@@ -192,10 +218,13 @@ double scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_
     const collision worst = { scene_of_species(scene, dem_species_mass, true),
                               scene_of_species(scene, dem_species_contact_mass, false),
                               scene_of_species(scene, dem_species_smallest_sphere, false),
-                              scene_of_species(scene, dem_species_largest_sphere, true), impact_speed };
+                              scene_of_species(scene, dem_species_largest_sphere, true),
+                              impact_speed,
+                              fmax(impact_speed, fastest_meeting(&inputs->start)) };
     scene->contact = (dem_contact_parameters){
         .law = law,
         .restitution = inputs->restitution,
+        .latch_damping = inputs->latch_damping,
         .friction = inputs->friction,
         .wall_friction = inputs->wall_friction,
         .tangential_stiffness_ratio = inputs->tangential_stiffness_ratio,

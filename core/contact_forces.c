@@ -116,7 +116,7 @@ WIDE_INLINE wide cross(const wide a[3], const wide b[3], int c)
 
 /* ds = (v_r - (v_r.n) n) factor, v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n, r = R - overlap/2. radius: R of both
  * ends; NULL: they may differ. */
-WIDE_INLINE void displacements(contact_block *restrict block, const real *restrict radius, double factor, bool is_damped)
+WIDE_INLINE void displacements(contact_block *restrict block, const real *restrict radius, double factor)
 {
     const wide times = wide_all((real)factor), half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -133,7 +133,7 @@ WIDE_INLINE void displacements(contact_block *restrict block, const real *restri
             for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
         }
         const wide parting = wide_dot(v_r, n);
-        if (is_damped) wide_store(block->parting + k, parting);
+        wide_store(block->parting + k, parting);
         for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_minus_product(v_r[c], parting, n[c]) * times);
     }
 }
@@ -174,8 +174,8 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     const real *const first_radius = list->first_radius + constants_of(list, start);
     *largest = normals(block, *largest);
     const double factor = is_damped ? dt : contact->stiffness * contact->tangential_stiffness_ratio * dt;
-    if (is_wall || are_alike(list)) displacements(block, first_radius, factor, is_damped);
-    else displacements(block, NULL, factor, is_damped);
+    if (is_wall || are_alike(list)) displacements(block, first_radius, factor);
+    else displacements(block, NULL, factor);
     if (!is_damped) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, dt);

@@ -28,29 +28,38 @@ static inline void contact_history_turn(contact_history *history)
     }
 }
 
+/* Normal force, N, of a latching spring in either form below. Without damping, a contact that is at rest swings below its latch
+ * for ever, and friction is cut whenever N comes to zero: so an overlap that was larger before meets a dashpot while it grows
+ * again (after Luding 2008, who damps throughout). A collision by itself never does, and keeps its restitution.
+ * latch: alpha_0 of a contact that was never pressed harder, m; closing: m/s, positive while the overlap grows; c_n: N s/m. */
+static inline real latching_force(real alpha, real latch, real latched, real closing, real k_1, real k_2, real c_n)
+{
+    const real spring = lesser(k_1 * alpha, k_2 * (alpha - latched));
+    const real damped = latched > latch ? fused(c_n, greater(closing, 0), spring) : spring;
+    return alpha > 0 ? greater(damped, 0) : 0;
+}
+
 /* Normal force, N, of the latching spring: K1 when loading beyond all before, K2 on unloading and reloading
  * below it; never attractive. An isolated collision has e = sqrt(K1/K2).
  * alpha: overlap, m (negative: apart); alpha_0: as in contact_history, updated; forgotten when they part. */
-static inline real normal_force(real alpha, real k_1, real k_2, real *alpha_0)
+static inline real normal_force(real alpha, real closing, real k_1, real k_2, real c_n, real *alpha_0)
 {
-    const real latched = greater(*alpha_0, alpha * (1 - k_1 / k_2));
+    const real latch = alpha * (1 - k_1 / k_2), latched = greater(*alpha_0, latch);
     *alpha_0 = alpha > 0 ? latched : 0;
-    const real loading = k_1 * alpha, unloading = k_2 * (alpha - latched);
-    return greater(lesser(loading, unloading), 0);
+    return latching_force(alpha, latch, latched, closing, k_1, k_2, c_n);
 }
 
 /* The same where the unloading branch steepens with the load that the contact has borne: K2 = K1 + S N_max (Walton &
  * Braun 1986), so that an isolated collision at speed v has e = sqrt(w/(S v + w)), w = sqrt(K1/m). From N_max = K1 alpha_max
  * follows alpha_0 = S alpha_max^2/(1 + S alpha_max), and back from q = S alpha_0, K2/K1 = 1 + (q + sqrt(q^2 + 4 q))/2:
  * alpha_0 alone remembers both. slope: S, 1/m. */
-static inline real normal_force_of_slope(real alpha, real k_1, real slope, real *alpha_0)
+static inline real normal_force_of_slope(real alpha, real closing, real k_1, real slope, real c_n, real *alpha_0)
 {
     const real pressed = greater(alpha, 0), s = slope * pressed;
-    const real latched = greater(*alpha_0, s * pressed / (1 + s));
+    const real latch = s * pressed / (1 + s), latched = greater(*alpha_0, latch);
     *alpha_0 = alpha > 0 ? latched : 0;
     const real q = slope * latched, root2 = greater(q * (q + 4), TINY_SQUARE), steepness = q + root2 * inverse_root(root2);
-    const real loading = k_1 * alpha, unloading = fused(k_1 / 2, steepness, k_1) * (alpha - latched);
-    return greater(lesser(loading, unloading), 0);
+    return latching_force(alpha, latch, latched, closing, k_1, fused(k_1 / 2, steepness, k_1), c_n);
 }
 
 /* Smallest 1 -+ t that a cube root sees: at full slip the stiffness falls to 1/100 of K_T0, not to zero. */
@@ -104,12 +113,25 @@ typedef struct damped_law {
     real k_n;     /* N/m; Hertz-Mindlin: Pa, E* */
     real k_t;     /* N/m; Hertz-Mindlin: Pa, G* */
     real damping; /* 2 zeta sqrt(k_n); Hertz-Mindlin: 2 sqrt(5/6) zeta sqrt(2 E*) */
+    real lag;     /* kg^(1/2); Hertz-Mindlin: kg^(1/2) m^(-1/4): a share of damping dt/2 */
+    real edge[2]; /* of at_edge: the line's value at 0 and its slope */
 } damped_law;
 
-/* Linear: c_n = 2 zeta sqrt(m K1), c_t = c_n/2. root_mass: kg^(1/2), root of the effective mass. */
+/* What those shares are for linear springs and for Hertz-Mindlin, of which restitution is right at DEM_STEPS_PER_CONTACT and
+ * more (core/NUMERICS.md, "Contact"). */
+#define LINEAR_LAG 0.505
+#define HERTZIAN_LAG 0.467
+/* clang-format off */
+#define LINEAR_EDGE { (real)0.5, 1 }
+#define HERTZIAN_EDGE { (real)0.6, (real)0.74 }
+/* clang-format on */
+
+/* Linear: c_n = 2 zeta sqrt(m K1), c_t = c_n/2. root_mass: kg^(1/2), root of the effective mass.
+ * The velocity at hand is half a step old: c_n v(n-1/2) = c_n v(n) + (c_n dt/2 m) N. Restitution is right to second order
+ * with c_n (1 - z/2) instead, z = c_n dt/(2 m), which is damping (root_mass - lag). */
 static inline damped_springs linear_springs(damped_law law, real alpha, real root_mass)
 {
-    const real c_n = law.damping * root_mass;
+    const real c_n = law.damping * (root_mass - law.lag);
     return (damped_springs){ law.k_n * alpha, c_n, law.k_t, c_n / 2 };
 }
 
@@ -119,8 +141,18 @@ static inline damped_springs linear_springs(damped_law law, real alpha, real roo
 static inline damped_springs hertz_mindlin_springs(damped_law law, real alpha, real root_mass, real radius)
 {
     const real aa = radius * alpha, y = inverse_fourth_root(aa), a = aa * (y * y), root_a = a * y;
-    const real c_n = law.damping * root_a * root_mass;
+    const real c_n = law.damping * root_a * fused(-law.lag, root_a, root_mass);
     return (damped_springs){ (real)(4.0 / 3.0) * law.k_n * a * alpha, c_n, 8 * law.k_t * a, c_n / 2 };
+}
+
+/* Of a contact that began within the last step, or ends within the next: it is there for half a step and for the share of
+ * alpha in the way of a step, not for a whole one, and its dashpots likewise; Hertz-Mindlin: the integral of alpha^(1/4) over
+ * that time, as a line through it. v: along the normal, m/s; per_dt: 1/dt, 1/s. */
+static inline damped_springs at_edge(damped_springs springs, damped_law law, real alpha, real v, real per_dt)
+{
+    const real in_one_step = greater(alpha, 0) * per_dt, size = greater(v, -v);
+    const real share = size > in_one_step ? fused(law.edge[1], in_one_step / size, law.edge[0]) : 1;
+    return (damped_springs){ springs.f_n, springs.c_n * share, springs.k_t, springs.c_t * share };
 }
 
 /* Normal force of spring and dashpot; 0 apart. closing: m/s, positive while the overlap grows. The dashpot may pull at

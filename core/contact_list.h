@@ -48,8 +48,15 @@ static inline size_t constants_of(const contact_list *list, size_t start)
     return list->constants == CONSTANTS_OF_ALL ? 0 : start;
 }
 
-/* Of a damped law: what its springs and dashpots are made of, between particles or to a wall (law_damped_springs.c). */
-damped_law damped_law_of(const dem_contact_parameters *contact, bool is_wall);
+/* Of a damped law: what its springs and dashpots are made of at a time step of dt, between particles or to a wall
+ * (law_damped_springs.c). */
+damped_law damped_law_of(const dem_contact_parameters *contact, bool is_wall, double dt);
+/* Of Walton & Braun's: c_n of an effective mass of 1 kg, 2 zeta sqrt(K2); with variable unloading, K2 is that of the hardest
+ * impact. */
+static inline real latch_damping_of(const dem_contact_parameters *c)
+{
+    return (real)(2 * c->latch_damping * sqrt(c->stiffness) / c->restitution);
+}
 dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants);
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */

@@ -10,35 +10,58 @@ static double damping_ratio(double restitution)
 }
 
 /* 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)). */
-static damped_law law_of_materials(dem_elasticity a, dem_elasticity b, double restitution)
+static damped_law law_of_materials(dem_elasticity a, dem_elasticity b, double restitution, double dt)
 {
     const double e_star = 1
                           / ((1 - a.poissons_ratio * a.poissons_ratio) / a.youngs_modulus
                              + (1 - b.poissons_ratio * b.poissons_ratio) / b.youngs_modulus);
     const double shear = 2 * (2 - a.poissons_ratio) * (1 + a.poissons_ratio) / a.youngs_modulus
                          + 2 * (2 - b.poissons_ratio) * (1 + b.poissons_ratio) / b.youngs_modulus;
-    return (damped_law){ (real)e_star, (real)(1 / shear),
-                         (real)(2 * sqrt(5.0 / 6.0) * damping_ratio(restitution) * sqrt(2 * e_star)) };
+    const double damping = 2 * sqrt(5.0 / 6.0) * damping_ratio(restitution) * sqrt(2 * e_star);
+    return (damped_law){ (real)e_star, (real)(1 / shear), (real)damping, (real)(HERTZIAN_LAG * damping * dt / 2), HERTZIAN_EDGE };
 }
 
-damped_law damped_law_of(const dem_contact_parameters *c, bool is_wall)
+damped_law damped_law_of(const dem_contact_parameters *c, bool is_wall, double dt)
 {
-    if (c->law == DEM_HERTZ_MINDLIN) return law_of_materials(c->particle, is_wall ? c->wall : c->particle, c->restitution);
-    return (damped_law){ (real)c->stiffness, (real)(c->stiffness * c->tangential_stiffness_ratio),
-                         (real)(2 * damping_ratio(c->restitution) * sqrt(c->stiffness)) };
+    if (c->law == DEM_HERTZ_MINDLIN) return law_of_materials(c->particle, is_wall ? c->wall : c->particle, c->restitution, dt);
+    const double damping = 2 * damping_ratio(c->restitution) * sqrt(c->stiffness);
+    return (damped_law){ (real)c->stiffness, (real)(c->stiffness * c->tangential_stiffness_ratio), (real)damping,
+                         (real)(LINEAR_LAG * damping * dt / 2), LINEAR_EDGE };
 }
 
-/* What friction needs. spring: N; half_per_dt: 1/(2 dt), 1/s. */
+/* The share of at_edge of contact_law.h, LANES at a time. */
+WIDE_INLINE wide edge_share(wide alpha, wide v, const wide edge[2], wide per_dt)
+{
+    const wide in_one_step = wide_greater(alpha, wide_all(0)) * per_dt, size = wide_greater(v, -v);
+    return wide_select(wide_exceeds(size, in_one_step), wide_fused(edge[1], in_one_step / size, edge[0]), wide_all(1));
+}
+
+/* What all contacts of a block share. */
+typedef struct shared_numbers {
+    wide damping, lag, edge[2], per_dt, half_per_dt;
+} shared_numbers;
+
+static shared_numbers shared_by_all(damped_law law, real inverse_time_step)
+{
+    return (shared_numbers){ wide_all(law.damping),
+                             wide_all(law.lag),
+                             { wide_all(law.edge[0]), wide_all(law.edge[1]) },
+                             wide_all(inverse_time_step),
+                             wide_all(inverse_time_step / 2) };
+}
+
+/* What friction needs. spring: N. */
 WIDE_INLINE void store_normal(contact_block *restrict block, int k, wide spring, wide c_n, wide mu, wide k_t, wide compliance,
-                              wide half_per_dt)
+                              const shared_numbers *all)
 {
-    const wide zero = wide_all(0), damped = wide_minus_product(spring, c_n, wide_load(block->parting + k));
-    const wide f_n = wide_select(wide_exceeds(wide_load(block->overlap + k), zero), damped, zero), mu_n = mu * f_n;
+    const wide zero = wide_all(0), alpha = wide_load(block->overlap + k);
+    const wide parting = wide_load(block->parting + k), c = c_n * edge_share(alpha, parting, all->edge, all->per_dt);
+    const wide f_n = wide_select(wide_exceeds(alpha, zero), wide_minus_product(spring, c, parting), zero), mu_n = mu * f_n;
     wide_store(block->f_n + k, f_n);
     wide_store(block->mu_n + k, wide_greater(mu_n, -mu_n));
     wide_store(block->stored + k, k_t);
     wide_store(block->compliance + k, compliance);
-    wide_store(block->s_p + k, c_n * half_per_dt);
+    wide_store(block->s_p + k, c * all->half_per_dt);
 }
 
 /* linear_springs of contact_law.h, LANES at a time, and the force they make. */
@@ -46,10 +69,10 @@ static void linear_normals(contact_block *restrict block, const real *restrict r
                            damped_law law, real inverse_time_step)
 {
     const wide k_n = wide_all(law.k_n), k_t = wide_all(law.k_t), compliance = wide_all(1 / law.k_t);
-    const wide damping = wide_all(law.damping), half_per_dt = wide_all(inverse_time_step / 2);
+    const shared_numbers all = shared_by_all(law, inverse_time_step);
     for (int k = 0; k < BLOCK; k += LANES)
-        store_normal(block, k, k_n * wide_load(block->overlap + k), damping * wide_load(root_mass + k), wide_load(friction + k),
-                     k_t, compliance, half_per_dt);
+        store_normal(block, k, k_n * wide_load(block->overlap + k), all.damping * (wide_load(root_mass + k) - all.lag),
+                     wide_load(friction + k), k_t, compliance, &all);
 }
 
 /* hertz_mindlin_springs of contact_law.h, LANES at a time, and the force they make. */
@@ -58,13 +81,13 @@ static void hertz_mindlin_normals(contact_block *restrict block, const real *res
 {
     const wide four_thirds_e = wide_all((real)(4.0 / 3.0) * law.k_n), eight_g = wide_all(8 * law.k_t);
     const wide per_eight_g = wide_all(1 / (8 * law.k_t)), tiny = wide_all(TINY_SQUARE);
-    const wide damping = wide_all(law.damping), half_per_dt = wide_all(inverse_time_step / 2);
+    const shared_numbers all = shared_by_all(law, inverse_time_step);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide alpha = wide_load(block->overlap + k);
         const wide aa = wide_greater(wide_load(radius + k) * alpha, tiny); /* apart: what follows is not used */
         const wide y = wide_inverse_fourth_root(aa), inverse_a = y * y, a = aa * inverse_a, root_a = a * y;
-        store_normal(block, k, four_thirds_e * a * alpha, damping * root_a * wide_load(root_mass + k), wide_load(friction + k),
-                     eight_g * a, per_eight_g * inverse_a, half_per_dt);
+        const wide c_n = all.damping * root_a * wide_minus_product(wide_load(root_mass + k), all.lag, root_a);
+        store_normal(block, k, four_thirds_e * a * alpha, c_n, wide_load(friction + k), eight_g * a, per_eight_g * inverse_a, &all);
     }
 }
 

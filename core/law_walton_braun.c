@@ -1,31 +1,47 @@
 /* Walton & Braun's law of contact_law.h for a block of contacts, LANES at a time. */
 #include "contact_block.h"
 
+/* latching_force of contact_law.h, LANES at a time. */
+WIDE_INLINE void store_latching_force(contact_block *restrict block, int k, wide latch, wide latched, wide_mask touching, wide k_1,
+                                      wide k_2, wide minus_c_n)
+{
+    const wide zero = wide_all(0), alpha = wide_load(block->overlap + k);
+    const wide spring = wide_lesser(k_1 * alpha, k_2 * (alpha - latched));
+    const wide damped = wide_fused(minus_c_n, wide_lesser(wide_load(block->parting + k), zero), spring);
+    const wide f_n = wide_select(wide_exceeds(latched, latch), damped, spring);
+    wide_store(block->f_n + k, wide_select(touching, wide_greater(f_n, zero), zero));
+}
+
 /* normal_force of contact_law.h, LANES at a time. */
-static void normal_forces(contact_block *restrict block, real *restrict alpha_0, real stiffness, real unloading_stiffness)
+static void normal_forces(contact_block *restrict block, real *restrict alpha_0, const real *restrict root_mass, real stiffness,
+                          real unloading_stiffness, real damping)
 {
     const wide k_1 = wide_all(stiffness), k_2 = wide_all(unloading_stiffness), zero = wide_all(0);
-    const wide latch = wide_all(1 - stiffness / unloading_stiffness);
+    const wide share = wide_all(1 - stiffness / unloading_stiffness), minus_damping = wide_all(-damping);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide alpha = wide_load(block->overlap + k);
-        const wide latched = wide_greater(wide_load(alpha_0 + k), alpha * latch);
-        wide_store(alpha_0 + k, wide_select(wide_exceeds(alpha, zero), latched, zero));
-        wide_store(block->f_n + k, wide_greater(wide_lesser(k_1 * alpha, k_2 * (alpha - latched)), zero));
+        const wide latch = alpha * share, latched = wide_greater(wide_load(alpha_0 + k), latch);
+        const wide_mask touching = wide_exceeds(alpha, zero);
+        wide_store(alpha_0 + k, wide_select(touching, latched, zero));
+        store_latching_force(block, k, latch, latched, touching, k_1, k_2, minus_damping * wide_load(root_mass + k));
     }
 }
 
 /* normal_force_of_slope of contact_law.h, LANES at a time. */
-static void normal_forces_of_slope(contact_block *restrict block, real *restrict alpha_0, real stiffness, real unloading_slope)
+static void normal_forces_of_slope(contact_block *restrict block, real *restrict alpha_0, const real *restrict root_mass,
+                                   real stiffness, real unloading_slope, real damping)
 {
     const wide k_1 = wide_all(stiffness), half_k_1 = wide_all(stiffness / 2), slope = wide_all(unloading_slope);
     const wide zero = wide_all(0), one = wide_all(1), four = wide_all(4), tiny = wide_all(TINY_SQUARE);
+    const wide minus_damping = wide_all(-damping);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide alpha = wide_load(block->overlap + k), pressed = wide_greater(alpha, zero), s = slope * pressed;
-        const wide latched = wide_greater(wide_load(alpha_0 + k), s * pressed / (one + s));
-        wide_store(alpha_0 + k, wide_select(wide_exceeds(alpha, zero), latched, zero));
+        const wide latch = s * pressed / (one + s), latched = wide_greater(wide_load(alpha_0 + k), latch);
+        const wide_mask touching = wide_exceeds(alpha, zero);
+        wide_store(alpha_0 + k, wide_select(touching, latched, zero));
         const wide q = slope * latched, root2 = wide_greater(q * (q + four), tiny);
         const wide steepness = q + root2 * wide_inverse_root(root2), k_2 = wide_fused(half_k_1, steepness, k_1);
-        wide_store(block->f_n + k, wide_greater(wide_lesser(k_1 * alpha, k_2 * (alpha - latched)), zero));
+        store_latching_force(block, k, latch, latched, touching, k_1, k_2, minus_damping * wide_load(root_mass + k));
     }
 }
 
@@ -90,9 +106,10 @@ void contact_block_walton_braun(contact_block *block, contact_list *list, size_t
 {
     const double k_1 = contact->stiffness, k_2 = k_1 / (contact->restitution * contact->restitution);
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
+    const real damping = latch_damping_of(contact), *root_mass = list->root_mass + constants_of(list, start);
     if (contact->unloading_slope > 0)
-        normal_forces_of_slope(block, list->alpha_0 + start, (real)k_1, (real)contact->unloading_slope);
-    else normal_forces(block, list->alpha_0 + start, (real)k_1, (real)k_2);
+        normal_forces_of_slope(block, list->alpha_0 + start, root_mass, (real)k_1, (real)contact->unloading_slope, damping);
+    else normal_forces(block, list->alpha_0 + start, root_mass, (real)k_1, (real)k_2, damping);
     turn_friction(block, t_x, t_y, t_z, list->friction + constants_of(list, start));
     friction_stiffness(block, list->t_star + start);
     friction_forces(block, t_x, t_y, t_z);

@@ -34,8 +34,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_d
     for (int k = 0; k < 4; k++)
         enough = contact_list_init(all[k], has_rolling, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
     list->pairs.ends_differ = ends_differ;
-    list->pairs.damped = damped_law_of(&definition->contact, false);
-    list->walls.damped = damped_law_of(&definition->contact, true);
+    list->pairs.damped = damped_law_of(&definition->contact, false, definition->time_step);
+    list->walls.damped = damped_law_of(&definition->contact, true, definition->time_step);
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
     return DEM_NO_MEMORY;

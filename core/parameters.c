@@ -78,8 +78,8 @@ static dem_status parameters_check(const dem_drum_definition *d)
                 && is_positive(d->time_step) && d->particle_count > 0 && d->particle_count < INT32_MAX / 2 && d->threads >= 1
                 && d->species_count >= 1 && d->species_count <= DEM_MAXIMUM_SPECIES && d->corrector_passes >= 0;
     good = good && is_law(c) && c->unloading_slope >= 0 && isfinite(c->unloading_slope) && c->restitution > 0 && c->restitution <= 1
-           && is_not_negative(c->friction) && is_not_negative(c->wall_friction) && is_not_negative(c->rolling_friction)
-           && is_not_negative(c->wall_rolling_friction);
+           && is_not_negative(c->latch_damping) && is_not_negative(c->friction) && is_not_negative(c->wall_friction)
+           && is_not_negative(c->rolling_friction) && is_not_negative(c->wall_rolling_friction);
     double shares = 0.0, largest = 0.0;
     for (size_t k = 0; good && k < d->species_count; k++) {
         const dem_species *s = &d->species[k];

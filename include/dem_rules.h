@@ -163,10 +163,20 @@ static inline double dem_hertz_time_step(double effective_modulus, double lighte
     return 2.868 * pow(m * m / (radius * effective_modulus * effective_modulus * impact_speed), 0.2) / DEM_STEPS_PER_CONTACT;
 }
 
+/* Walton-Braun: below this restitution the unloading branch alone, e of the loading's time, sets the step: it is to have no
+ * fewer steps than here. */
+#define DEM_SHORTEST_UNLOADING 0.3
+
 /* Duration of a collision, t_c = (pi/2) sqrt(m_eff/K1) (1 + e), over DEM_STEPS_PER_CONTACT. */
 static inline double dem_time_step(double stiffness, double lightest_mass, double restitution)
 {
     return DEM_PI / 2.0 * sqrt(0.5 * lightest_mass / stiffness) * (1.0 + restitution) / DEM_STEPS_PER_CONTACT;
+}
+
+static inline double dem_latching_time_step(double stiffness, double lightest_mass, double restitution)
+{
+    const double step = dem_time_step(stiffness, lightest_mass, fmax(restitution, DEM_SHORTEST_UNLOADING));
+    return restitution < DEM_SHORTEST_UNLOADING ? step * restitution / DEM_SHORTEST_UNLOADING : step;
 }
 
 /* Share of a unit circle's area below the height y. */

@@ -63,12 +63,13 @@ typedef struct dem_elasticity {
 
 typedef struct dem_contact_parameters {
     dem_contact_law law;
-    double stiffness;                  /* K1, N/m, loading branch (Walton-Braun, spring-dashpot) */
-    dem_elasticity particle, wall;     /* Hertz-Mindlin; a lining is of the wall's material */
-    double restitution;                /* e = sqrt(K1/K2) */
-    double unloading_slope;            /* S, 1/m, Walton-Braun: K2 = K1 + S N_max; 0: K2 = K1/e^2, the same for all loads */
-    double friction;                   /* mu between particles */
-    double wall_friction;              /* mu_w, particle against the cylinder (drum, tube) or its lining */
+    double stiffness;              /* K1, N/m, loading branch (Walton-Braun, spring-dashpot) */
+    dem_elasticity particle, wall; /* Hertz-Mindlin; a lining is of the wall's material */
+    double restitution;            /* e = sqrt(K1/K2) */
+    double unloading_slope;        /* S, 1/m, Walton-Braun: K2 = K1 + S N_max; 0: K2 = K1/e^2, the same for all loads */
+    double latch_damping;          /* zeta, Walton-Braun: share of critical damping of K2 while an overlap below the latch grows */
+    double friction;               /* mu between particles */
+    double wall_friction;          /* mu_w, particle against the cylinder (drum, tube) or its lining */
     double tangential_stiffness_ratio; /* K_T0/K1 */
     double rolling_friction;           /* mu_r between particles: a contact bears a moment of mu_r R* N; 0: none */
     double wall_rolling_friction;      /* likewise, particle against all that is the container's but a plate */

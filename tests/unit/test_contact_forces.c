@@ -106,7 +106,7 @@ typedef struct answer {
 } answer;
 
 static answer scalar_answer(const questions *q, size_t p, const double radius[2], double touching,
-                            const dem_contact_parameters *law, double dt)
+                            const dem_contact_parameters *law, double effective_mass, double dt)
 {
     const double *x = q->position + 6 * p, *v = q->velocity + 6 * p, *w = q->spin + 6 * p, *memory = q->history + HISTORY_WIDTH * p;
     const double k_1 = law->stiffness, k_2 = k_1 / (law->restitution * law->restitution),
@@ -132,8 +132,9 @@ static answer scalar_answer(const questions *q, size_t p, const double radius[2]
     a.memory.t_star = (real)memory[HISTORY_T_STAR];
     a.memory.alpha_0 = (real)memory[HISTORY_ALPHA_0];
     const double slope = law->unloading_slope;
-    const double f_n = slope > 0 ? normal_force_of_slope((real)overlap, (real)k_1, (real)slope, &a.memory.alpha_0)
-                                 : normal_force((real)overlap, (real)k_1, (real)k_2, &a.memory.alpha_0),
+    const real c_n = (real)(2 * law->latch_damping * sqrt(k_2 * effective_mass)), alpha = (real)overlap, closing = (real)-v_n;
+    const double f_n = slope > 0 ? normal_force_of_slope(alpha, closing, (real)k_1, (real)slope, c_n, &a.memory.alpha_0)
+                                 : normal_force(alpha, closing, (real)k_1, (real)k_2, c_n, &a.memory.alpha_0),
                  mu_n = law->friction * f_n;
     const double t_before[3] = { a.memory.t[0], a.memory.t[1], a.memory.t[2] };
     const double moved[3] = { ds[0], ds[1], ds[2] }, s_p = scalar_product(t_before, moved);
@@ -148,7 +149,7 @@ static answer scalar_answer(const questions *q, size_t p, const double radius[2]
     cross(n, t_after, a.q);
     const double bent = slope * fmax(memory[HISTORY_ALPHA_0], (double)a.memory.alpha_0);
     a.steepest = slope > 0 ? k_1 * (1 + (bent + sqrt(bent * (bent + 4))) / 2) : k_2;
-    a.force_scale = k_2 * fabs(overlap) + sqrt(size2) + k_t * speed * dt;
+    a.force_scale = k_2 * fabs(overlap) + sqrt(size2) + k_t * speed * dt + (double)c_n * speed;
     return a;
 }
 
@@ -178,7 +179,8 @@ static void compare_round(const questions *q, dem_scene *scene, difference seen[
 
     for (size_t p = 0; p < PAIRS; p++) {
         const double radius[2] = { (double)scene->spheres.full_radius[2 * p], (double)scene->spheres.full_radius[2 * p + 1] };
-        const answer a = scalar_answer(q, p, radius, touching_distance(&scene->spheres, radius[0] + radius[1]), &d->contact, dt);
+        const answer a =
+            scalar_answer(q, p, radius, touching_distance(&scene->spheres, radius[0] + radius[1]), &d->contact, m / 2, dt);
         difference *worst = &seen[a.is_slipping ? FULL_SLIP : q->kind[p]];
         /* The overlap comes from places in units of 2^-32 of less than 8 diameters, the change of velocity is one of doubles. */
         const double place = sizeof(real) == sizeof(float) ? 8 * 0.004 / 4294967296.0 : 0.004 * DBL_EPSILON;
@@ -219,6 +221,7 @@ static void compare_many(double unloading_slope)
     d.diameter = 0.3;
     d.length = 0.15;
     d.contact.unloading_slope = unloading_slope;
+    d.contact.latch_damping = 0.3;
     dem_scene *scene = weightless_scene(&d);
     dice own = { 3 };
     difference seen[KINDS] = { { 0 } };

@@ -147,19 +147,23 @@ static double friction_stored(double t, double mu_n, double k_t0)
     return mu_n * mu_n / k_t0 * cbrt(one) * (0.6 * (one * cbrt(one * one) - 1) - 1.5 * (cbrt(one * one) - 1));
 }
 
-/* One contact: where from first to second, lever arms r_a and r_b, overlap; what it remembers after the step. */
+/* One contact: where from first to second, overlap; what it remembers after the step. slip: velocity of the first less that of
+ * the second, closing: of which, along n, in the half step before; m_eff: kg. */
 static void add_contact(contact_energy *sum, const dem_drum_definition *d, const double n[3], double alpha, const double *history,
-                        double mu, const double slip[3])
+                        double mu, const double slip[3], double closing, double m_eff)
 {
     const double k_1 = d->contact.stiffness, k_2 = k_1 / (d->contact.restitution * d->contact.restitution);
-    const double f_n = fmax(0, fmin(k_1 * alpha, k_2 * (alpha - history[HISTORY_ALPHA_0])));
+    const double spring = fmin(k_1 * alpha, k_2 * (alpha - history[HISTORY_ALPHA_0]));
+    const bool is_below = history[HISTORY_ALPHA_0] > (1 + 4 * ROUNDING) * alpha * (1 - k_1 / k_2); /* the largest overlap */
+    const double dashpot = is_below ? 2 * d->contact.latch_damping * sqrt(k_2 * m_eff) * fmax(closing, 0) : 0;
+    const double f_n = fmax(0, spring + dashpot);
     double power = 0, t2 = 0; /* on the first: (T - N n).(v_first - v_second) */
     for (int c = 0; c < 3; c++) {
         power += (history[HISTORY_T + c] - f_n * n[c]) * slip[c];
         t2 += history[HISTORY_T + c] * history[HISTORY_T + c];
     }
     sum->into -= power * d->time_step;
-    sum->stored += f_n * f_n / (2 * k_2);
+    sum->stored += fmax(0, spring) * fmax(0, spring) / (2 * k_2);
     if (f_n > 0) sum->stored += friction_stored(sqrt(t2), mu * f_n, k_1 * d->contact.tangential_stiffness_ratio);
 }
 
@@ -173,7 +177,8 @@ static void point_velocity(const double *v, const double *w, const double n[3], 
 static contact_energy energy_of_contacts(dem_scene *scene, const dem_drum_definition *d, const look *before, const look *after)
 {
     const size_t n = dem_scene_sphere_count(scene);
-    const double r = 0.5 * (double)(real)d->species[0].diameter, wall = 0.5 * d->diameter, rate = d->rotation_rate;
+    const double m = species_mass(&d->species[0]), r = 0.5 * (double)(real)d->species[0].diameter, wall = 0.5 * d->diameter,
+                 rate = d->rotation_rate;
     look mean = look_create(n);
     for (size_t k = 0; k < 3 * n; k++) {
         mean.v[k] = 0.5 * (before->v[k] + after->v[k]);
@@ -186,7 +191,7 @@ static contact_energy energy_of_contacts(dem_scene *scene, const dem_drum_defini
     const double *history = state_array(&state, "pair_history")->data;
     for (size_t k = 0; k < pairs->rows; k++, history += HISTORY_WIDTH) {
         const int32_t i = ((const int32_t *)pairs->data)[2 * k], j = ((const int32_t *)pairs->data)[2 * k + 1];
-        double normal[3], distance2 = 0, a[3], b[3], slip[3];
+        double normal[3], distance2 = 0, a[3], b[3], slip[3], closing = 0;
         for (int c = 0; c < 3; c++) normal[c] = before->x[3 * j + c] - before->x[3 * i + c];
         normal[2] = remainder(normal[2], d->length);
         for (int c = 0; c < 3; c++) distance2 += normal[c] * normal[c];
@@ -195,8 +200,11 @@ static contact_energy energy_of_contacts(dem_scene *scene, const dem_drum_defini
         for (int c = 0; c < 3; c++) normal[c] /= distance;
         point_velocity(mean.v + 3 * i, mean.w + 3 * i, normal, r - alpha / 2, a);
         point_velocity(mean.v + 3 * j, mean.w + 3 * j, normal, alpha / 2 - r, b);
-        for (int c = 0; c < 3; c++) slip[c] = a[c] - b[c];
-        add_contact(&sum, d, normal, alpha, history, d->contact.friction, slip);
+        for (int c = 0; c < 3; c++) {
+            slip[c] = a[c] - b[c];
+            closing += (before->v[3 * i + c] - before->v[3 * j + c]) * normal[c];
+        }
+        add_contact(&sum, d, normal, alpha, history, d->contact.friction, slip, closing, m / 2);
     }
     history = state_array(&state, "wall_history")->data;
     for (size_t k = 0; k < walls->rows; k++, history += HISTORY_WIDTH) {
@@ -207,7 +215,8 @@ static contact_energy energy_of_contacts(dem_scene *scene, const dem_drum_defini
         double a[3];
         point_velocity(mean.v + 3 * i, mean.w + 3 * i, normal, r - alpha / 2, a);
         const double speed = rate * (wall + alpha / 2), slip[3] = { a[0] + speed * normal[1], a[1] - speed * normal[0], a[2] };
-        add_contact(&sum, d, normal, alpha, history, d->contact.wall_friction, slip);
+        const double closing = before->v[3 * i] * normal[0] + before->v[3 * i + 1] * normal[1];
+        add_contact(&sum, d, normal, alpha, history, d->contact.wall_friction, slip, closing, m);
     }
     dem_state_clear(&state);
     free(mean.x);
@@ -223,6 +232,7 @@ static void the_drums_work_is_in_the_particles_or_in_the_contacts(void **unused)
     (void)unused;
     dem_drum_definition d = small_drum();
     d.rotation_rate = 10;
+    d.contact.latch_damping = 0.3;
     follow_rules(&d, 0.03);
     dem_scene *scene = turning_drum(&d);
     look before = look_create(dem_scene_sphere_count(scene)), after = look_create(dem_scene_sphere_count(scene));
