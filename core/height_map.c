@@ -25,12 +25,23 @@ static void add_sphere(height_map *map, const double x[3], double radius)
         }
 }
 
-dem_status height_map_init(height_map *map, const dem_mound *mound, double half_width)
+double height_map_reach(const dem_mound *mound)
+{
+    double reach = 0.0;
+    for (size_t i = 0; i < mound->count; i++)
+        reach = fmax(reach, hypot(mound->position[3 * i], mound->position[3 * i + 1]) + mound->radius[i]);
+    return reach;
+}
+
+/* Cells lie where they would if all were kept, so that what is measured is the same. */
+dem_status height_map_init(height_map *map, const dem_mound *mound, double half_width, double kept)
 {
     enum { CELLS_A_GRAIN = 4, MOST_CELLS = 4000 };
-    const double cells = ceil(2 * half_width / mound->grain * CELLS_A_GRAIN);
-    map->cells = (int)fmin(fmax(cells, 8.0), MOST_CELLS);
-    map->size = 2 * half_width / map->cells;
+    double all = fmax(ceil(2 * half_width / mound->grain * CELLS_A_GRAIN), 8.0);
+    all = fmin(all, floor(MOST_CELLS * fmax(half_width / kept, 1.0)));
+    map->size = 2 * half_width / all;
+    map->cells = (int)(all - 2 * fmax(floor(0.5 * all - kept / map->size), 0.0));
+    map->reach = height_map_reach(mound);
     map->value = calloc((size_t)map->cells * (size_t)map->cells, sizeof *map->value);
     if (!map->value) return DEM_NO_MEMORY;
     for (size_t i = 0; i < mound->count; i++) add_sphere(map, mound->position + 3 * i, mound->radius[i]);
@@ -80,13 +91,18 @@ void height_map_profile(const height_map *map, double radius, double grain, dem_
     for (size_t k = 0; k < profile->count; k++) {
         ring_sums sums[DEM_AZIMUTHS];
         double mean[DEM_AZIMUTHS], cells = 0, height = 0;
+        profile->place[k] = ((double)k + 0.5) * width;
+        if ((double)k * width > map->reach) {
+            profile->value[k] = profile->standard_error[k] = 0.0;
+            if (rings) memset(rings[k], 0, sizeof rings[k]);
+            continue;
+        }
         height_map_sum(map, (double)k * width, (double)(k + 1) * width, sums);
         for (int a = 0; a < DEM_AZIMUTHS; a++) {
             mean[a] = sums[a].cells > 0 ? sums[a].h / sums[a].cells : NAN;
             cells += sums[a].cells;
             height += sums[a].h;
         }
-        profile->place[k] = ((double)k + 0.5) * width;
         profile->value[k] = cells > 0 ? height / cells : NAN;
         profile->standard_error[k] = statistics_standard_error(mean, DEM_AZIMUTHS);
         if (rings) memcpy(rings[k], mean, sizeof mean);

@@ -7,12 +7,16 @@
 
 typedef struct height_map {
     int cells;     /* a side */
+    double reach;  /* m from the axis: beyond, all is ground */
     double size;   /* m a cell */
     double *value; /* (cells, cells) m: rows in y, columns in x */
 } height_map;
 
-/* Over [-half_width, half_width]^2, on cells of a quarter of the grain. Errors: DEM_NO_MEMORY. */
-dem_status height_map_init(height_map *map, const dem_mound *mound, double half_width);
+/* Over [-half_width, half_width]^2, on cells of a quarter of the grain, of which those are kept that come within `kept` of
+ * either axis. Errors: DEM_NO_MEMORY. */
+dem_status height_map_init(height_map *map, const dem_mound *mound, double half_width, double kept);
+/* How far from the axis the spheres of a mound come, m. */
+double height_map_reach(const dem_mound *mound);
 void height_map_clear(height_map *map);
 
 static inline double height_map_place(const height_map *map, int cell) { return (cell + 0.5 - 0.5 * map->cells) * map->size; }

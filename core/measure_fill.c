@@ -111,7 +111,7 @@ dem_status dem_fill_measure(const dem_mound *mound, double cylinder_radius, dem_
 {
     height_map map;
     memset(results, 0, sizeof *results);
-    const dem_status status = height_map_init(&map, mound, cylinder_radius);
+    const dem_status status = height_map_init(&map, mound, cylinder_radius, cylinder_radius);
     if (status != DEM_OK) return status;
     const double edge = cylinder_radius - 0.5 * mound->grain; /* beyond, spheres are seen from their sides alone */
     ring_sums sums[DEM_AZIMUTHS];

@@ -140,13 +140,18 @@ dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, double 
     double rings[DEM_PROFILE_POINTS][DEM_AZIMUTHS];
     height_map map;
     set_nothing_known(results);
-    dem_status status = height_map_init(&map, mound, plate_radius + mound->grain);
+    /* Of a plate too wide for rings of one grain the bare part is left out; no measure looks beyond the ring after the last
+     * that a grain is in. */
+    const double reach = height_map_reach(mound);
+    const double radius = fmin(plate_radius, fmax(DEM_PROFILE_POINTS * mound->grain, reach + mound->grain));
+    const double ring = fmax(2 * mound->grain, radius / DEM_PROFILE_POINTS);
+    dem_status status = height_map_init(&map, mound, plate_radius + mound->grain, reach + 2 * ring);
     if (status != DEM_OK) return status;
     for (size_t i = 0; i < mound->count; i++)
         results->height = fmax(results->height, mound->position[3 * i + 2] + mound->radius[i]);
-    height_map_profile(&map, plate_radius, mound->grain, &results->surface, rings);
-    fit_azimuths(&map, &results->surface, mound->grain, level, plate_radius, &results->angle[DEM_AZIMUTHAL_FIT]);
-    measure_cones(&map, &results->surface, rings, level, plate_radius, results);
+    height_map_profile(&map, radius, mound->grain, &results->surface, rings);
+    fit_azimuths(&map, &results->surface, mound->grain, level, radius, &results->angle[DEM_AZIMUTHAL_FIT]);
+    measure_cones(&map, &results->surface, rings, level, radius, results);
     results->static_cohesive_index = cohesive_index(&results->surface, rings, 0.5 * results->base_diameter);
     measure_volume(&map, mound, results);
     status = measure_silhouette(&map, level, &results->angle[DEM_SILHOUETTE]);

@@ -153,6 +153,29 @@ static void a_flat_top_is_told_by_what_the_definitions_differ_in(void **state)
     strew_clear(&s);
 }
 
+/* The bare plate has no part in any measure, but for the rings of the profile that lie on it. */
+static void a_plate_of_any_width_has_the_same_heap(void **state)
+{
+    (void)state;
+    strewn s;
+    dem_heap_results narrow, wide;
+    cone_angle = 20;
+    strew_surface(&s, CONE_RADIUS, cone);
+    const dem_mound mound = mound_of(&s);
+    assert_int_equal(dem_heap_measure(&mound, 20, 0, &narrow), DEM_OK);
+    const double radii[] = { 100, 1000, 1e6, 1e9 }; /* of the last two, the cells of all of the plate would fill no machine */
+    for (int k = 0; k < 4; k++) {
+        assert_int_equal(dem_heap_measure(&mound, radii[k], 0, &wide), DEM_OK);
+        for (int m = 0; m < DEM_HEAP_METHODS; m++) CHECK_NEAR(wide.angle[m].mean_deg, narrow.angle[m].mean_deg, 0.2);
+        CHECK_NEAR(wide.base_diameter, narrow.base_diameter, 0.1);
+        CHECK_NEAR(wide.volume / narrow.volume, 1, 0.002);
+        CHECK_NEAR(wide.height, narrow.height, 1e-12);
+        CHECK_BETWEEN(wide.surface.place[wide.surface.count - 1], CONE_RADIUS, 128);
+        CHECK_NEAR(wide.surface.value[wide.surface.count - 1], 0, 0);
+    }
+    strew_clear(&s);
+}
+
 static double flat(double r, double azimuth) { return (void)r, (void)azimuth, 1.5; }
 
 static void a_few_grains_have_no_angle(void **state)
@@ -234,6 +257,7 @@ int main(void)
         cmocka_unit_test(a_heap_that_covers_its_plate_says_nothing_of_the_error_of_its_base),
         cmocka_unit_test(the_standard_error_tells_a_lopsided_heap),
         cmocka_unit_test(a_flat_top_is_told_by_what_the_definitions_differ_in),
+        cmocka_unit_test(a_plate_of_any_width_has_the_same_heap),
         cmocka_unit_test(a_few_grains_have_no_angle),
         cmocka_unit_test(a_bed_in_a_cylinder_has_its_slope_up_or_down),
         cmocka_unit_test(a_lattice_has_its_solid_fraction),
