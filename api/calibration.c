@@ -74,6 +74,12 @@ double calibration_seconds_a_step(const calibration *machine, const calibration_
            * machine->correction / (1.0 + THREAD_GAIN * (threads - 1));
 }
 
+double calibration_seconds_a_run(const calibration *machine, const calibration_load *load, double steps)
+{
+    static const double OF_RUN = 0.05, OF_STEP = 4.5e-7; /* s, beside the sphere-steps; they count where spheres are few */
+    return OF_RUN + steps * (OF_STEP + calibration_seconds_a_step(machine, load));
+}
+
 /* --- the file --- */
 
 const char *calibration_law_name(int law) { return law_names[law]; }

@@ -42,6 +42,9 @@ typedef struct calibration_load {
 /* s of wall time for one step. machine NULL: built-in figures. */
 double calibration_seconds_a_step(const calibration *machine, const calibration_load *load);
 
+/* s of wall time for a run of so many steps, with what it costs beside them. */
+double calibration_seconds_a_run(const calibration *machine, const calibration_load *load, double steps);
+
 const char *calibration_law_name(int law); /* as in a specification */
 
 /* False: the document is no calibration; *machine is then the built-in one. */

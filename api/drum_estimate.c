@@ -13,9 +13,7 @@
 #define FRAME_NUMBERS_PER_DIAMETER 4.0
 /* A cell of the fields: its sums, what is told from them, and both on their way to the disk. */
 #define FIELD_CELL_BYTES 272.0
-/* Beside the sphere-steps, s: of a run, of a step, and of a cell of the fields. They count where spheres are few. */
-#define RUN_SECONDS 0.05
-#define STEP_SECONDS 4.5e-7
+/* s: it counts where spheres are few. */
 #define FIELD_CELL_SECONDS 2.5e-6
 
 /* diameter: m, of the mean volume. */
@@ -63,8 +61,7 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
                                         .rolling_friction = dem_has_rolling_friction(drum),
                                         .in_double = spec->inputs.precision > 0,
                                         .threads = drum->threads };
-    estimate.wall_seconds = RUN_SECONDS + FIELD_CELL_SECONDS * field_cells
-                            + estimate.steps * (STEP_SECONDS + calibration_seconds_a_step(machine, &estimate.load));
+    estimate.wall_seconds = FIELD_CELL_SECONDS * field_cells + calibration_seconds_a_run(machine, &estimate.load, estimate.steps);
     const double frames = frame_bytes * spec->duration / spec->sample_interval;
     estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum)) + FIELD_CELL_BYTES * field_cells + frames;
     estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames);

@@ -20,12 +20,16 @@
 #define SECONDS_AFTER_LIFTING 3.0
 /* Over that of a drum as wide as the bed is high; from overlaps at frictions from 0 to 1. */
 #define FALL_IN_TUBE 1.2
-/* For the estimate: slope of the heap; how long (s) it takes to come to rest, and what a sphere-step costs beside one in a
- * drum, where fewer touch a wall: from nine heaps of 268 to 1350 particles, spheres, tetrahedra and cubes. */
+/* For the estimate: slope of the heap, how long the bed takes in the tube beside a drum's, and how long (s) the heap takes to
+ * come to rest and what a sphere-step costs beside one in a drum, where neighbors change less: from heaps of 200 to 4000
+ * particles. */
 #define SLOPE_EXPECTED 0.45
-#define REST_EXPECTED 0.3
-#define REST_OF_CLUSTERS_EXPECTED 0.7
-#define COST_OF_STEP 1.3
+#define SETTLING_IN_TUBE 1.4
+static const struct {
+    double rest, cost;
+} OF_SPHERES = { 0.5, 1.75 }, OF_SPHERES_THAT_ROLL_HARD = { 0.3, 1.4 }, OF_CLUSTERS = { 0.7, 1.3 };
+/* The last spheres roll to the edge of the plate, at so much of the speed of falling from the top. */
+#define ROLLING_SPEED_SHARE 0.06
 
 static void derive_tube(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
 {
@@ -95,11 +99,14 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     const double bed = standing_bed_height(scene), volume = DEM_PI / 4.0 * scene->diameter * scene->diameter * bed;
     const double cone = cbrt(3.0 * volume * SLOPE_EXPECTED * SLOPE_EXPECTED / DEM_PI);
     const double height = fmin(cone, 0.5 * SLOPE_EXPECTED * scene->plate.diameter);
-    const double rest = drum_spheres_a_particle(scene) > 1.0 ? REST_OF_CLUSTERS_EXPECTED : REST_EXPECTED;
-    const double seconds = fmin(height / scene->lift.speed + rest, spec->duration);
-    job_estimate heap =
-        standing_estimate(spec, machine, seconds, dem_settling_time_estimate(fmax(scene->diameter, bed), scene->gravity), 1.0);
-    heap.wall_seconds *= COST_OF_STEP;
+    const bool has_clusters = drum_spheres_a_particle(scene) > 1.0, rolls = !has_clusters && !dem_has_rolling_friction(scene);
+    const double rest = has_clusters ? OF_CLUSTERS.rest : rolls ? OF_SPHERES.rest : OF_SPHERES_THAT_ROLL_HARD.rest;
+    const double bare = has_clusters ? 0.0 : fmax(0.5 * scene->plate.diameter - cone / SLOPE_EXPECTED, 0.0);
+    const double rolling = bare / (ROLLING_SPEED_SHARE * sqrt(2.0 * scene->gravity * height));
+    const double seconds = fmin(height / scene->lift.speed + rest + rolling, spec->duration);
+    const double settling = SETTLING_IN_TUBE * dem_settling_time_estimate(fmax(scene->diameter, bed), scene->gravity);
+    job_estimate heap = standing_estimate(spec, machine, seconds, settling, 1.0);
+    heap.wall_seconds *= has_clusters ? OF_CLUSTERS.cost : rolls ? OF_SPHERES.cost : OF_SPHERES_THAT_ROLL_HARD.cost;
     return heap;
 }
 

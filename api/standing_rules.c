@@ -82,7 +82,7 @@ job_estimate standing_estimate(const job_spec *spec, const calibration *machine,
                                         .rolling_friction = dem_has_rolling_friction(scene),
                                         .in_double = spec->inputs.precision > 0,
                                         .threads = scene->threads };
-    estimate.wall_seconds = estimate.steps * calibration_seconds_a_step(machine, &estimate.load);
+    estimate.wall_seconds = calibration_seconds_a_run(machine, &estimate.load, estimate.steps);
     const double frames = FRAME_BYTES * spec->duration / spec->sample_interval;
     estimate.memory_bytes = dem_memory_estimate(spheres) + frames;
     estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames);

@@ -505,6 +505,35 @@ static void the_estimate_is_near_what_runs_of_few_and_of_many_took(void **state)
     job_spec_clear(&bed);
 }
 
+/* Peaks of resident memory and steps of runs of other spheres than those that the figures are from: two heaps, of which one
+ * has few grains on a wide plate, where the last of them roll until the time is up, and a cylinder that is filled. */
+static void the_estimate_is_near_what_heaps_and_fills_took(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *spec;
+        double steps, bytes;
+    } runs[] = {
+        { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.025, \"lift_speed\": 0.08}, \"plate\": {\"diameter\": 0.05}, "
+          "\"particles\": [{\"diameter\": 0.002}], \"particle_count\": 1500, \"contact\": {\"maximum_overlap\": 0.05, \"friction\": "
+          "0.6}}}",
+          32698, 16.9e6 },
+        { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.006, \"lift_speed\": 0.05}, \"plate\": {\"diameter\": 2}, "
+          "\"particles\": [{\"diameter\": 0.001}], \"particle_count\": 200, \"contact\": {\"maximum_overlap\": 0.05}}}",
+          166557, 16.0e6 },
+        { "{\"process\": \"fill\", \"inputs\": {\"cylinder\": {\"diameter\": 0.06}, \"stream\": {\"diameter\": 0.03, \"rate\": 2000, "
+          "\"impact_speed\": 1.5}, \"particles\": [{\"diameter\": 0.004}], \"particle_count\": 3000, \"contact\": "
+          "{\"maximum_overlap\": 0.05}}}",
+          168809, 18.5e6 },
+    };
+    for (size_t k = 0; k < sizeof runs / sizeof runs[0]; k++) {
+        job_spec spec = parse_or_fail(load(runs[k].spec));
+        const job_estimate estimate = job_spec_estimate(&spec, NULL);
+        assert_true(fabs(estimate.steps / runs[k].steps - 1) < 0.2 && fabs(estimate.memory_bytes / runs[k].bytes - 1) < 0.2);
+        job_spec_clear(&spec);
+    }
+}
+
 static void the_estimate_grows_with_what_is_asked(void **state)
 {
     (void)state;
@@ -890,6 +919,7 @@ int main(void)
         cmocka_unit_test(what_can_not_be_packed_is_refused),
         cmocka_unit_test(a_start_within_a_bar_or_the_lining_is_refused),
         cmocka_unit_test(the_estimate_is_near_what_runs_of_few_and_of_many_took),
+        cmocka_unit_test(the_estimate_is_near_what_heaps_and_fills_took),
         cmocka_unit_test(the_estimate_grows_with_what_is_asked),
         cmocka_unit_test(the_description_has_every_default_and_range_that_the_parser_has),
     };
