@@ -83,7 +83,7 @@ function showAnswer(cell, job) {
     return [isAngle && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
       h('span', { class: 'value', title: isAngle ? 'angle of repose' : 'least rate that keeps the particle on the wall' }, words,
         isAngle ? null : h('small', { class: 'quiet' }, `ω²R/g ${significant(minimum_omega2, 4)}`),
-        isAngle && steady !== true ? h('small', null, verdictInWords({ verdict, steady })) : null,
+        isAngle && steady !== true && verdictInWords({ verdict, steady }) ? h('small', null, verdictInWords({ verdict, steady })) : null,
         warnings > 0 ? h('small', { class: 'why' }, warnings === 1 ? 'a warning' : `${count(warnings)} warnings`) : null)];
   });
 }
