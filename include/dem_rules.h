@@ -24,7 +24,7 @@
 #define DEM_LEAST_REVOLUTIONS 0.5         /* turned in all */
 #define DEM_LEAST_WINDOW_REVOLUTIONS 0.25 /* and in the window */
 #define DEM_LEAST_WINDOW_FRAMES 40
-#define DEM_LEAST_CORRELATION_TIMES 10
+#define DEM_LEAST_CORRELATION_TIMES 20 /* as the window itself shows them, which may be twice too many */
 #define DEM_LEAST_FALLS 3 /* slumps or avalanches that tell as much as so many revolutions */
 
 static inline double dem_sphere_mass(double diameter, double density)

@@ -138,6 +138,70 @@ static void every_angle_of_a_rough_bed_is_that_of_the_plane_in_the_mean(void **u
     for (int k = 0; k < ANGLES; k++) CHECK_NEAR(sum[k], 0, expected_angles[k].mean);
 }
 
+/* ---- flow of the surface ---- */
+
+/* Velocities of a bed cut at a plane tilted by phi: `speed` downslope in its two topmost layers, and as much upslope below;
+ * ten times that beyond the middle of the chord, which is not looked at. Returns the flow: downslope speed, none of what moves
+ * upslope, over all in the middle. */
+static double set_flow(bed *b, double phi, double offset, double speed)
+{
+    const double c = cos(phi), sine = sin(phi), down = phi > 0 ? -1 : 1, reach = RADIUS / 4;
+    double flowing = 0, all = 0;
+    for (size_t i = 0; i < b->count; i++) {
+        const double *x = b->x + 3 * i, along = c * x[0] + sine * x[1], depth = offset - (c * x[1] - sine * x[0]);
+        const bool is_middle = fabs(along) < reach, is_top = depth < 0.5 * D + 1.5 * D * sqrt(2.0 / 3);
+        assert_true(fabs(fabs(along) - reach) > 1e-4); /* none in doubt */
+        const double v = (is_middle ? speed : 10 * speed) * (is_top ? down : -down);
+        b->v[3 * i] = c * v - 0.3 * speed * sine; /* and some of it at right angles to the surface */
+        b->v[3 * i + 1] = sine * v + 0.3 * speed * c;
+        all += is_middle;
+        flowing += is_middle && is_top;
+    }
+    assert_true(flowing > 0.05 * all && flowing < 0.5 * all);
+    return speed * flowing / all;
+}
+
+/* A surface that flows in n of N frames and rests in the others has a flow of f n/N in the mean, with a deviation of
+ * f sqrt(n (N - n)/(N (N - 1))): their ratio is sqrt(N (N - n)/(n (N - 1))), above a half where 4 of 5 frames flow or fewer. */
+static void flow_fluctuation_is_that_of_the_speed_downslope_over_all_frames_and_particles(void **unused)
+{
+    (void)unused;
+    enum { FRAMES = 40 };
+    static const int flowing[] = { 4, 10, 20, 30, 36, 40 };
+    for (int sense = -1; sense <= 1; sense += 2) {
+        static bed b;
+        const double phi = sense * 25 * M_PI / 180, offset = -0.008, speed = 0.2;
+        fill_below_plane(&b, phi, offset, 0, 0.37);
+        const double flow = set_flow(&b, phi, offset, speed);
+        dem_drum_definition d = bed_definition(b.count, 0, 0);
+        d.rotation_rate = 2 * sense;
+        dem_scene *scene = scene_of_bed(&b, &d);
+        double *flows = frame_of(scene);
+        CHECK_NEAR(flows[FRAME_FLOW_SPEED], flow, 1e-5 * flow); /* the surface's angle is known to 0.05 degrees */
+        dem_scene_free(scene);
+        memset(b.v, 0, sizeof b.v);
+        scene = scene_of_bed(&b, &d);
+        double *rests = frame_of(scene);
+        CHECK_NEAR(rests[FRAME_FLOW_SPEED], 0, 1e-15);
+        const size_t width = dem_frame_width(scene);
+        double *table = calloc(FRAMES * width, sizeof *table);
+        for (size_t t = 0; t < sizeof flowing / sizeof *flowing; t++) {
+            const int n = flowing[t];
+            for (int k = 0; k < FRAMES; k++)
+                memcpy(table + (size_t)k * width, k * n / FRAMES != (k + 1) * n / FRAMES ? flows : rests, width * sizeof *table);
+            dem_repose_result repose = { 0 };
+            dem_regime_result regime = { 0 };
+            measure_regime_results(scene, &(frame_window){ table, FRAMES, width }, &repose, &regime);
+            CHECK_NEAR(regime.flow_fluctuation, sqrt(FRAMES * (double)(FRAMES - n) / (n * (FRAMES - 1.0))), 1e-6);
+            assert_int_equal(regime.regime == DEM_AVALANCHING, 5 * n <= 4 * FRAMES);
+        }
+        free(table);
+        free(flows);
+        free(rests);
+        dem_scene_free(scene);
+    }
+}
+
 /* ---- a bed all round the wall ---- */
 
 /* Rings of spheres against the wall, three deep, turning with the drum. */
@@ -406,6 +470,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_angle_of_a_bed_cut_level_at_a_plane_is_that_of_the_plane),
         cmocka_unit_test(every_angle_of_a_rough_bed_is_that_of_the_plane_in_the_mean),
+        cmocka_unit_test(flow_fluctuation_is_that_of_the_speed_downslope_over_all_frames_and_particles),
         cmocka_unit_test(a_ring_that_turns_with_the_drum_covers_the_wall_and_does_not_slip),
         cmocka_unit_test(the_surface_lags_by_what_its_spheres_fall_behind_in_a_revolution),
         cmocka_unit_test(species_placed_at_random_are_mixed),

@@ -137,6 +137,32 @@ static void uneven_slumps_are_all_seen(void **unused)
     CHECK_NEAR(s.period.mean, (RISE + FALL) * INTERVAL, 1e-12);
 }
 
+/* Falls of 10 degrees with one of `share` of that between every two. Below 0.43 a fall is not counted: it is left out of the
+ * count and of the means, and all others are as they would be without it. Above, it is counted like any other. The last fall
+ * has no end. */
+static void falls_well_below_the_usual_are_left_out_and_nothing_else_is(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    enum { RISE = 16, FALL = 4, TOOTH = RISE + FALL, CYCLES = COUNT / (3 * TOOTH) };
+    static const double shares[] = { 0.05, 0.2, 0.35, 0.5, 0.7, 0.9 };
+    for (size_t q = 0; q < sizeof shares / sizeof *shares; q++) {
+        for (int k = 0; k < COUNT; k++) {
+            const int tooth = k / TOOTH % 3, at = k % TOOTH;
+            const double from = tooth == 2 ? 15 - 10 * shares[q] : 5, to = tooth == 1 ? 15 - 10 * shares[q] : 5;
+            time[k] = INTERVAL * k;
+            angle[k] = at < RISE ? from + (15 - from) * at / RISE : 15 - (15 - to) * (at - RISE) / FALL;
+        }
+        const dem_slumps s = slumps_of(time, angle, COUNT);
+        const double counted = shares[q] > 0.43 ? CYCLES : 0, large = 2 * CYCLES - 1; /* falls of either kind */
+        CHECK_NEAR(s.count, counted + large, 0);
+        CHECK_NEAR(s.start_deg.mean, 15, 1e-12);
+        CHECK_NEAR(s.size_deg.mean, (10 * shares[q] * counted + 10 * large) / (counted + large), 1e-9);
+        /* from the first beginning to the last: where the small fall is left out, the fall after it begins at either top */
+        CHECK_BETWEEN(s.period.mean * (counted + large - 1), (3 * CYCLES - 3) * TOOTH * INTERVAL - 1e-9, (3 * CYCLES - 2) * TOOTH * INTERVAL);
+    }
+}
+
 static void missing_frames_are_left_out_and_too_few_have_no_slumps(void **unused)
 {
     (void)unused;
@@ -159,6 +185,7 @@ int main(void)
         cmocka_unit_test(swings_of_few_frames_are_no_noise),
         cmocka_unit_test(noise_alone_has_no_slumps),
         cmocka_unit_test(uneven_slumps_are_all_seen),
+        cmocka_unit_test(falls_well_below_the_usual_are_left_out_and_nothing_else_is),
         cmocka_unit_test(missing_frames_are_left_out_and_too_few_have_no_slumps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

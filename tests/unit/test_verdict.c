@@ -155,22 +155,26 @@ static void a_run_that_is_too_short_says_so(void **unused)
     dem_scene_free(scene);
 }
 
-/* Revolutions enough, but the angle wanders so slowly that the window has one or two correlation times. A series that short
- * does not show how slow it is: one in eight is taken for a longer one, known to 4 in 100. Without counting, nearly all of
- * those without a trend would be. */
+/* Revolutions enough, but the angle wanders so slowly that the window has one or two correlation times, or four, and no
+ * trend: too short is the word for nearly all, and steady for no more than 2 of 100. Shares are known to 1 of 100. */
 static void correlation_times_are_counted(void **unused)
 {
     (void)unused;
+    enum { TABLES = 400 };
     dem_scene *scene = scene_of(200, 2);
     dice d = { 55 };
-    int steady = 0;
-    for (int t = 0; t < 100; t++) {
-        double angle[FRAMES];
-        fill_with(angle, FRAMES, 25);
-        add_noise(&d, 0.995, 2, angle, FRAMES); /* 400 frames a correlation length */
-        steady += results_of(scene, angle, FRAMES).repose.steady;
+    for (int a = 0; a < 3; a++) {
+        int said[5] = { 0 };
+        for (int t = 0; t < TABLES; t++) {
+            double angle[FRAMES];
+            fill_with(angle, FRAMES, 25);
+            /* 1000, 400 and 200 frames a correlation length */
+            add_noise(&d, (const double[]){ 0.998, 0.995, 0.99 }[a], 2, angle, FRAMES);
+            said[results_of(scene, angle, FRAMES).repose.verdict]++;
+        }
+        CHECK_BETWEEN(said[DEM_STEADY], 0, (a < 2 ? 0.02 : 0.04) * TABLES);
+        CHECK_BETWEEN(said[DEM_TOO_SHORT], (a < 2 ? 0.95 : 0.93) * TABLES, TABLES);
     }
-    CHECK_BETWEEN(steady, 0, 20);
     dem_scene_free(scene);
 }
 
