@@ -505,8 +505,9 @@ static void the_estimate_is_near_what_runs_of_few_and_of_many_took(void **state)
     job_spec_clear(&bed);
 }
 
-/* Peaks of resident memory and steps of runs of other spheres than those that the figures are from: two heaps, of which one
- * has few grains on a wide plate, where the last of them roll until the time is up, and a cylinder that is filled. */
+/* Peaks of resident memory and steps of three runs: two heaps, of which one has few grains on a wide plate, where the last of
+ * them roll until the time is up, and a cylinder that is filled. The figures of the estimate come from such runs, too: this
+ * holds the estimate to what was seen, and says nothing of runs that are unlike these. */
 static void the_estimate_is_near_what_heaps_and_fills_took(void **state)
 {
     (void)state;
