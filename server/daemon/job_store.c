@@ -45,6 +45,7 @@ void store_close(job_store *store)
     pthread_cond_destroy(&store->reader_is_free);
     pthread_mutex_destroy(&store->readers_lock);
     pthread_mutex_destroy(&store->write_lock);
+    free(store->query_tables);
     free(store);
 }
 

@@ -25,6 +25,7 @@ struct job_store {
     int readers_free;
     sqlite3 *query; /* for users' SQL alone: it has an authorizer and limits; the lane of what reads is its only thread */
     query_watch query_watch;
+    char *query_tables; /* names of all tables and views of the schema */
 };
 
 job_store *store_open(data_folder *data, int64_t queue_limit);

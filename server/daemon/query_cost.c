@@ -39,6 +39,15 @@ static void add_register(program *all, int number)
     all->seen[number / 8] |= bit;
 }
 
+/* What these answer with is a number, or a text of some bytes. */
+static bool answers_briefly(const char *function, size_t length)
+{
+    static const char brief[] = " instr like glob length unicode typeof abs round sign json_valid json_array_length julianday"
+                                " unixepoch ceil ceiling trunc degrees radians exp ln log log10 log2 mod pi pow power sqrt"
+                                " sin cos tan asin acos atan atan2 ";
+    return is_one_of(brief, function, length);
+}
+
 /* An instruction that is not listed counts: it may look at all of its text. */
 static void add_instruction(program *all, sqlite3_stmt *row)
 {
@@ -51,10 +60,12 @@ static void add_instruction(program *all, sqlite3_stmt *row)
     const char *opcode = (const char *)sqlite3_column_text(row, 1), *function = (const char *)sqlite3_column_text(row, 5);
     if (!opcode) return;
     const bool calls = is_one_of(" Function PureFunc ", opcode, strlen(opcode));
-    if (calls && !query_function_is_ours(function ? function : "", function ? strcspn(function, "(") : 0)) all->costly += 2;
+    if (!function) function = "";
+    const size_t length = strcspn(function, "(");
+    if (calls && !query_function_is_ours(function, length)) all->costly += 2;
     else if (!calls && !is_one_of(brief, opcode, strlen(opcode))) all->costly++;
     if (is_one_of(plain, opcode, strlen(opcode))) all->makes_texts = true;
-    if (is_one_of(" Column VColumn Concat Function PureFunc ", opcode, strlen(opcode)))
+    if (is_one_of(" Column VColumn Concat ", opcode, strlen(opcode)) || (calls && !answers_briefly(function, length)))
         add_register(all, sqlite3_column_int(row, 4));
 }
 
