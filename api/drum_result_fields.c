@@ -27,7 +27,7 @@ static const result_field fields[] = {
       "steady; drifting, which includes slumps and avalanches; too-short or too-few (particles, layers) to tell; null: the bed "
       "has no surface" },
     { "repose", NULL, "drift_deg_per_revolution", RESULT_REAL, REPOSE(drift_deg_per_revolution), "degrees",
-      "slope of the angle over the window" },
+      "slope of the angle over the window; null: too short to tell" },
     { "repose", NULL, "drift_bound_deg_per_revolution", RESULT_REAL, REPOSE(drift_bound_deg_per_revolution), "degrees",
       "what the size of the drift stays below in 97 of 100 cases; null: too short to tell" },
     { "repose", NULL, "interface_fluctuation", RESULT_REAL, REPOSE(interface_fluctuation), "m",

@@ -134,9 +134,9 @@ static dem_regime slow_regime(const dem_regime_result *r)
 {
     /* Thrown clear of the bed: particles in flight. */
     if (r->airborne_fraction > 0.002) return DEM_CATARACTING;
-    /* The bed as a whole moves against the wall: in jerks, or at a steady pace. */
-    if (r->wall_slip_fluctuation > 0.2 && r->angle_fluctuation_deg > 1.5) return DEM_SLUMPING;
-    if (r->wall_slip > 0.3) return DEM_SLIPPING;
+    /* The bed as a whole moves against the wall: in jerks, or at a steady pace. One that slides back as far as it was carried
+     * slips by 1 in the mean; avalanches shake the wall's layer, too, which against a slow drum is much, but not in the mean. */
+    if (r->wall_slip > 0.3) return r->wall_slip_fluctuation > 0.2 && r->angle_fluctuation_deg > 1.5 ? DEM_SLUMPING : DEM_SLIPPING;
     /* The bed follows the wall, its surface flows: all the time, or in avalanches. */
     if (r->flow_fluctuation > 0.5) return DEM_AVALANCHING;
     return r->curvature_deg > 12 ? DEM_CASCADING : DEM_ROLLING;

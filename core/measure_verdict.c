@@ -107,6 +107,7 @@ void measure_verdict(const dem_scene *scene, const frame_window *window, dem_dru
     else if (!is_long_enough(scene, r)) r->verdict = DEM_TOO_SHORT;
     else if (measure_comes_in_falls(results->regime.regime) || is_drifting(&d)) r->verdict = DEM_DRIFTING;
     else r->verdict = is_steady(&d, r) ? DEM_STEADY : DEM_TOO_SHORT;
+    if (r->verdict == DEM_TOO_SHORT) r->drift_deg_per_revolution = NAN; /* a moment's slope; the bound stands */
     r->steady = r->verdict == DEM_STEADY;
     results->regime.is_certain = results->regime.is_told && is_certain(scene, window, results);
 }

@@ -177,6 +177,23 @@ static void regimes_are_told_from_how_the_bed_moves(void **unused)
     dem_scene_free(scene);
 }
 
+/* A slow drum's wall layer is shaken by each avalanche by much of the drum's own pace, and yet follows it in the mean. */
+static void avalanches_that_shake_the_wall_are_no_slumps(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(2);
+    const size_t width = dem_frame_width(scene);
+    double *table = steady_table(scene);
+    set_column(table, width, FRAME_FLOW_SPEED, 0.1, 0.09);
+    set_column(table, width, FRAME_CENTER_OF_MASS, 25, 3.5);
+    set_column(table, width, FRAME_WALL_SLIP, 0.06, 0.28);
+    assert_int_equal(results_of(scene, table, FRAMES).regime.regime, DEM_AVALANCHING);
+    set_column(table, width, FRAME_WALL_SLIP, 1, 0.28);
+    assert_int_equal(results_of(scene, table, FRAMES).regime.regime, DEM_SLUMPING);
+    free(table);
+    dem_scene_free(scene);
+}
+
 /* Eqns 33, 35, 36-37 at phi = 25 degrees, and Omega^2 at the wall and at R_i = R sqrt(1 - fill), by hand. */
 static void fast_beds_rain_slide_or_turn_with_the_drum(void **unused)
 {
@@ -237,6 +254,7 @@ int main(void)
         cmocka_unit_test(too_few_frames_are_refused_and_missing_values_left_out),
         cmocka_unit_test(the_chord_and_the_fluctuation_are_those_of_the_mean_interface),
         cmocka_unit_test(regimes_are_told_from_how_the_bed_moves),
+        cmocka_unit_test(avalanches_that_shake_the_wall_are_no_slumps),
         cmocka_unit_test(fast_beds_rain_slide_or_turn_with_the_drum),
         cmocka_unit_test(a_fast_bed_is_judged_by_its_last_four_revolutions),
     };

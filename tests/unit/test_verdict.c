@@ -142,6 +142,7 @@ static void a_run_that_is_too_short_says_so(void **unused)
             add_noise(&d, 0.3, 0.1, angle, count);
             const dem_drum_results r = results_of(scene, angle, count);
             assert_int_equal(r.repose.verdict, DEM_TOO_SHORT);
+            assert_true(isnan(r.repose.drift_deg_per_revolution));
             assert_false(r.regime.is_certain);
         }
     dem_scene *slow = scene_of(200, 0.1); /* enough frames, 0.48 revolutions in all */
