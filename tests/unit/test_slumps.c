@@ -159,7 +159,8 @@ static void falls_well_below_the_usual_are_left_out_and_nothing_else_is(void **u
         CHECK_NEAR(s.start_deg.mean, 15, 1e-12);
         CHECK_NEAR(s.size_deg.mean, (10 * shares[q] * counted + 10 * large) / (counted + large), 1e-9);
         /* from the first beginning to the last: where the small fall is left out, the fall after it begins at either top */
-        CHECK_BETWEEN(s.period.mean * (counted + large - 1), (3 * CYCLES - 3) * TOOTH * INTERVAL - 1e-9, (3 * CYCLES - 2) * TOOTH * INTERVAL);
+        CHECK_BETWEEN(s.period.mean * (counted + large - 1), (3 * CYCLES - 3) * TOOTH * INTERVAL - 1e-9,
+                      (3 * CYCLES - 2) * TOOTH * INTERVAL);
     }
 }
 
