@@ -47,6 +47,7 @@ static dem_drum_definition drum_asked(void)
         d.ends = (dem_drum_ends){ .are_walls = true, .friction = 0.3 };
     }
     if (number == 5) d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.05;
+    d.contact.latch_damping = 0.3;
     d.threads = (int)of(THREADS);
     follow_rules(&d, 0.03);
     return d;
