@@ -163,6 +163,15 @@ static double share_within_lining(const dem_drum_definition *drum)
     return within * within;
 }
 
+/* Fill up to which all particles find a place at the start. A lining takes its whole layer from it, however wide its pitch; the
+ * numbers of each species are rounded, so that one particle may come on top. */
+static double most_placed(const dem_drum_definition *drum)
+{
+    const double within = 1.0 - drum->lining.diameter / (0.5 * drum->diameter);
+    const double room = within * within - share_of_lifters(drum);
+    return DEM_MOST_PLACED / DEM_BED_SOLID_FRACTION * room * (1.0 - 1.0 / fmax(2.0, (double)drum->particle_count));
+}
+
 /* By volume: blocks of eight spheres and more leave more pores between them than the solid fraction that fills are counted by. */
 static double most_fill(const dem_drum_definition *drum)
 {
@@ -173,7 +182,7 @@ static double most_fill(const dem_drum_definition *drum)
         volume += share;
         filled += share * (species->cluster.sphere_count >= BLOCK_SPHERES ? MOST_FILL_OF_BLOCKS : MOST_FILL);
     }
-    return filled / volume * (1.0 - share_of_lifters(drum)) * share_within_lining(drum);
+    return fmin(filled / volume * (1.0 - share_of_lifters(drum)) * share_within_lining(drum), most_placed(drum));
 }
 
 static void check_room(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)

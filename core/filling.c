@@ -293,7 +293,8 @@ static region region_of_share(const container *c, const spheres *s, double share
 {
     region r = { .container = c, .room = c->inner_radius, .level = 1.0, .height = c->length };
     /* at least as high as one sphere needs */
-    if (share < 1 && c->kind == DEM_DRUM) r.level = fmax(dem_circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / r.room - 1));
+    if (share < 1 && c->kind == DEM_DRUM)
+        r.level = fmax(dem_circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / r.room - 1));
     if (share < 1 && c->kind != DEM_DRUM) r.height = fmin(c->length, fmax(share * c->length, 3 * s->largest_reach));
     return r;
 }
@@ -301,7 +302,7 @@ static region region_of_share(const container *c, const spheres *s, double share
 dem_status filling_place(filling *f, spheres *s, const container *drum, const dem_drum_definition *definition)
 {
     /* An open top would let growing particles out of a fuller container. */
-    const double most = drum->kind == DEM_DRUM ? 0.62 : REGION_FRACTION;
+    const double most = drum->kind == DEM_DRUM ? DEM_MOST_PLACED : REGION_FRACTION;
     assign_species(s, definition);
     double held;
     const double volume = total_volume(s, definition, &held), fraction = volume / free_volume(drum, definition);

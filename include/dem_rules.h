@@ -92,6 +92,10 @@ static inline double dem_species_contact_mass(const dem_species *s)
     return s->density / (1.0 / c->volume + arm2 / fmin(c->inertia[0], fmin(c->inertia[1], c->inertia[2])));
 }
 
+/* Share of a drum's free volume, without the layer of its lining and without its bars, that particles may have the volume of
+ * for all of them to find a place at the start. */
+#define DEM_MOST_PLACED 0.62
+
 /* Mean volume of a particle, m3, for shares by number. */
 static inline double dem_mean_volume(const dem_species *species, size_t count)
 {

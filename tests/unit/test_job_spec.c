@@ -163,7 +163,8 @@ static void a_number_out_of_range_is_named_with_value_unit_and_range(void **stat
     expect_problem("fill_fraction", "1.4", "/inputs/fill_fraction: is 1.4; must be in (0, 0.95]\n");
     expect_problem("fill_fraction", "0", "/inputs/fill_fraction: is 0; must be in (0, 0.95]\n");
     expect_problem("drum/diameter", "30", "/inputs/drum/diameter: is 30 m; must be in [0.001, 20] m\n");
-    expect_problem("drum/rotation_rate", "-0.0001", "/inputs/drum/rotation_rate: is -0.0001 rad/s; must be in [-500, 500] rad/s, and at least 0.001 in size\n");
+    expect_problem("drum/rotation_rate", "-0.0001",
+                   "/inputs/drum/rotation_rate: is -0.0001 rad/s; must be in [-500, 500] rad/s, and at least 0.001 in size\n");
     expect_problem("contact/friction", "true", "/inputs/contact/friction: is true; must be a number in [0, 5]\n");
     expect_problem("contact/friction", "null", "/inputs/contact/friction: is null; must be a number in [0, 5]\n");
     expect_problem("contact/friction", "1e300", "/inputs/contact/friction: is 1e+300; must be in [0, 5]\n");
@@ -495,8 +496,9 @@ static void the_estimate_is_near_what_runs_of_few_and_of_many_took(void **state)
     static const char few[] = "{\"inputs\": {\"drum\": {\"diameter\": 2.0, \"length\": 0.1, \"rotation_rate\": 1}, \"particles\": "
                               "[{\"diameter\": 0.001}], \"particle_count\": 1, \"start\": {\"particles\": [{\"position\": "
                               "[0, -0.9994, 0]}]}, \"duration\": {\"seconds\": 0.1}}}";
-    static const char many[] = "{\"inputs\": {\"drum\": {\"diameter\": 0.2, \"length\": 0.03, \"rotation_rate\": 3}, \"particles\": "
-                               "[{\"diameter\": 0.003}], \"duration\": {\"seconds\": 0.05}}}";
+    static const char many[] =
+        "{\"inputs\": {\"drum\": {\"diameter\": 0.2, \"length\": 0.03, \"rotation_rate\": 3}, \"particles\": "
+        "[{\"diameter\": 0.003}], \"duration\": {\"seconds\": 0.05}}}";
     job_spec one = parse_or_fail(load(few)), bed = parse_or_fail(load(many));
     const job_estimate a = job_spec_estimate(&one, NULL), b = job_spec_estimate(&bed, NULL);
     assert_true(fabs(a.memory_bytes / 87.1e6 - 1) < 0.2 && fabs(b.memory_bytes / 36.8e6 - 1) < 0.2);
@@ -515,14 +517,18 @@ static void the_estimate_is_near_what_heaps_and_fills_took(void **state)
         const char *spec;
         double steps, bytes;
     } runs[] = {
-        { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.025, \"lift_speed\": 0.08}, \"plate\": {\"diameter\": 0.05}, "
-          "\"particles\": [{\"diameter\": 0.002}], \"particle_count\": 1500, \"contact\": {\"maximum_overlap\": 0.05, \"friction\": "
+        { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.025, \"lift_speed\": 0.08}, \"plate\": {\"diameter\": "
+          "0.05}, "
+          "\"particles\": [{\"diameter\": 0.002}], \"particle_count\": 1500, \"contact\": {\"maximum_overlap\": 0.05, "
+          "\"friction\": "
           "0.6}}}",
           32698, 16.9e6 },
-        { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.006, \"lift_speed\": 0.05}, \"plate\": {\"diameter\": 2}, "
+        { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.006, \"lift_speed\": 0.05}, \"plate\": {\"diameter\": "
+          "2}, "
           "\"particles\": [{\"diameter\": 0.001}], \"particle_count\": 200, \"contact\": {\"maximum_overlap\": 0.05}}}",
           166557, 16.0e6 },
-        { "{\"process\": \"fill\", \"inputs\": {\"cylinder\": {\"diameter\": 0.06}, \"stream\": {\"diameter\": 0.03, \"rate\": 2000, "
+        { "{\"process\": \"fill\", \"inputs\": {\"cylinder\": {\"diameter\": 0.06}, \"stream\": {\"diameter\": 0.03, \"rate\": "
+          "2000, "
           "\"impact_speed\": 1.5}, \"particles\": [{\"diameter\": 0.004}], \"particle_count\": 3000, \"contact\": "
           "{\"maximum_overlap\": 0.05}}}",
           168809, 18.5e6 },
@@ -828,8 +834,9 @@ static void a_rate_may_be_given_in_revolutions_a_minute(void **state)
 static void shares_of_four_digits_sum_to_one(void **state)
 {
     (void)state;
-#define THREE(share) "[{\"diameter\": 0.005, \"share\": " share "}, {\"diameter\": 0.004, \"share\": " share "}," \
-                     " {\"diameter\": 0.003, \"share\": " share "}]"
+#define THREE(share)                                                                                                               \
+    "[{\"diameter\": 0.005, \"share\": " share "}, {\"diameter\": 0.004, \"share\": " share "},"                                   \
+    " {\"diameter\": 0.003, \"share\": " share "}]"
     expect_fine("particles", THREE("0.3333"));
     expect_fine("particles", THREE("0.33336"));
     expect_problem("particles", THREE("0.333"), "/inputs/particles: have shares that sum to 0.999; must sum to 1\n");
@@ -854,12 +861,18 @@ static void expect_of_small_drum(const char *drum, const char *rest, const char 
 #define AT(x, y) ", \"start\": {\"particles\": [{\"position\": [" x ", " y ", 0]}]}"
 #define BARS ", \"lifters\": {\"count\": 4, \"height\": 0.008, \"width\": 0.008}"
 #define LINING ", \"wall\": {\"lining\": {\"diameter\": 0.004}}"
+#define SPARSE_LINING ", \"wall\": {\"lining\": {\"diameter\": 0.004, \"pitch\": 0.012}}"
 
 static void what_can_not_be_packed_is_refused(void **state)
 {
     (void)state;
-    expect_of_small_drum("", ", \"fill_fraction\": 0.75" LINING, "/inputs/fill_fraction: makes a fill of 0.75; must be at most 0.65");
+    expect_of_small_drum("", ", \"fill_fraction\": 0.75" LINING,
+                         "/inputs/fill_fraction: makes a fill of 0.75; must be at most 0.65");
     expect_of_small_drum("", ", \"fill_fraction\": 0.65" LINING, "");
+    /* Spheres far apart in the lining leave no more room: where beds are made, its whole layer is left out. */
+    expect_of_small_drum("", ", \"fill_fraction\": 0.7" SPARSE_LINING,
+                         "/inputs/fill_fraction: makes a fill of 0.7; must be at most 0.6");
+    expect_of_small_drum("", ", \"fill_fraction\": 0.65" SPARSE_LINING, "");
     expect_of_small_drum("", ", \"fill_fraction\": 0.95", "");
     expect_of_small_drum(BARS, ", \"fill_fraction\": 0.85", "beside these lifters");
     static const char cubes[] = "[{\"shape\": \"cube\", \"diameter\": 0.002}]";
