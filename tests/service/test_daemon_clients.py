@@ -43,7 +43,7 @@ def test_clients_that_close_while_they_wait_give_their_places_back(fake):
     until(lambda: metrics_of(fake)["reposed_http_connections"] >= 90, 20)
     for client in clients:
         client.close()
-    until(lambda: metrics_of(fake)["reposed_http_connections"] < 5, 5)  # a second, and the machine may be busy
+    until(lambda: metrics_of(fake)["reposed_http_connections"] < 5, 20)  # a second, and the machine may be busy
 
 
 def test_however_many_wait_the_others_are_answered(fake):
@@ -85,7 +85,7 @@ def test_queries_of_clients_that_have_left_are_not_run(fake):
         client.close()
     start = time.monotonic()
     assert fake.get("/query?sql=select+1").status_code == 200
-    assert time.monotonic() - start < 15  # where each ran for its 2 s: 80
+    assert time.monotonic() - start < 30  # where each ran for its 2 s: 80
 
 
 def test_a_slow_query_holds_up_no_study(fake):
@@ -93,7 +93,7 @@ def test_a_slow_query_holds_up_no_study(fake):
     start = time.monotonic()
     study = {"base": {"process": "granule", "inputs": {"friction": 0.5}}}
     assert requests.post(f"{fake.url}/studies", json=study, timeout=30).status_code == 201
-    assert time.monotonic() - start < 10
+    assert time.monotonic() - start < 16  # where it waits for all of them: 18
     for client in clients:
         client.close()
 
@@ -104,7 +104,7 @@ def test_the_daemon_leaves_while_queries_run(fake):
         time.sleep(0.5)
         start = time.monotonic()
         assert fake.stop(seconds=30) == 0
-        assert time.monotonic() - start < 10  # where each ran for its 2 s: 40
+        assert time.monotonic() - start < 25  # where each ran for its 2 s: 40
         for answer in answers:
             answer.exception()
 
