@@ -38,19 +38,27 @@ double drum_spheres_a_particle(const dem_drum_definition *drum)
     return mean;
 }
 
+/* Clusters interlock, and stop sooner than the spheres that hold them would: from 10 to 315 tetrahedra. */
+static double settling_seconds(const dem_drum_definition *drum)
+{
+    static const double OF_CLUSTERS = 0.7;
+    if (drum->is_placed) return 0.0;
+    return (drum_spheres_a_particle(drum) > 1.0 ? OF_CLUSTERS : 1.0) * dem_drum_settling_time(drum);
+}
+
 job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
 {
     const dem_drum_definition *drum = &spec->drum;
     const double particles = (double)drum->particle_count, spheres = particles * drum_spheres_a_particle(drum);
     const double diameter = cbrt(6.0 / DEM_PI * dem_mean_volume(drum->species, drum->species_count));
-    const double side = dem_field_cells(drum->diameter, diameter), field_cells = side * side;
+    const double side = dem_field_cells(drum->diameter, diameter, particles), field_cells = side * side;
     const double frame_bytes = sizeof(double) * (FRAME_NUMBERS + interface_numbers(drum, spheres, diameter));
 
     job_estimate estimate = {
         .particles = particles,
         .time_step = drum->time_step,
         .stiffness = drum->contact.stiffness,
-        .simulated_seconds = spec->duration + (drum->is_placed ? 0.0 : dem_settling_time_estimate(drum->diameter, drum->gravity)),
+        .simulated_seconds = spec->duration + settling_seconds(drum),
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);

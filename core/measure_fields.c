@@ -1,5 +1,5 @@
 /* Fields over the cross-section: solid fraction, velocity and its fluctuation, summed over frames on cells half a diameter
- * wide.
+ * wide, or wider where particles are few.
  *
  * A sphere gives each cell the volume that it has in it, and counts there with the velocity of its centre. The centres
  * that a cell sees lie up to half a diameter around it, where the mean velocity is another: a cell therefore keeps the
@@ -32,7 +32,7 @@ enum { POINTS_A_CELL = 4 };
 
 size_t dem_fields_cells(const dem_scene *scene)
 {
-    return (size_t)dem_field_cells(2 * scene->drum.radius, mean_diameter(scene));
+    return (size_t)dem_field_cells(2 * scene->drum.radius, mean_diameter(scene), (double)scene->definition.particle_count);
 }
 
 size_t dem_fields_size(const dem_scene *scene)
@@ -41,7 +41,8 @@ size_t dem_fields_size(const dem_scene *scene)
     return HEADER + cells * cells * CELL_SUMS;
 }
 
-/* The cells that a sphere covers: of each, the length of the sphere along the axis averaged over a grid of points. */
+/* The cells that a sphere covers: of each, the length of the sphere along the axis averaged over a grid of points. A sphere
+ * between the points of wide cells is all in its centre's. */
 typedef struct footprint {
     int first[2], count[2];
     double *share; /* (count[0], count[1]) m, room for the largest sphere */
@@ -68,6 +69,13 @@ static void footprint_of(footprint *f, const double *x, double radius, double si
             f->share[a * f->count[1] + b] = length;
             f->sum += length;
         }
+    if (f->sum > 0) return;
+    for (int c = 0; c < 2; c++) {
+        const int of_centre = (int)floor(x[c] / size + 0.5 * cells);
+        f->first[c] = of_centre < 0 ? 0 : of_centre < cells ? of_centre : cells - 1;
+        f->count[c] = 1;
+    }
+    f->share[0] = f->sum = 1.0;
 }
 
 static void cell_add(double *sums, double w, double x, double y, vector4 v)
@@ -104,7 +112,6 @@ static void sphere_add(const dem_scene *scene, size_t i, footprint *f, int cells
 {
     const double *x = sphere_place(&scene->spheres, i);
     footprint_of(f, x, sphere_radius(&scene->spheres, i), size, cells);
-    if (!(f->sum > 0)) return;
     const double weight = volume_of(scene, i) / (f->sum * size * size * scene->drum.length);
     for (int a = 0; a < f->count[0]; a++)
         for (int b = 0; b < f->count[1]; b++) {
