@@ -52,6 +52,16 @@ void checksum_write_line(uint64_t sum, char line[CHECKSUM_LINE + 1])
     snprintf(line, CHECKSUM_LINE + 1, "crc64 %016" PRIx64 "\n", sum);
 }
 
+void checksum_write_lines(const char *text, size_t length, const char *origin, char lines[CHECKSUM_LINES + 1])
+{
+    checksum state;
+    checksum_begin(&state);
+    checksum_add(&state, text, length);
+    checksum_write_line(checksum_end(&state), lines);
+    checksum_add(&state, origin, strlen(origin));
+    checksum_write_line(checksum_end(&state), lines + CHECKSUM_LINE);
+}
+
 bool checksum_line_fits(const char *line, size_t line_length, const char *text, size_t length)
 {
     char expected[CHECKSUM_LINE + 1];

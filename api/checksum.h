@@ -23,5 +23,8 @@ enum { CHECKSUM_LINE = 23 };
 void checksum_write_line(uint64_t sum, char line[CHECKSUM_LINE + 1]);
 /* Whether `line`, of so many bytes, is that of this text. */
 bool checksum_line_fits(const char *line, size_t line_length, const char *text, size_t length);
+/* Of a text that was made from another, its origin: that line, and behind it the one of the text followed by its origin. */
+enum { CHECKSUM_LINES = 2 * CHECKSUM_LINE };
+void checksum_write_lines(const char *text, size_t length, const char *origin, char lines[CHECKSUM_LINES + 1]);
 
 #endif

@@ -25,7 +25,9 @@
  *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
  *   result.json                the document of GET /jobs/{id}/results; written last, by rename. A worker that finds
  *                              it, of the same spec, has nothing to do and ends with 0
- *   result.json.sum            its checksum (checksum.h), written just before it; spec.json has one where a worker wrote it.
+ *   result.json.sum            its checksum (checksum.h), and that of its text followed by the canonical spec, so that nothing
+ *                              else is taken for the result of this spec; written just before it. spec.json has the first
+ *                              of these where a worker wrote it.
  *                              All .hdf files end in such a line. What does not fit its checksum is not believed
  *   profile.json               what the time went into, where `repose run --profile` was asked for it
  *   log.txt                    the worker's stderr

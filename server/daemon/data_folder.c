@@ -17,7 +17,7 @@
 #include "job_folder.h"
 #include "log.h"
 
-enum { LONGEST_LINE = 64 };
+enum { LONGEST_SEAL = 64 };
 
 static bool ends_in_tmp(const char *name)
 {
@@ -277,21 +277,38 @@ bool data_folder_try_write(const data_folder *data)
     return good;
 }
 
-char *job_result_read(const data_folder *data, const char *id)
+/* What an ended worker leaves needs no spec, and one of another kind may write no checksum. */
+static bool seal_fits(const data_folder *data, const char *id, const char *text, const char *spec)
+{
+    char lines[CHECKSUM_LINES + 1];
+    char *seal = job_file_read(data, id, JOB_RESULT_SUM_FILE, LONGEST_SEAL);
+    checksum_write_lines(text, strlen(text), spec ? spec : "", lines);
+    if (!spec && seal && strlen(seal) >= CHECKSUM_LINE) seal[CHECKSUM_LINE] = lines[CHECKSUM_LINE] = '\0';
+    const int file = seal ? -1 : job_file_open(data, id, NULL, JOB_RESULT_SUM_FILE);
+    const bool fits = seal ? strcmp(seal, lines) == 0 : !spec && file < 0 && errno == ENOENT;
+    if (file >= 0) close(file);
+    free(seal);
+    return fits;
+}
+
+char *job_result_read(const data_folder *data, const char *id, const char *spec)
 {
     char *text = job_file_read(data, id, JOB_RESULT_FILE, LARGEST_RESULT);
-    char *line = text ? job_file_read(data, id, JOB_RESULT_SUM_FILE, LONGEST_LINE) : NULL;
-    /* A worker of another kind may write none. */
-    const int file = line ? -1 : job_file_open(data, id, NULL, JOB_RESULT_SUM_FILE);
-    const bool fits = line ? checksum_line_fits(line, strlen(line), text, strlen(text)) : file < 0 && errno == ENOENT;
-    json_t *result = text && fits ? json_loads(text, 0, NULL) : NULL;
+    json_t *result = text && seal_fits(data, id, text, spec) ? json_loads(text, 0, NULL) : NULL;
     const bool whole = json_is_object(result);
     json_decref(result);
-    if (file >= 0) close(file);
-    free(line);
     if (whole) return text;
     free(text);
     return NULL;
+}
+
+void job_result_remove(const data_folder *data, const char *id)
+{
+    const int folder = job_folder_open(data, id);
+    if (folder < 0) return;
+    unlinkat(folder, JOB_RESULT_FILE, 0);
+    unlinkat(folder, JOB_RESULT_SUM_FILE, 0);
+    close(folder);
 }
 
 double data_folder_free_bytes(const data_folder *data)

@@ -38,8 +38,10 @@ int job_file_open(const data_folder *data, const char *id, const char *folder, c
 /* Whole text of a file up to `limit` bytes, for free(); NULL: it can't be read (errno says why), or it is larger. */
 char *job_file_read(const data_folder *data, const char *id, const char *name, size_t limit);
 enum { LARGEST_RESULT = 16 << 20 };
-/* result.json as the worker wrote it, an object, for free(); NULL: not there, or not whole. */
-char *job_result_read(const data_folder *data, const char *id);
+/* result.json as the worker wrote it, an object, for free(); NULL: not there, or not whole. With a spec (else NULL) only what a
+ * worker made from that, which result.json.sum tells. */
+char *job_result_read(const data_folder *data, const char *id, const char *spec);
+void job_result_remove(const data_folder *data, const char *id);
 bool data_folder_sync(const data_folder *data); /* all that was written so far is safe on the disk */
 /* Whether a file can be made, written and kept; it is removed again. False: errno says why. */
 bool data_folder_try_write(const data_folder *data);

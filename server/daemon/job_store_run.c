@@ -281,20 +281,8 @@ static store_status record_left_events(job_store *store, job_claim *claim)
     return status;
 }
 
-/* Another job's result may have come into the folder, or one of a later attempt that this table knows nothing of. */
-static bool is_of_claim(const job_claim *claim, const char *document)
-{
-    json_t *result = json_loads(document, 0, NULL), *spec = json_loads(claim->spec, 0, NULL);
-    const json_t *run = json_object_get(result, "run"), *attempt = json_object_get(run, "attempt");
-    const json_t *seed = json_object_get(run, "seed"), *given = json_object_get(json_object_get(spec, "inputs"), "seed");
-    const bool of_it = json_is_object(run) && (!json_is_integer(attempt) || json_integer_value(attempt) <= claim->attempt)
-                       && (!json_is_integer(seed) || !json_is_integer(given) || json_integer_value(seed) == json_integer_value(given));
-    json_decref(result);
-    json_decref(spec);
-    return of_it;
-}
-
-/* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. */
+/* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. One that was not made
+ * from this job's spec, or that does not tell, does not count: the job runs again. */
 static store_status recover_one(job_store *store, job_claim *claim)
 {
     store_status status = record_left_events(store, claim);
@@ -303,10 +291,11 @@ static store_status recover_one(job_store *store, job_claim *claim)
     char *text = job_file_read(store->data, claim->id, JOB_RESULT_FILE, LARGEST_RESULT);
     if (!text && machine_error_is(errno)) return STORE_FAILED;
     free(text);
-    char *document = job_result_read(store->data, claim->id);
-    const bool done = document && is_of_claim(claim, document);
-    status = done ? store_record_success(store, claim, document) : STORE_REFUSED;
+    char *document = job_result_read(store->data, claim->id, claim->spec);
+    status = document ? store_record_success(store, claim, document) : STORE_REFUSED;
+    const bool done = status == STORE_OK;
     free(document);
+    if (status == STORE_REFUSED) job_result_remove(store->data, claim->id); /* nobody is to take it for one again */
     if (status == STORE_REFUSED) status = store_put_back(store, claim, false, "the daemon stopped while it ran");
     if (status != STORE_OK) return status;
     log_line("job %s: left running by an earlier daemon; %s", claim->id, done ? "its result is there" : "put back");

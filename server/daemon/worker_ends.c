@@ -79,7 +79,7 @@ static store_status succeed(job_dispatcher *dispatcher, worker_slot *slot)
     if (!text && machine_error_is(errno)) return STORE_FAILED;
     const bool is_there = text;
     free(text);
-    char *document = job_result_read(data, slot->claim.id);
+    char *document = job_result_read(data, slot->claim.id, NULL);
     store_status status = document ? store_record_success(dispatcher->store, &slot->claim, document) : STORE_REFUSED;
     free(document);
     if (status == STORE_OK) {

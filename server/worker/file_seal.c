@@ -80,12 +80,20 @@ file_state file_seal_look(const char *name)
     return state;
 }
 
-bool file_write_sealed(const char *name, const char *text, size_t length)
+bool file_write_sealed(const char *name, const char *text, size_t length, const char *origin)
 {
-    char beside[PATH_MAX], line[CHECKSUM_LINE + 1];
+    char beside[PATH_MAX], lines[CHECKSUM_LINES + 1];
     snprintf(beside, sizeof beside, "%s.sum", name);
-    checksum_write_line(checksum_of(text, length), line);
-    return file_write(beside, line, CHECKSUM_LINE) && file_write(name, text, length);
+    checksum_write_lines(text, length, origin ? origin : "", lines);
+    return file_write(beside, lines, origin ? CHECKSUM_LINES : CHECKSUM_LINE) && file_write(name, text, length);
+}
+
+static bool seal_fits(const char *seal, size_t seal_length, const char *text, size_t length, const char *origin)
+{
+    char lines[CHECKSUM_LINES + 1];
+    if (!origin) return checksum_line_fits(seal, seal_length, text, length);
+    checksum_write_lines(text, length, origin, lines);
+    return seal_length == CHECKSUM_LINES && memcmp(seal, lines, CHECKSUM_LINES) == 0;
 }
 
 /* file_read, and why not. */
@@ -97,18 +105,18 @@ static char *read_whole(const char *name, size_t most, size_t *length, file_stat
     return text;
 }
 
-char *file_read_sealed(const char *name, size_t most, size_t *length, file_state *state)
+char *file_read_sealed(const char *name, size_t most, const char *origin, size_t *length, file_state *state)
 {
     char beside[PATH_MAX];
-    size_t line_length;
-    file_state of_line;
+    size_t seal_length;
+    file_state of_seal;
     char *text = read_whole(name, most, length, state);
     if (!text) return NULL;
     snprintf(beside, sizeof beside, "%s.sum", name);
-    char *line = read_whole(beside, 2 * CHECKSUM_LINE, &line_length, &of_line);
-    if (of_line == FILE_UNREADABLE) *state = FILE_UNREADABLE;
-    else if (of_line != FILE_ABSENT && !(line && checksum_line_fits(line, line_length, text, *length))) *state = FILE_DAMAGED;
-    free(line);
+    char *seal = read_whole(beside, CHECKSUM_LINES, &seal_length, &of_seal);
+    const bool fits = seal ? seal_fits(seal, seal_length, text, *length, origin) : of_seal == FILE_ABSENT && !origin;
+    if (!fits) *state = of_seal == FILE_UNREADABLE ? FILE_UNREADABLE : FILE_DAMAGED;
+    free(seal);
     if (*state == FILE_WHOLE) return text;
     free(text);
     return NULL;

@@ -17,9 +17,11 @@ typedef enum file_state {
 bool file_seal(const char *name);
 file_state file_seal_look(const char *name);
 
-/* A text, published with its checksum beside it. False: logged. */
-bool file_write_sealed(const char *name, const char *text, size_t length);
-/* NULL unless *state is FILE_WHOLE. A text that has no NAME.sum, which is not written by everybody, is taken as whole. */
-char *file_read_sealed(const char *name, size_t most, size_t *length, file_state *state);
+/* A text, published with its checksum beside it; with an origin (else NULL), what it was made from, also with that of both.
+ * False: logged. */
+bool file_write_sealed(const char *name, const char *text, size_t length, const char *origin);
+/* NULL unless *state is FILE_WHOLE: with an origin only where it was made from that. With none, a text that has no NAME.sum,
+ * which is not written by everybody, is taken as whole. */
+char *file_read_sealed(const char *name, size_t most, const char *origin, size_t *length, file_state *state);
 
 #endif

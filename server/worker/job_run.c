@@ -87,20 +87,23 @@ bool job_run_is_asked_to_stop(void) { return stop_requested; }
 enum worker_exit job_run_write_result(const job_spec *spec, event_log *events, json_t *document)
 {
     char *text = result_warnings_add(spec, document) ? json_text_write(document) : NULL;
+    char *origin = text ? job_spec_to_text(spec) : NULL;
     json_decref(document);
-    if (!text) return failure_report(events, DEM_NO_MEMORY, NULL);
     /* The events must be safe before the file that says all is done. */
-    const bool written = event_log_sync(events) && file_write_sealed(JOB_RESULT_FILE, text, strlen(text));
+    const bool written = origin && event_log_sync(events) && file_write_sealed(JOB_RESULT_FILE, text, strlen(text), origin);
+    const bool had_memory = origin;
     free(text);
+    free(origin);
+    if (!had_memory) return failure_report(events, DEM_NO_MEMORY, NULL);
     return written ? WORKER_DONE : failure_report_disk(events, JOB_RESULT_FILE);
 }
 
-/* FILE_WHOLE: an object that is as it was written. */
-static file_state look_at_result(void)
+/* FILE_WHOLE: an object that is as it was written, and made from this spec. */
+static file_state look_at_result(const char *spec)
 {
     size_t length;
     file_state state;
-    char *text = file_read_sealed(JOB_RESULT_FILE, LONGEST_RESULT, &length, &state);
+    char *text = file_read_sealed(JOB_RESULT_FILE, LONGEST_RESULT, spec, &length, &state);
     json_t *result = text ? json_loadb(text, length, 0, NULL) : NULL;
     if (state == FILE_WHOLE && !json_is_object(result)) state = FILE_DAMAGED;
     json_decref(result);
@@ -110,7 +113,7 @@ static file_state look_at_result(void)
 
 static enum worker_exit run_in_folder(const job_runner *runner, const job_context *job, const char *text)
 {
-    const file_state result = look_at_result();
+    const file_state result = look_at_result(text);
     const folder_owner owner = run_folder_owner(text, job->params);
     if (result == FILE_UNREADABLE || owner == FOLDER_UNREADABLE) return WORKER_DISK;
     if (result != FILE_ABSENT && owner == FOLDER_OF_ANOTHER) {
@@ -123,7 +126,7 @@ static enum worker_exit run_in_folder(const job_runner *runner, const job_contex
         return WORKER_DONE;
     }
     if (result == FILE_DAMAGED) {
-        worker_warn("%s is damaged and is made anew", JOB_RESULT_FILE);
+        worker_warn("%s is damaged, or not that of this spec, and is made anew", JOB_RESULT_FILE);
         unlink(JOB_RESULT_FILE);
     }
     if (job->options->start && !start_file_bring(job->options->start)) return WORKER_DISK;

@@ -154,7 +154,7 @@ static uint64_t seed_if_missing(const char *folder)
     snprintf(path, sizeof path, "%s/" JOB_SPEC_FILE, folder ? folder : "");
     size_t length;
     file_state state;
-    char *text = folder ? file_read_sealed(path, SPEC_FILE_LONGEST, &length, &state) : NULL;
+    char *text = folder ? file_read_sealed(path, SPEC_FILE_LONGEST, NULL, &length, &state) : NULL;
     json_t *earlier = text ? json_loadb(text, length, 0, NULL) : NULL;
     free(text);
     const json_t *seed = json_object_get(json_object_get(earlier, "inputs"), "seed");

@@ -81,7 +81,7 @@ static char *spec_of_folder(file_state *state)
     size_t length;
     job_spec spec;
     problem_list problems;
-    char *text = NULL, *written = file_read_sealed(JOB_SPEC_FILE, SPEC_FILE_LONGEST, &length, state);
+    char *text = NULL, *written = file_read_sealed(JOB_SPEC_FILE, SPEC_FILE_LONGEST, NULL, &length, state);
     if (!written || !problem_list_init(&problems)) {
         free(written);
         return NULL;
@@ -120,5 +120,5 @@ bool run_folder_claim(folder_owner owner, const char *params, event_log *events)
         remove_snapshots();
         if (!event_log_empty(events)) return false;
     }
-    return file_write_sealed(JOB_SPEC_FILE, params, strlen(params));
+    return file_write_sealed(JOB_SPEC_FILE, params, strlen(params), NULL);
 }

@@ -3,19 +3,28 @@ import fcntl
 import json
 import os
 import signal
+import sqlite3
 import subprocess
 import time
 
 import pytest
 import requests
 
-from conftest import BUILD, ROOT, SPEC
+from conftest import BUILD, FAKE_WORKER, ROOT, SPEC, run_daemon
+from test_damage import line_of
 
 # Long enough that a worker can be seen at work and killed: the first report of progress comes after a second.
 LONG = SPEC | {"duration": {"seconds": 40.0}, "fill_fraction": 0.5, "snapshots": {"interval": 0.5}}
 
 
 GOOD = json.dumps({"repose": {"angle_deg": 30.0}, "run": {"steps": 5}})
+
+
+def leave_result(folder, text, made_from=None):
+    """As a worker leaves it that made it from the folder's spec, or from another."""
+    made_from = made_from or (folder / "spec.json").read_bytes()
+    (folder / "result.json").write_text(text)
+    (folder / "result.json.sum").write_bytes(line_of(text.encode()) + line_of(text.encode() + made_from))
 
 
 def gone(process, seconds=5):
@@ -83,7 +92,7 @@ def test_what_a_worker_wrote_last_is_in_the_tables_although_the_daemon_died(fake
     folder = fake.data / "jobs" / job
     with open(folder / "events.ndjson", "a") as events:
         events.write(json.dumps({"event": "sample", "number": 19, "step": 1900, "time": 1.9, "values": {"angle_deg": 39.0}}) + "\n")
-    (folder / "result.json").write_text(GOOD)
+    leave_result(folder, GOOD)
     fake.start()
     assert fake.job(job)["status"] == "successful"
     assert fake.get(f"/jobs/{job}/samples").json()["samples"][-1]["number"] == 19
@@ -159,23 +168,39 @@ def test_a_result_written_just_before_the_daemon_died_counts(fake):
     job = fake.submit(fake="slow", seconds="30")
     running(fake, job)
     fake.stop(signal.SIGKILL)
-    (fake.data / "jobs" / job / "result.json").write_text(GOOD)
+    leave_result(fake.data / "jobs" / job, GOOD)
     fake.start()
     info = fake.job(job)
     assert info["status"] == "successful" and info["attempt"] == 1 and info["summary"]["angle_deg"] == 30.0
 
 
-@pytest.mark.parametrize("text", ["[1]", GOOD[:-5], "", "{}", '{"run": {"attempt": 2}}', '{"run": {"seed": 8}}',
-                                  '{"run": {}, "repose": {"angle_deg": "steep"}}'])
-def test_what_is_not_a_result_of_this_job_and_attempt_does_not_count(fake, text):
-    job = fake.submit(fake="slow", seconds="1")
-    running(fake, job)
-    fake.stop(signal.SIGKILL)
-    (fake.data / "jobs" / job / "result.json").write_text(text)
-    fake.start()
-    assert fake.job(job)["status"] in ("accepted", "running")
-    info = fake.ended(job)
-    assert info["status"] == "successful" and info["summary"]["angle_deg"] == 23.5  # what its own worker makes of it
+NO_RESULTS = [
+    ("[1]", "own"), ("", "own"), ('{"run": {}, "repose": {"angle_deg": "steep"}}', "own"), (GOOD[:-5], "own"),
+    (GOOD, "none"),  # another job's, or from before results told what they were made from
+    (GOOD, "of an earlier program"),
+    (GOOD, "of another job"),
+]
+
+
+def test_what_is_not_a_result_of_this_job_does_not_count(tmp_path):
+    for fake in run_daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", str(len(NO_RESULTS))]):
+        jobs = [fake.submit(fake="slow", seconds="1") for _ in NO_RESULTS]
+        for job in jobs:
+            fake.until(job, lambda info: info["status"] == "running")
+        fake.stop(signal.SIGKILL)
+        for job, (text, seal) in zip(jobs, NO_RESULTS, strict=True):
+            folder = fake.data / "jobs" / job
+            other = (folder / "spec.json").read_bytes().replace(b'"friction": 0.3', b'"friction": 0.4')  # of the same seed
+            leave_result(folder, text, other if seal == "of another job" else None)
+            if seal == "of an earlier program":
+                (folder / "result.json.sum").write_bytes(line_of(text.encode()))
+            if seal == "none":
+                (folder / "result.json.sum").unlink()
+        fake.start()
+        for job, case in zip(jobs, NO_RESULTS, strict=True):
+            info = fake.ended(job)
+            assert info["status"] == "successful" and info["attempt"] == 1, case
+            assert info["summary"]["angle_deg"] == 23.5, case  # what its own worker makes of it
 
 
 def test_unfinished_files_are_swept_at_start(fake):
@@ -197,7 +222,6 @@ def test_a_second_daemon_on_the_same_folder_is_refused(fake):
 
 
 def test_a_newer_database_is_refused(fake):
-    import sqlite3
     fake.stop()
     with sqlite3.connect(fake.data / "reposed.sqlite") as database:
         database.execute("PRAGMA user_version=99")
@@ -233,6 +257,22 @@ def test_the_demo_and_make_clean_leave_a_folder_alone_that_a_daemon_has(tmp_path
 
 
 # --- the same with the real worker ---
+
+def test_results_of_workers_count_for_jobs_and_cases_of_studies_although_the_daemon_died(daemon):
+    jobs = [daemon.submit(SPEC | {"threads": 64, "duration": {"seconds": 0.005}})]
+    study = {"base": {"process": "granule", "inputs": {"friction": 0.5}}, "vary": {"/inputs/rotation_rate": [10, 12]}}
+    assert requests.post(f"{daemon.url}/studies", json=study, timeout=30).status_code == 201
+    jobs = [info["jobID"] for info in daemon.get("/jobs").json()["jobs"]]
+    results = {job: daemon.ended(job) and daemon.get(f"/jobs/{job}/results").json() for job in jobs}
+    daemon.stop(signal.SIGKILL)
+    with sqlite3.connect(daemon.data / "reposed.sqlite") as database:  # as it was in the moment before the ends were recorded
+        database.execute("UPDATE job SET status='running', finished=NULL")
+        database.execute("DELETE FROM result")
+    daemon.start()
+    assert len(jobs) == 3 and all(daemon.job(job)["status"] == "successful" for job in jobs)
+    assert {job: daemon.get(f"/jobs/{job}/results").json() for job in jobs} == results
+    assert daemon.log().count("its result is there") == 3
+
 
 WALL_CLOCK = {"wall_seconds", "particle_steps_per_second", "attempt", "attempts", "threads"}
 

@@ -143,7 +143,8 @@ def test_hundreds_of_damages_are_all_found(stopped, tmp_path, name):
 def test_a_damaged_result_or_spec_is_made_anew(stopped, tmp_path):
     whole = worker.timeless_result(stopped / "whole")
     text = (stopped / "whole" / "result.json").read_bytes()
-    assert (stopped / "whole" / "result.json.sum").read_bytes() == line_of(text)
+    made_from = (stopped / "whole" / "spec.json").read_bytes()
+    assert (stopped / "whole" / "result.json.sum").read_bytes() == line_of(text) + line_of(text + made_from)
     digit = text.index(b'"angle_deg": ') + len(b'"angle_deg": ')
     flipped = text[:digit] + (b"8" if text[digit:digit + 1] != b"8" else b"9") + text[digit + 1:]
     for bad in (flipped, text[:-20], bytes(len(text)), b"[1]"):
@@ -160,6 +161,22 @@ def test_a_damaged_result_or_spec_is_made_anew(stopped, tmp_path):
     code, _, said = worker.run(stopped / "request.json", tmp_path / "job")
     assert code == 0 and events(tmp_path / "job", "start")[-1]["resumed"], said
     assert (tmp_path / "job" / "spec.json").read_bytes() == spec and worker.timeless_result(tmp_path / "job") == whole
+
+
+def test_the_result_of_another_spec_of_the_same_seed_is_not_taken_for_this_ones(stopped, tmp_path):
+    """Whether its checksums came along or not; the spec's own results are the oracle."""
+    whole = worker.timeless_result(stopped / "whole")
+    other = worker.small(contact={"friction": 0.1})
+    assert worker.run(worker.write_spec(tmp_path, other), tmp_path / "other")[0] == 0
+    for names in (["result.json"], ["result.json", "result.json.sum"]):
+        shutil.rmtree(tmp_path / "job", ignore_errors=True)
+        shutil.copytree(stopped / "whole", tmp_path / "job")
+        (tmp_path / "job" / "result.json.sum").unlink()
+        for name in names:
+            shutil.copy(tmp_path / "other" / name, tmp_path / "job")
+        assert worker.timeless_result(tmp_path / "job") != whole
+        assert worker.run(stopped / "request.json", tmp_path / "job")[0] == 0
+        assert worker.timeless_result(tmp_path / "job") == whole
 
 
 # --- made to do harm
