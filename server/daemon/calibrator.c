@@ -16,7 +16,7 @@
 
 #include "log.h"
 
-enum { MOST_SECONDS = 60 }; /* of processor time */
+enum { MOST_SECONDS = 60 }; /* of the clock, which an idle process may hardly get any time of; processor time is no more */
 
 /* SIGIO, which ends the process, comes when the last writer is gone; not if that was before. */
 static void end_with_the_daemon(void)
@@ -42,6 +42,7 @@ static void become_calibrator(int leash, const char *program, char *const *argum
     end_with_the_daemon();
     sched_setscheduler(0, SCHED_IDLE, &no_priority); /* jobs have all the time they want */
     setrlimit(RLIMIT_CPU, &seconds);
+    alarm(MOST_SECONDS); /* holds over the exec */
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     execv(program, arguments);
     _exit(1);

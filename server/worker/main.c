@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/random.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "calibrate.h"
@@ -154,7 +155,9 @@ static uint64_t seed_if_missing(const char *folder)
     snprintf(path, sizeof path, "%s/" JOB_SPEC_FILE, folder ? folder : "");
     size_t length;
     file_state state;
-    char *text = folder ? file_read_sealed(path, SPEC_FILE_LONGEST, NULL, &length, &state) : NULL;
+    struct stat facts; /* a symbolic link is not ours to read */
+    const bool is_ours = folder && lstat(path, &facts) == 0 && S_ISREG(facts.st_mode);
+    char *text = is_ours ? file_read_sealed(path, SPEC_FILE_LONGEST, NULL, &length, &state) : NULL;
     json_t *earlier = text ? json_loadb(text, length, 0, NULL) : NULL;
     free(text);
     const json_t *seed = json_object_get(json_object_get(earlier, "inputs"), "seed");

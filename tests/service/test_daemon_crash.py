@@ -242,6 +242,22 @@ def test_no_symbolic_link_in_a_job_folder_is_followed(tmp_path, name):
     assert list(stranger.iterdir()) == [] if name == "snapshots" else stranger.read_text() == "untouched"
 
 
+def test_a_link_that_takes_the_place_of_the_snapshots_during_a_run_is_not_followed(tmp_path):
+    stranger, out = tmp_path / "stranger", tmp_path / "out"
+    stranger.mkdir()
+    (tmp_path / "spec.json").write_text(json.dumps({"inputs": SPEC | {"duration": {"seconds": 40.0}, "snapshots": {"interval": 0.01}}}))
+    command = [BUILD / "repose", "run", tmp_path / "spec.json", "--out", out]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as worker:
+        while not (out / "snapshots" / "000000.hdf").exists():
+            assert worker.poll() is None
+            time.sleep(0.02)
+        (out / "snapshots").rename(out / "kept")
+        (out / "snapshots").symlink_to(stranger)
+        _, said = worker.communicate(timeout=60)
+    assert worker.returncode == 5 and "no folder any more" in said
+    assert list(stranger.iterdir()) == []
+
+
 def test_the_demo_and_make_clean_leave_a_folder_alone_that_a_daemon_has(tmp_path):
     data = tmp_path / "build" / "demo"
     data.mkdir(parents=True)
