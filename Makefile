@@ -154,7 +154,7 @@ physics-programs: programs $(foreach v,single-$(ISA) double-$(ISA),$(patsubst %,
 
 torture: test-packages ## faults for minutes: kill -9 in loops, full disks, the n-th call that fails
 	@$(MAKE) --no-print-directory programs
-	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider -m torture tests/service tests/physics
+	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider -m torture tests/service
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs
