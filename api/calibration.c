@@ -74,10 +74,18 @@ double calibration_seconds_a_step(const calibration *machine, const calibration_
            * machine->correction / (1.0 + THREAD_GAIN * (threads - 1));
 }
 
+double calibration_pace(const calibration *machine)
+{
+    static const double REFERENCE = 22.0; /* ns a sphere-step of the default law on that machine */
+    const calibration built_in = calibration_built_in();
+    if (!machine) machine = &built_in;
+    return machine->sphere[0] / REFERENCE * machine->correction;
+}
+
 double calibration_seconds_a_run(const calibration *machine, const calibration_load *load, double steps)
 {
     static const double OF_RUN = 0.05, OF_STEP = 4.5e-7; /* s, beside the sphere-steps; they count where spheres are few */
-    return OF_RUN + steps * (OF_STEP + calibration_seconds_a_step(machine, load));
+    return calibration_pace(machine) * (OF_RUN + steps * OF_STEP) + steps * calibration_seconds_a_step(machine, load);
 }
 
 /* --- the file --- */

@@ -42,6 +42,9 @@ typedef struct calibration_load {
 /* s of wall time for one step. machine NULL: built-in figures. */
 double calibration_seconds_a_step(const calibration *machine, const calibration_load *load);
 
+/* How many times longer this machine takes than the one on which costs beside the sphere-steps were measured. */
+double calibration_pace(const calibration *machine);
+
 /* s of wall time for a run of so many steps, with what it costs beside them. */
 double calibration_seconds_a_run(const calibration *machine, const calibration_load *load, double steps);
 

@@ -69,7 +69,8 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
                                         .rolling_friction = dem_has_rolling_friction(drum),
                                         .in_double = spec->inputs.precision > 0,
                                         .threads = drum->threads };
-    estimate.wall_seconds = FIELD_CELL_SECONDS * field_cells + calibration_seconds_a_run(machine, &estimate.load, estimate.steps);
+    estimate.wall_seconds = calibration_pace(machine) * FIELD_CELL_SECONDS * field_cells
+                            + calibration_seconds_a_run(machine, &estimate.load, estimate.steps);
     const double frames = frame_bytes * spec->duration / spec->sample_interval;
     estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum)) + FIELD_CELL_BYTES * field_cells + frames;
     estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames);
