@@ -11,6 +11,7 @@ PYTHON := /usr/bin/python3
 BUILD := build
 DATA := data
 PORT := 8080
+TORTURE := tests/service
 CC := gcc
 OPT := -O2
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wundef -Wvla $(if $(CI),-Werror)
@@ -152,9 +153,9 @@ physics-programs: programs $(foreach v,single-$(ISA) double-$(ISA),$(patsubst %,
 	@rm -rf $(BUILD)/tests/single $(BUILD)/tests/double
 	@ln -s single-$(ISA) $(BUILD)/tests/single && ln -s double-$(ISA) $(BUILD)/tests/double
 
-torture: test-packages ## faults for minutes: kill -9 in loops, full disks, the n-th call that fails
+torture: test-packages ## faults for minutes: damaged files, the n-th call that fails, hostile queries; TORTURE=tests/service/FILE.py: some
 	@$(MAKE) --no-print-directory programs
-	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider -m torture tests/service
+	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider -m torture $(TORTURE)
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs

@@ -435,8 +435,8 @@ def test_a_spec_without_a_seed_is_the_same_run_in_the_same_folder(tmp_path):
 def test_particles_that_do_not_fit_are_a_bad_spec(tmp_path):
     # The lining takes a quarter of the diameter away from a drum that is nearly full: that is told before anything is run.
     spec = small(drum={"length": 0.012}, fill_fraction=0.95, wall={"lining": {"diameter": 0.00375}})
-    code, _, stderr = run(write_spec(tmp_path, spec), tmp_path / "job")
-    assert code == 2 and "/inputs/fill_fraction" in stderr and "at most" in stderr, stderr
+    code, stdout, stderr = run(write_spec(tmp_path, spec), tmp_path / "job")
+    assert code == 2 and "/inputs/fill_fraction" in stdout + stderr and "at most" in stdout + stderr, stdout + stderr
     assert not (tmp_path / "job" / "result.json").exists()
 
 
