@@ -97,7 +97,7 @@ def test_members_of_inputs_in_the_prose_are_accepted(service, tmp_path, code):
         (tmp_path / "first").mkdir()
         (tmp_path / "first/checkpoint.hdf").write_bytes(checkpoint.read_bytes())
         (tmp_path / "spec.json").write_text(json.dumps({"inputs": merged(SPEC, piece)}))
-        check = subprocess.run([BUILD / "repose", "check", "spec.json"], cwd=tmp_path, capture_output=True, text=True, timeout=60)
+        check = subprocess.run([BUILD.resolve() / "repose", "check", "spec.json"], cwd=tmp_path, capture_output=True, text=True, timeout=60)
         assert check.returncode == 0, check.stderr
     elif "plate" in piece:
         submit(service, {"process": "heap", "inputs": merged(json.loads((ROOT / "api/examples/heap.json").read_text())["inputs"], piece)})
