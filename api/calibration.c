@@ -1,6 +1,7 @@
 #include "calibration.h"
 
 #include <math.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -19,10 +20,15 @@
 
 static const char *const law_names[CALIBRATION_LAWS] = { "walton-braun", "spring-dashpot", "hertz-mindlin" };
 
+/* Asked once: the answer is read from a file of the system. */
 static int cores_here(void)
 {
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN);
-    return cores < 1 ? 1 : (int)cores;
+    static atomic_int known;
+    if (known == 0) {
+        const long cores = sysconf(_SC_NPROCESSORS_ONLN);
+        known = cores < 1 ? 1 : (int)cores;
+    }
+    return known;
 }
 
 calibration calibration_built_in(void)

@@ -84,7 +84,8 @@ void data_folder_close(data_folder *data)
     data->jobs = data->lock = -1;
 }
 
-static bool write_durably(int folder, const char *name, const char *text)
+/* Whole or not at all. */
+static bool write_whole(int folder, const char *name, const char *text)
 {
     char temporary[64];
     snprintf(temporary, sizeof temporary, "%s.tmp", name);
@@ -97,9 +98,9 @@ static bool write_durably(int folder, const char *name, const char *text)
         if (written < 0 && errno != EINTR) break;
         if (written > 0) done += (size_t)written;
     }
-    bool good = done == length && fsync(file) == 0;
+    bool good = done == length;
     good = close(file) == 0 && good;
-    return good && renameat(folder, temporary, folder, name) == 0 && fsync(folder) == 0;
+    return good && renameat(folder, temporary, folder, name) == 0;
 }
 
 /* The table's copy rules: this one may have been damaged since it was written. */
@@ -116,7 +117,18 @@ bool job_folder_create(const data_folder *data, const char *id, const char *spec
     if (mkdirat(data->jobs, id, 0700) != 0 && errno != EEXIST) return false;
     const int folder = job_folder_open(data, id);
     if (folder < 0) return false;
-    const bool good = has_spec(data, id, spec) || (write_durably(folder, JOB_SPEC_FILE, spec) && fsync(data->jobs) == 0);
+    const bool good = has_spec(data, id, spec) || write_whole(folder, JOB_SPEC_FILE, spec);
+    const int reason = errno;
+    close(folder);
+    errno = reason;
+    return good;
+}
+
+bool job_folder_sync(const data_folder *data, const char *id)
+{
+    const int folder = job_folder_open(data, id);
+    if (folder < 0) return false;
+    const bool good = fsync(folder) == 0 && fsync(data->jobs) == 0;
     const int reason = errno;
     close(folder);
     errno = reason;

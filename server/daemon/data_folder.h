@@ -17,12 +17,13 @@ typedef struct data_folder {
 bool data_folder_open(data_folder *data, const char *path);
 void data_folder_close(data_folder *data);
 
-/* Makes jobs/<id> with this spec.json, all of it safe on the disk on return; keeps a folder that has it already, but not a
- * spec.json that says something else. False: errno says why. */
+/* Makes jobs/<id> with this spec.json; keeps a folder that has it already, but not a spec.json that says something else. What a
+ * crash of the machine takes of it is made again from the table at the next start. False: errno says why. */
 bool job_folder_create(const data_folder *data, const char *id, const char *spec);
+/* From now on the folder, and the files in it that are safe by themselves, are there for good. False: errno says why. */
+bool job_folder_sync(const data_folder *data, const char *id);
 /* Gives jobs/<id>, made if need be, another job's file as start.hdf: a second name for it, or a copy where the file system has
- * no such thing. Safe on the disk after job_folder_create or
- * data_folder_sync. folder: in the other job's, NULL: that itself. False: errno says why. */
+ * no such thing. Safe on the disk after job_folder_sync or data_folder_sync. folder: in the other job's, NULL: that itself. False: errno says why. */
 bool job_folder_add_start(const data_folder *data, const char *id, const char *from, const char *folder, const char *name);
 /* Takes back what job_folder_create made; leaves anything else. */
 void job_folder_discard(const data_folder *data, const char *id);

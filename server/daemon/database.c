@@ -7,6 +7,7 @@
 
 #include "log.h"
 #include "schema.h"
+#include "statement_cache.h"
 
 store_status sql_status(sqlite3 *database, int code)
 {
@@ -33,9 +34,11 @@ static void bind_all(sqlite3_stmt *statement, const char *types, va_list values)
 
 static sqlite3_stmt *prepare_and_bind(sqlite3 *database, const char *sql, const char *types, va_list values)
 {
-    sqlite3_stmt *statement;
-    const int code = sqlite3_prepare_v2(database, sql, -1, &statement, NULL);
-    if (sql_status(database, code) != STORE_OK) return NULL;
+    sqlite3_stmt *statement = statement_cache_take(database, sql);
+    if (!statement) {
+        const int code = sqlite3_prepare_v3(database, sql, -1, SQLITE_PREPARE_PERSISTENT, &statement, NULL);
+        if (sql_status(database, code) != STORE_OK) return NULL;
+    }
     bind_all(statement, types, values);
     return statement;
 }
@@ -64,7 +67,8 @@ store_status sql_run(sqlite3 *database, int64_t *changed, const char *sql, const
 store_status sql_finish(sqlite3_stmt *statement, int code)
 {
     const store_status status = sql_status(sqlite3_db_handle(statement), code);
-    sqlite3_finalize(statement);
+    if (status == STORE_OK) statement_cache_give(statement);
+    else sqlite3_finalize(statement);
     return status;
 }
 
@@ -130,4 +134,10 @@ sqlite3 *database_open_writer(const char *path)
 sqlite3 *database_open_reader(const char *path)
 {
     return open_with(path, SQLITE_OPEN_READONLY, "PRAGMA busy_timeout=2000; PRAGMA query_only=ON; PRAGMA cache_size=-500;");
+}
+
+void database_close(sqlite3 *database)
+{
+    statement_cache_drop(database);
+    sqlite3_close(database);
 }

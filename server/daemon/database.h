@@ -13,13 +13,15 @@
 /* Opens for writing and brings the tables up to date. NULL: the problem is logged. */
 sqlite3 *database_open_writer(const char *path);
 sqlite3 *database_open_reader(const char *path);
+/* Any connection on which the functions below were used. NULL is nothing. */
+void database_close(sqlite3 *database);
 
-/* Prepares and binds: types has one letter a value: i int64_t, d double (NaN becomes NULL), t text (may be NULL).
+/* Prepares, or takes the statement that was prepared before (statement_cache.h), and binds: types has one letter a value: i int64_t, d double (NaN becomes NULL), t text (may be NULL).
  * Texts are lent until the statement ends. NULL: the problem is logged. */
 sqlite3_stmt *sql_prepare(sqlite3 *database, const char *sql, const char *types, ...);
 /* The same for a statement without rows. *changed, where not NULL: rows changed. */
 store_status sql_run(sqlite3 *database, int64_t *changed, const char *sql, const char *types, ...);
-/* Ends a statement whose last step gave this code: SQLITE_ROW or SQLITE_DONE are good. */
+/* Ends a statement, and keeps it for the next, whose last step gave this code: SQLITE_ROW or SQLITE_DONE are good. */
 store_status sql_finish(sqlite3_stmt *statement, int code);
 store_status sql_status(sqlite3 *database, int code);
 

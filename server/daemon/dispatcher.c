@@ -93,7 +93,8 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
     char folder[4096];
     snprintf(folder, sizeof folder, "%s/jobs/%s", data->path, claim->id);
     /* Somebody may have tidied the folder away while the job waited. */
-    const int file = job_folder_create(data, claim->id, claim->spec) ? job_folder_open(data, claim->id) : -1;
+    const bool is_there = job_folder_create(data, claim->id, claim->spec) && job_folder_sync(data, claim->id);
+    const int file = is_there ? job_folder_open(data, claim->id) : -1;
     if (file < 0) return false;
     worker_order order = { .job_folder = folder, .job_folder_file = file, .attempt = claim->attempt, .threads = claim->threads };
     set_limits(claim, &order);

@@ -39,9 +39,9 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
 
 void store_close(job_store *store)
 {
-    sqlite3_close(store->query);
-    for (int i = 0; i < STORE_READERS; i++) sqlite3_close(store->reader[i]);
-    sqlite3_close(store->writer); /* last, so that the checkpoint at the end is the writer's */
+    database_close(store->query);
+    for (int i = 0; i < STORE_READERS; i++) database_close(store->reader[i]);
+    database_close(store->writer); /* last, so that the checkpoint at the end is the writer's */
     pthread_cond_destroy(&store->reader_is_free);
     pthread_mutex_destroy(&store->readers_lock);
     pthread_mutex_destroy(&store->write_lock);
@@ -176,7 +176,8 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
     if (!text || !store_random_bits(&bits)) return STORE_FAILED;
     store_write_id(id, time(NULL), bits);
     const char *from = job_started_from(spec);
-    if ((from && !store_bring_start(store, from, spec->inputs.start.snapshot, id)) || !job_folder_create(store->data, id, text)) {
+    if (!job_folder_create(store->data, id, text)
+        || (from && !(store_bring_start(store, from, spec->inputs.start.snapshot, id) && job_folder_sync(store->data, id)))) {
         const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
         log_line("job %s: its folder can't be written: %s", id, strerror(errno));
         job_folder_discard(store->data, id);
@@ -204,7 +205,7 @@ store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_I
     return status;
 }
 
-static store_status exists(job_store *store, const char *id)
+store_status store_has_job(job_store *store, const char *id)
 {
     sqlite3 *reader = store_borrow_reader(store);
     sqlite3_stmt *statement = sql_prepare(reader, "SELECT 1 FROM job WHERE id=?", "t", id);
@@ -227,7 +228,7 @@ store_status store_dismiss_job(job_store *store, const char *id)
                      "ttt", now, now, id);
     status = store_end(store, status);
     if (status != STORE_OK || changed > 0) return status;
-    const store_status found = exists(store, id);
+    const store_status found = store_has_job(store, id);
     return found == STORE_OK ? STORE_CONFLICT : found;
 }
 

@@ -48,7 +48,7 @@ bool store_random_bits(uint32_t *bits);
 typedef struct study_place {
     int64_t study, index, repeat;
 } study_place;
-/* The bed of that job, into the folder of this one; snapshot NaN: its checkpoint. Safe on the disk after job_folder_create
+/* The bed of that job, into the folder of this one; snapshot NaN: its checkpoint. Safe on the disk after job_folder_sync
  * or data_folder_sync. False: errno says why. */
 bool store_bring_start(job_store *store, const char *from, double snapshot, const char *id);
 /* The job that a spec starts from; NULL: none. */
@@ -102,6 +102,10 @@ bool store_claim_holds(job_store *store, const job_claim *claim);
 /* Jobs that a dead daemon left running are put back, with no attempt used, or recorded as done where the result is
  * there. Anything but STORE_OK: to be called again. */
 store_status store_recover(job_store *store);
+/* unused_folders.c: those that a POST made which a crash has cut off. Before the first request: one that is being posted has no
+ * row either. */
+store_status store_remove_unused_folders(job_store *store);
+store_status store_has_job(job_store *store, const char *id); /* STORE_NOT_FOUND: there is none */
 
 /* process_tables.c: the main inputs of a job as columns of its process's table; between begin and end. */
 store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec);

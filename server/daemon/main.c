@@ -125,6 +125,7 @@ static bool open_parts(parts *all)
         return false;
     all->dispatcher.recovered = store_recover(all->store) == STORE_OK;
     if (!all->dispatcher.recovered) log_line("jobs that an earlier daemon left running can't be put back now: tried again later");
+    store_remove_unused_folders(all->store);
     readiness_init(&all->readiness, &all->dispatcher);
     all->dispatcher.jobs_changed = jobs_changed_by_worker;
     all->dispatcher.context = all;

@@ -81,7 +81,7 @@ void store_drop_stage(study_stage *stage)
 {
     if (!stage) return;
     study_parts_clear(&stage->parts);
-    sqlite3_close(stage->database);
+    database_close(stage->database);
     free(stage);
 }
 

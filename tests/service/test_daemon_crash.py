@@ -345,3 +345,20 @@ def test_a_stopped_daemon_goes_on_from_the_checkpoint(daemon, undisturbed):
     events = [json.loads(line) for line in (daemon.data / "jobs" / job / "events.ndjson").read_text().splitlines()]
     assert [event["resumed"] for event in events if event["event"] == "start"] == [False, True]
     assert daemon.job(job)["attempt"] == 1
+
+
+def test_folders_of_jobs_that_were_never_added_go_at_the_next_start(fake):
+    """A POST makes the folder, then the row; the daemon died in between. What holds more than a POST puts there stays."""
+    job = fake.submit()
+    fake.ended(job)
+    fake.stop()
+    empty, posted, foreign = (fake.data / "jobs" / f"20261130-120000-0000000{k}" for k in range(3))
+    for folder in (empty, posted, foreign):
+        folder.mkdir()
+        if folder != empty:
+            (folder / "spec.json").write_text("{}")
+    (posted / "start.hdf").write_text("a bed")
+    (foreign / "result.json").write_text("{}")
+    fake.start()
+    assert sorted(path.name for path in (fake.data / "jobs").iterdir()) == sorted([foreign.name, job])
+    assert (foreign / "spec.json").exists() and fake.job(job)["status"] == "successful"

@@ -3,7 +3,10 @@ import json
 import math
 import socket
 import sqlite3
+import struct
+import subprocess
 import time
+from pathlib import Path
 
 import pytest
 import requests
@@ -34,6 +37,28 @@ def test_a_post_does_not_walk_over_the_runs_that_there_were(tmp_path):
     finally:
         if daemon.is_running():
             daemon.stop()
+
+
+def test_a_post_waits_for_the_disk_once_and_parses_no_statement_that_it_knows(tmp_path, monkeypatch):
+    library, counts = tmp_path / "counted_calls.so", tmp_path / "counts"
+    source = Path(__file__).with_name("counted_calls.c")
+    subprocess.run(["cc", "-O1", "-fPIC", "-shared", "-o", library, source, "-ldl"], check=True)
+    monkeypatch.setenv("LD_PRELOAD", str(library))
+    monkeypatch.setenv("COUNTED_CALLS", str(counts))
+    daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "1"]).start()
+    try:
+        first = daemon.submit(fake="slow", seconds="100")
+        daemon.until(first, lambda info: info["status"] == "running")
+        for _ in range(5):
+            daemon.submit()
+        before = struct.unpack("2q", counts.read_bytes())
+        for _ in range(20):
+            daemon.submit()
+        parsed, waited = (after - start for after, start in zip(struct.unpack("2q", counts.read_bytes()), before, strict=True))
+        assert parsed <= 10  # the other threads have connections of their own; 20 POSTs have some 300 statements
+        assert 20 <= waited <= 30  # a commit each; what the running job reports is committed once a second
+    finally:
+        daemon.stop()
 
 
 def bed(particles, spacing=1.01e-3, radius=0.029):
