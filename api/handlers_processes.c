@@ -121,7 +121,8 @@ static bool read_spec(api_service *service, const process_type *type, const http
         http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
     } else {
         set_default_threads(service, type, document);
-        const start_source beds = store_beds(service->store);
+        start_source beds = store_beds(service->store);
+        beds.client = &request->client;
         good = job_spec_parse_with(&beds, type->name, document, choose_seed(), spec, &problems);
         if (good && !fits_disk(service, spec, &problems)) {
             job_spec_clear(spec);

@@ -113,10 +113,14 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
     } else if (spec->type) { /* without a process nobody knows what its inputs are */
         json_t *values = execute_request_inputs(inputs, problems);
         read_inputs(spec, beds ? beds->memory : NULL, values, problems);
+        if (beds && advances_a_scene(spec)) spec->inputs.client = beds->client;
         json_decref(values);
         spec->type->apply_rules(spec, seed_if_missing, problems);
     }
-    if (spec->type && advances_a_scene(spec)) spec->inputs.memory = NULL;
+    if (spec->type && advances_a_scene(spec)) {
+        spec->inputs.memory = NULL;
+        spec->inputs.client = NULL;
+    }
     spec->beds = NULL;
 
     spec->label = read_label(json_object_get(request, "label"), problems);

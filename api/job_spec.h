@@ -11,6 +11,7 @@
 #include <stdbool.h>
 
 #include "calibration.h"
+#include "client_watch.h"
 #include "dem_granule.h"
 #include "dem_types.h"
 #include "problem.h"
@@ -82,7 +83,9 @@ typedef struct drum_inputs {
     start_inputs start;
     fill_inputs fill;
     heap_inputs heap;
-    struct spec_memory *memory; /* while it is parsed */
+    /* While it is parsed: */
+    struct spec_memory *memory;
+    const client_watch *client;
 } drum_inputs;
 
 typedef struct granule_inputs {
@@ -100,6 +103,7 @@ typedef struct start_source {
     json_t *(*find)(void *context, const start_inputs *start, double *particles, problem_list *problems);
     void *context;
     struct spec_memory *memory; /* of specs read before; NULL: none */
+    const client_watch *client; /* who waits while it is read; NULL: nobody who could leave */
 } start_source;
 
 typedef struct job_spec {

@@ -83,9 +83,10 @@ void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, probl
     for (size_t s = 0; s < inputs->species_count; s++) {
         species_inputs *species = &inputs->species[s];
         scene->species[s] = (dem_species){ .diameter = species->diameter, .density = species->density, .share = species->share };
-        if (isnan(species->shape)) scene->species[s].diameter = NAN; /* refused */
-        else if (species->shape != DEM_SPHERE)
-            drum_cluster_derive(inputs->memory, species, s, &scene->species[s].cluster, problems);
+        const bool is_cluster = species->shape > DEM_SPHERE, has_left = is_cluster && client_has_left(inputs->client);
+        if (has_left) problem_list_add(problems, "/inputs/particles", "was not read to its end: who asked has left");
+        if (isnan(species->shape) || has_left) scene->species[s].diameter = NAN; /* refused */
+        else if (is_cluster) drum_cluster_derive(inputs->memory, species, s, &scene->species[s].cluster, problems);
         if (scene->species[s].cluster.sphere_count) scene->species[s].diameter = dem_species_largest_sphere(&scene->species[s]);
     }
     if (scene->species_count == 0) { /* a refused list: not a number, so that nothing is said of what follows from it */

@@ -206,6 +206,7 @@ bool study_check(const study_spec *study, const calibration *machine, const stud
     }
     if (study->beds) check.source = *study->beds;
     check.source.memory = spec_memory_create();
+    check.source.client = taker ? taker->client : NULL;
     check_base(&check);
     for (size_t i = 0; i < study->cases && goes_on(&check); i++) check_case(&check, i);
     spec_memory_free(check.source.memory);

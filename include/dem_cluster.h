@@ -111,22 +111,68 @@ static inline void dem_moments_add_column(dem_moments *m, double area, double x,
     m->second[5] += v * y * z;
 }
 
+/* A sphere that reaches into a row of columns of one x. */
+typedef struct dem_in_row {
+    size_t sphere;
+    double rest; /* its radius squared less its distance from the row squared */
+} dem_in_row;
+
+/* The part of a column that is within that sphere. */
+typedef struct dem_stretch {
+    double low, high;
+    dem_in_row of;
+} dem_stretch;
+
+static inline size_t dem_cluster_row(const dem_cluster *cluster, double x, dem_in_row *row)
+{
+    size_t count = 0;
+    for (size_t i = 0; i < cluster->sphere_count; i++) {
+        const dem_cluster_sphere *s = &cluster->sphere[i];
+        const double dx = x - s->position[0], rest = 0.25 * s->diameter * s->diameter - dx * dx;
+        if (rest > 0) row[count++] = (dem_in_row){ i, rest };
+    }
+    return count;
+}
+
+/* By their lower ends, then by the spheres' numbers: one order, however they come. Few steps where most are in it. */
+static inline void dem_stretches_sort(dem_stretch *stretch, size_t count)
+{
+    for (size_t k = 1; k < count; k++) {
+        const dem_stretch s = stretch[k];
+        size_t j = k;
+        for (; j > 0; j--) {
+            const dem_stretch *before = &stretch[j - 1];
+            if (before->low < s.low || (before->low == s.low && before->of.sphere < s.of.sphere)) break;
+            stretch[j] = *before;
+        }
+        stretch[j] = s;
+    }
+}
+
+/* In order. The row is left in that order, too, which is nearly that of the next column. */
+static inline size_t dem_cluster_column(const dem_cluster *cluster, double y, dem_in_row *row, size_t row_count, dem_stretch *stretch)
+{
+    size_t count = 0, outside = 0;
+    for (size_t k = 0; k < row_count; k++) {
+        const dem_cluster_sphere *s = &cluster->sphere[row[k].sphere];
+        const double dy = y - s->position[1], h2 = row[k].rest - dy * dy, h = h2 > 0 ? sqrt(h2) : 0;
+        if (h2 > 0) stretch[count++] = (dem_stretch){ s->position[2] - h, s->position[2] + h, row[k] };
+        else row[outside++] = row[k];
+    }
+    dem_stretches_sort(stretch, count);
+    for (size_t k = 0; k < count; k++) row[outside + k] = stretch[k].of;
+    return count;
+}
+
 /* What spheres count twice in one column: of the stretches in order of their lower ends, each one's part below the
  * highest end before it. */
-static inline void dem_moments_add_excess(dem_moments *m, double area, double x, double y, double (*stretch)[2], size_t count)
+static inline void dem_moments_add_excess(dem_moments *m, double area, double x, double y, const dem_stretch *stretch, size_t count)
 {
-    for (size_t k = 1; k < count; k++)
-        for (size_t j = k; j > 0 && stretch[j - 1][0] > stretch[j][0]; j--)
-            for (int e = 0; e < 2; e++) {
-                const double swapped = stretch[j][e];
-                stretch[j][e] = stretch[j - 1][e];
-                stretch[j - 1][e] = swapped;
-            }
     double covered = -INFINITY;
     for (size_t k = 0; k < count; k++) {
-        const double end = fmin(stretch[k][1], covered);
-        if (end > stretch[k][0]) dem_moments_add_column(m, area, x, y, stretch[k][0], end);
-        covered = fmax(covered, stretch[k][1]);
+        const double end = fmin(stretch[k].high, covered);
+        if (end > stretch[k].low) dem_moments_add_column(m, area, x, y, stretch[k].low, end);
+        covered = fmax(covered, stretch[k].high);
     }
 }
 
@@ -151,21 +197,17 @@ static inline dem_moments dem_cluster_excess(const dem_cluster *cluster)
     }
     dem_moments excess = { 0 };
     const double step = fmax(high[0] - low[0], high[1] - low[1]) / DEM_CLUSTER_COLUMNS;
-    for (int a = 0; overlap && a < DEM_CLUSTER_COLUMNS; a++)
+    for (int a = 0; overlap && a < DEM_CLUSTER_COLUMNS; a++) {
+        dem_in_row row[DEM_MAXIMUM_CLUSTER];
+        const double x = low[0] + (a + 0.5) * step;
+        const size_t row_count = dem_cluster_row(cluster, x, row);
         for (int b = 0; b < DEM_CLUSTER_COLUMNS; b++) {
-            const double x = low[0] + (a + 0.5) * step, y = low[1] + (b + 0.5) * step;
-            double stretch[DEM_MAXIMUM_CLUSTER][2];
-            size_t count = 0;
-            for (size_t i = 0; i < cluster->sphere_count; i++) {
-                const dem_cluster_sphere *s = &cluster->sphere[i];
-                const double dx = x - s->position[0], dy = y - s->position[1];
-                const double h2 = 0.25 * s->diameter * s->diameter - dx * dx - dy * dy;
-                if (!(h2 > 0)) continue;
-                stretch[count][0] = s->position[2] - sqrt(h2);
-                stretch[count++][1] = s->position[2] + sqrt(h2);
-            }
+            dem_stretch stretch[DEM_MAXIMUM_CLUSTER];
+            const double y = low[1] + (b + 0.5) * step;
+            const size_t count = dem_cluster_column(cluster, y, row, row_count, stretch);
             dem_moments_add_excess(&excess, step * step, x, y, stretch, count);
         }
+    }
     return excess;
 }
 

@@ -54,6 +54,46 @@ static void nothing_is_counted_twice_where_spheres_overlap(void **unused)
     }
 }
 
+static int later_start(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Columns along z in any order, whose common parts are what the lengths of the spheres in it exceed that of their union by:
+ * the volume of many spheres that nearly coincide, two of them in one place along z. */
+static void many_spheres_in_one_place_have_the_volume_of_their_union(void **unused)
+{
+    (void)unused;
+    dem_cluster c = { .sphere_count = DEM_MAXIMUM_CLUSTER };
+    for (size_t k = 0; k < c.sphere_count; k++) {
+        c.sphere[k] = (dem_cluster_sphere){ { 0.03 * (double)(k * 37 % 64) / 64, 0.05 * (double)(k * 11 % 64) / 64, 0 }, 1 };
+        c.sphere[k].position[2] = 0.04 * (double)(k * 23 % 32) / 32;
+    }
+    const dem_cluster given = c;
+    enum { ROWS = 300 };
+    const double low = -0.5, step = 1.06 / ROWS;
+    double volume = 0;
+    for (int b = 0; b < ROWS; b++)
+        for (int a = 0; a < ROWS; a++) {
+            double part[DEM_MAXIMUM_CLUSTER][2], covered = -1;
+            size_t count = 0;
+            for (size_t k = 0; k < given.sphere_count; k++) {
+                const double *p = given.sphere[k].position, x = low + (a + 0.5) * step - p[0], y = low + (b + 0.5) * step - p[1];
+                if (x * x + y * y >= 0.25) continue;
+                part[count][0] = p[2] - sqrt(0.25 - x * x - y * y);
+                part[count++][1] = p[2] + sqrt(0.25 - x * x - y * y);
+            }
+            qsort(part, count, sizeof part[0], later_start);
+            for (size_t k = 0; k < count; k++) {
+                volume += fmax(part[k][1] - fmax(part[k][0], covered), 0) * step * step;
+                covered = fmax(covered, part[k][1]);
+            }
+        }
+    dem_cluster_complete(&c);
+    CHECK_NEAR(c.volume / volume, 1, 1e-4); /* what both miss at the rim */
+}
+
 /* Two spheres, radii 1 and 0.7, centres 1.1 apart, as a body of revolution: the integral over discs along its axis. */
 static void two_overlapping_spheres_are_the_body_of_revolution(void **unused)
 {
@@ -616,6 +656,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(touching_spheres_have_the_sums_of_their_moments),
         cmocka_unit_test(nothing_is_counted_twice_where_spheres_overlap),
+        cmocka_unit_test(many_spheres_in_one_place_have_the_volume_of_their_union),
         cmocka_unit_test(two_overlapping_spheres_are_the_body_of_revolution),
         cmocka_unit_test(the_frame_is_the_principal_one),
         cmocka_unit_test(what_is_no_body_is_told),

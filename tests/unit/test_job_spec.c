@@ -837,6 +837,32 @@ static void what_a_run_starts_from_must_be_of_the_same_drum_and_particles(void *
     }
 }
 
+/* Leaves at the third look. */
+static bool leaves_soon(void *looks) { return ++*(int *)looks >= 3; }
+
+static void clusters_are_not_looked_into_for_a_client_that_has_left(void **state)
+{
+    (void)state;
+    int looks = 0;
+    const client_watch client = { .has_left = leaves_soon, .client = &looks };
+    const start_source beds = { .client = &client };
+    for (int left = 0; left < 2; left++) {
+        json_t *request = minimal_with("seed", "1"), *species = json_array();
+        for (int s = 0; s < 4; s++)
+            json_array_append_new(species, json_pack("{s:s, s:f, s:f}", "shape", "dumbbell", "diameter", 0.003, "share", 0.25));
+        json_object_set_new(json_object_get(request, "inputs"), "particles", species);
+        job_spec spec;
+        problem_list problems;
+        problem_list_init(&problems);
+        assert_int_equal(job_spec_parse_with(left ? &beds : NULL, "drum", request, 1, &spec, &problems), !left);
+        if (!left) job_spec_clear(&spec);
+        assert_int_equal(json_array_size(problems.errors), left ? 2 : 0); /* the third and the fourth */
+        problem_list_clear(&problems);
+        json_decref(request);
+    }
+    assert_int_equal(looks, 4);
+}
+
 static void a_rate_may_be_given_in_revolutions_a_minute(void **state)
 {
     (void)state;
@@ -952,6 +978,7 @@ int main(void)
         cmocka_unit_test(combinations_that_make_no_sense_are_refused),
         cmocka_unit_test(labels_are_short_texts_and_numbers),
         cmocka_unit_test(a_long_message_is_cut_between_characters),
+        cmocka_unit_test(clusters_are_not_looked_into_for_a_client_that_has_left),
         cmocka_unit_test(a_rate_may_be_given_in_revolutions_a_minute),
         cmocka_unit_test(shares_of_four_digits_sum_to_one),
         cmocka_unit_test(what_can_not_be_packed_is_refused),
