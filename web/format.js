@@ -34,6 +34,7 @@ export function millimetres(metres) {
 
 export function duration(seconds) {
   if (missing(seconds) || seconds < 0) return '–';
+  if (seconds > 0 && seconds < 0.95) return `${significant(seconds, 2)} s`;
   if (seconds < 10) return `${seconds.toFixed(1)} s`;
   if (seconds < 100) return `${Math.round(seconds)} s`;
   const minutes = Math.round(seconds / 60);
@@ -55,18 +56,28 @@ export function clock(iso) {
 }
 
 // What is thought of an angle, by its verdict; runs from before it was given say only whether they are steady.
-const VERDICTS = {
+export const VERDICTS = {
   steady: 'steady', drifting: 'not steady', 'too-short': 'too short to tell', 'too-few': 'too few particles to tell',
 };
+// Of several runs: "steady 2, too-short 1".
+export const verdictsInWords = text => text.split(', ').map(one => {
+  const [verdict, ...runs] = one.split(' ');
+  return [VERDICTS[verdict] ?? verdict, ...runs].join(' ');
+}).join(', ');
+
+export const regimeInWords = (regime, certain) => certain === false ? `${regime}, not certain` : regime;
+
 export function verdictInWords({ verdict, steady }) {
   return VERDICTS[verdict] ?? (steady === false ? 'not steady' : steady === true ? 'steady' : '');
 }
 
+export const NO_ANGLE = 'no angle';
+
 // The answer of a job in one word: null while there is none.
-export function answerInWords(summary) {
+export function answerInWords({ status, processID, summary }) {
   if (!missing(summary?.angle_deg)) return degrees(summary.angle_deg, summary.standard_error_deg);
   if (!missing(summary?.minimum_rotation_rate)) return `≥ ${significant(summary.minimum_rotation_rate, 4)} rad/s`;
-  return null;
+  return status === 'successful' && processID !== 'granule' ? NO_ANGLE : null;
 }
 
 // The main inputs of a job, in the order in which an engineer asks for them.

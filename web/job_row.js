@@ -1,7 +1,7 @@
 // One job in the list: a row, and under it a row for the details that opens and closes. Rows are kept from
 // poll to poll and only their changed cells are written.
 import { h, replaceIfChanged } from './dom.js';
-import { answerInWords, clock, count, duration, inputsInWords, secondsBetween, significant, verdictInWords } from './format.js';
+import { answerInWords, clock, count, duration, inputsInWords, regimeInWords, secondsBetween, significant, verdictInWords } from './format.js';
 import { drumPicture } from './drum_picture.js';
 import { createDetail } from './job_detail.js';
 
@@ -30,7 +30,7 @@ export function createRow(id, actions) {
     showState(cells.state, job);
     showInputs(cells.inputs, job);
     showAnswer(cells.angle, job);
-    replaceIfChanged(cells.regime, job.summary?.regime ?? '', () => job.summary?.regime ?? nothing());
+    showRegime(cells.regime, job.summary ?? {});
     showTimes(cells.times, job);
     showActions(cells.actions, job, row, actions);
     main.classList.toggle('open', open);
@@ -76,16 +76,20 @@ function showInputs(cell, job) {
 
 function showAnswer(cell, job) {
   const { angle_deg, fill_fraction, steady, verdict, minimum_omega2, warnings } = job.summary ?? {};
-  const words = answerInWords(job.summary);
+  const words = answerInWords(job);
   replaceIfChanged(cell, [words, fill_fraction, steady, verdict, warnings, job.status], () => {
     if (words === null) return nothing();
-    const isAngle = typeof angle_deg === 'number';
-    return [isAngle && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
-      h('span', { class: 'value', title: isAngle ? 'angle of repose' : 'least rate that keeps the particle on the wall' }, words,
-        isAngle ? null : h('small', { class: 'quiet' }, `ω²R/g ${significant(minimum_omega2, 4)}`),
-        isAngle && steady !== true && verdictInWords({ verdict, steady }) ? h('small', null, verdictInWords({ verdict, steady })) : null,
+    const isRate = minimum_omega2 !== undefined;
+    return [angle_deg !== undefined && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
+      h('span', { class: 'value', title: isRate ? 'least rate that keeps the particle on the wall' : 'angle of repose' }, words,
+        isRate ? h('small', { class: 'quiet' }, `ω²R/g ${significant(minimum_omega2, 4)}`) : null,
+        steady !== true && verdictInWords({ verdict, steady }) ? h('small', null, verdictInWords({ verdict, steady })) : null,
         warnings > 0 ? h('small', { class: 'why' }, warnings === 1 ? 'a warning' : `${count(warnings)} warnings`) : null)];
   });
+}
+
+function showRegime(cell, { regime, certain }) {
+  replaceIfChanged(cell, [regime, certain], () => regime ? regimeInWords(regime, certain) : nothing());
 }
 
 function showTimes(cell, job) {

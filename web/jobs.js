@@ -80,7 +80,7 @@ function showRows(jobs) {
 
 function announceChange(before, now) {
   if (!before || before.status === now.status) return;
-  const answer = answerInWords(now.summary);
+  const answer = answerInWords(now);
   byId('announcements').textContent = `${nameOf(now)}: ${now.status}${answer ? `, ${answer}` : ''}`;
 }
 

@@ -1,12 +1,11 @@
 // The results of a heap and of a filled cylinder in readable form.
 import { h } from './dom.js';
 import { degrees, millimetres, percent } from './format.js';
-import { angleTable, section } from './results.js';
+import { angleOf, angleTable, rangeOf, section } from './results.js';
 
 function steepness(repose) {
-  return [h('strong', null, degrees(repose.angle_deg, repose.standard_error_deg)),
-    h('span', null, repose.angle_deg === null ? 'too few particles for an angle'
-      : `from ${degrees(repose.minimum_deg)} to ${degrees(repose.maximum_deg)} over ${repose.azimuths} azimuths`)];
+  return [angleOf(repose), repose.angle_deg === null ? h('span', null, 'too few particles for an angle')
+    : rangeOf(repose, ` over ${repose.azimuths} azimuths`)];
 }
 
 export function heapAnswer({ repose = {}, surface = {}, heap = {} }) {

@@ -1,6 +1,6 @@
 // The table of a study's cases: what differs between them, how many runs have ended, and mean ± standard error.
 import { h } from './dom.js';
-import { count, degrees, percent, significant, superscript } from './format.js';
+import { count, degrees, percent, regimeInWords, significant, superscript, verdictsInWords } from './format.js';
 
 export const ROWS_SHOWN = 500;
 
@@ -15,6 +15,12 @@ const MEASURES = [
   ['torque', 'torque, N m', plain],
   ['slumps_period', 'period of slumps, s', plain],
   ['maximum_overlap', 'largest overlap', share],
+];
+
+// What is thought of the runs: name in the table, which is the heading, too, and how it is written.
+const WORDS = [
+  ['regime', (regime, { certain }) => regimeInWords(regime, certain)],
+  ['verdict', verdictsInWords],
 ];
 
 // As many decimals as the error has meaning.
@@ -42,25 +48,25 @@ function share(mean, error) {
 export function caseTable(cases, all) {
   const named = member => [...new Set(cases.flatMap(one => Object.keys(one[member])))];
   const inputs = named('inputs'), labels = named('label');
-  const measures = MEASURES.filter(([name]) => cases.some(one => one.results[name]));
-  const withRegime = cases.some(one => one.regime);
+  const measures = MEASURES.filter(([name]) => cases.some(one => one.results[name] || (name === 'angle_deg' && one.verdict)));
+  const words = WORDS.filter(([name]) => cases.some(one => one[name]));
   const table = h('table', { class: 'grid cases' },
     h('caption', { class: 'unseen' }, 'Cases, with means over their repeats and standard errors'),
-    h('thead', null, h('tr', null, ['case', ...inputs, ...labels, 'runs', ...(withRegime ? ['regime', 'verdict'] : [])].map(name => h('th', { scope: 'col' }, name)),
+    h('thead', null, h('tr', null, ['case', ...inputs, ...labels, 'runs', ...words.map(([name]) => name)].map(name => h('th', { scope: 'col' }, name)),
       measures.map(([, heading]) => h('th', { scope: 'col', class: 'measure' }, heading)))),
-    h('tbody', null, cases.slice(0, ROWS_SHOWN).map(one => row(one, inputs, labels, measures, withRegime))));
+    h('tbody', null, cases.slice(0, ROWS_SHOWN).map(one => row(one, inputs, labels, measures, words))));
   const left = all - Math.min(cases.length, ROWS_SHOWN);
   return left > 0 ? [table, h('p', { class: 'quiet' }, `The first ${ROWS_SHOWN} cases; the CSV has all ${count(all)}.`)] : [table];
 }
 
-function row(one, inputs, labels, measures, withRegime) {
+function row(one, inputs, labels, measures, words) {
   return h('tr', null,
     h('th', { scope: 'row' }, one.case),
     inputs.map(name => h('td', null, inWords(one.inputs[name]))),
     labels.map(name => h('td', null, inWords(one.label[name]))),
     h('td', null, `${count(one.finished)} of ${count(one.repeats)}`, one.failed ? h('small', { class: 'why' }, `${count(one.failed)} failed`) : null,
       one.warnings ? h('small', { class: 'why' }, one.warnings === 1 ? '1 warning' : `${count(one.warnings)} warnings`) : null),
-    withRegime ? [h('td', null, one.certain === false ? `${one.regime ?? '–'}, not certain` : one.regime ?? '–'), h('td', null, one.verdict ?? '–')] : null,
+    words.map(([name, write]) => h('td', null, one[name] ? write(one[name], one) : '–')),
     measures.map(([name, , write]) => measure(one.results[name], write)));
 }
 

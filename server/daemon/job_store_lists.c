@@ -22,8 +22,8 @@
     " coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"                                             \
     " coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, coalesce(i.duration, fi.duration, hi.duration) AS duration," \
     " coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"                     \
-    " a.standard_error_deg, a.steady, a.verdict, g.name AS regime, gr.minimum_omega2, gr.minimum_rotation_rate, r.wall_seconds,"   \
-    " r.warnings"                                                                                                                  \
+    " a.standard_error_deg, a.steady, a.verdict, g.name AS regime, g.certain, gr.minimum_omega2, gr.minimum_rotation_rate,"        \
+    " r.wall_seconds, r.warnings"                                                                                                  \
     " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"                         \
     " LEFT JOIN fill_input fi ON fi.job=job.number LEFT JOIN heap_input hi ON hi.job=job.number"                                   \
     " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                                 \
@@ -36,6 +36,8 @@ static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
     snprintf(text, size, "%s", value ? value : "");
 }
 
+static bool is_truth(const char *column) { return strcmp(column, "steady") == 0 || strcmp(column, "certain") == 0; }
+
 static json_t *summary_of(sqlite3_stmt *row)
 {
     json_t *summary = json_object();
@@ -44,8 +46,8 @@ static json_t *summary_of(sqlite3_stmt *row)
         switch (sqlite3_column_type(row, i)) {
         case SQLITE_INTEGER:
             json_object_set_new(summary, name,
-                                strcmp(name, "steady") == 0 ? json_boolean(sqlite3_column_int(row, i))
-                                                            : json_integer(sqlite3_column_int64(row, i)));
+                                is_truth(name) ? json_boolean(sqlite3_column_int(row, i))
+                                               : json_integer(sqlite3_column_int64(row, i)));
             break;
         case SQLITE_FLOAT: json_object_set_new(summary, name, json_real(sqlite3_column_double(row, i))); break;
         case SQLITE_TEXT: json_object_set_new(summary, name, json_string((const char *)sqlite3_column_text(row, i))); break;

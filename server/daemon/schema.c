@@ -219,44 +219,47 @@ static const char fill_and_heap_tables[] =
     "ALTER TABLE repose_result ADD COLUMN while_filling_angle_deg REAL;"
     "ALTER TABLE repose_result ADD COLUMN while_filling_standard_error_deg REAL;";
 
-static const char run_summary_with_more_measures[] =
-    "DROP VIEW run_summary;"
-    "CREATE VIEW run_summary AS SELECT"
-    "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
-    "  i.drum_diameter, i.drum_length, i.ends, i.lifters, coalesce(i.shape, fi.shape, hi.shape) AS shape,"
-    "  fi.cylinder_diameter, fi.stream_diameter, fi.rate, fi.impact_speed,"
-    "  hi.tube_diameter, hi.lift_speed, hi.plate_diameter, hi.rim_height, hi.plate_friction,"
-    "  coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
-    "  coalesce(i.gravity, fi.gravity, hi.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles,"
-    "  coalesce(i.species, fi.species, hi.species) AS species, coalesce(i.diameter, fi.diameter, hi.diameter) AS diameter,"
-    "  coalesce(i.density, fi.density, hi.density) AS density,"
-    "  coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"
-    "  coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"
-    "  coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"
-    "  coalesce(i.rolling_friction, fi.rolling_friction, hi.rolling_friction) AS rolling_friction,"
-    "  coalesce(i.wall_rolling_friction, fi.wall_rolling_friction, hi.wall_rolling_friction) AS wall_rolling_friction,"
-    "  coalesce(i.tangential_stiffness_ratio, fi.tangential_stiffness_ratio, hi.tangential_stiffness_ratio)"
-    "   AS tangential_stiffness_ratio,"
-    "  coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, i.lining_diameter,"
-    "  coalesce(i.time_step, fi.time_step, hi.time_step) AS time_step,"
-    "  coalesce(i.duration, fi.duration, hi.duration) AS duration, coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius,"
-    "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady, a.drift_deg_per_revolution,"
-    "  a.interface_fluctuation, a.slumps_count, a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg,"
-    "  a.while_filling_angle_deg, a.while_filling_standard_error_deg,"
-    "  f.height, f.center_height, f.wall_height, f.base_diameter, f.static_cohesive_index, hr.lost,"
-    "  g.name AS regime, g.omega2_outer, g.omega2_inner,"
-    "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number, p.mean_overlap, p.overlap_99,"
-    "  d.torque, d.torque_standard_error, d.torque_number, d.power,"
-    "  gr.minimum_omega2, gr.minimum_rotation_rate, gr.slip_per_revolution,"
-    "  r.steps, r.simulated_seconds, r.wall_seconds, r.particle_steps_per_second, r.maximum_overlap, r.threads"
-    " FROM job JOIN run_result r ON r.job=job.number LEFT JOIN drum_input i ON i.job=job.number"
-    " LEFT JOIN granule_input gi ON gi.job=job.number LEFT JOIN granule_result gr ON gr.job=job.number"
-    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"
-    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
-    " LEFT JOIN drive_result d ON d.job=job.number LEFT JOIN fill_input fi ON fi.job=job.number"
-    " LEFT JOIN heap_input hi ON hi.job=job.number LEFT JOIN surface_result f ON f.job=job.number"
-    " LEFT JOIN heap_result hr ON hr.job=job.number"
-    " WHERE job.status='successful';";
+/* A row a finished run. Since there were verdicts and warnings these stand where the arguments are, each with its comma. */
+#define RUN_SUMMARY(verdict, drift, certain, run)                                                                                  \
+    "DROP VIEW run_summary;"                                                                                                       \
+    "CREATE VIEW run_summary AS SELECT"                                                                                            \
+    "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"                           \
+    "  i.drum_diameter, i.drum_length, i.ends, i.lifters, coalesce(i.shape, fi.shape, hi.shape) AS shape,"                         \
+    "  fi.cylinder_diameter, fi.stream_diameter, fi.rate, fi.impact_speed,"                                                        \
+    "  hi.tube_diameter, hi.lift_speed, hi.plate_diameter, hi.rim_height, hi.plate_friction,"                                      \
+    "  coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"                                                              \
+    "  coalesce(i.gravity, fi.gravity, hi.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles,"                          \
+    "  coalesce(i.species, fi.species, hi.species) AS species, coalesce(i.diameter, fi.diameter, hi.diameter) AS diameter,"        \
+    "  coalesce(i.density, fi.density, hi.density) AS density,"                                                                    \
+    "  coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"                                                   \
+    "  coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"                                                    \
+    "  coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"                                            \
+    "  coalesce(i.rolling_friction, fi.rolling_friction, hi.rolling_friction) AS rolling_friction,"                                \
+    "  coalesce(i.wall_rolling_friction, fi.wall_rolling_friction, hi.wall_rolling_friction) AS wall_rolling_friction,"            \
+    "  coalesce(i.tangential_stiffness_ratio, fi.tangential_stiffness_ratio, hi.tangential_stiffness_ratio)"                       \
+    "   AS tangential_stiffness_ratio,"                                                                                            \
+    "  coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, i.lining_diameter,"                                         \
+    "  coalesce(i.time_step, fi.time_step, hi.time_step) AS time_step,"                                                            \
+    "  coalesce(i.duration, fi.duration, hi.duration) AS duration, coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius,"         \
+    "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady," verdict " a.drift_deg_per_revolution,"          \
+    " " drift " a.interface_fluctuation, a.slumps_count, a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg,"                  \
+    "  a.while_filling_angle_deg, a.while_filling_standard_error_deg,"                                                             \
+    "  f.height, f.center_height, f.wall_height, f.base_diameter, f.static_cohesive_index, hr.lost,"                               \
+    "  g.name AS regime," certain " g.omega2_outer, g.omega2_inner,"                                                               \
+    "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number, p.mean_overlap, p.overlap_99,"       \
+    "  d.torque, d.torque_standard_error, d.torque_number, d.power,"                                                               \
+    "  gr.minimum_omega2, gr.minimum_rotation_rate, gr.slip_per_revolution,"                                                       \
+    "  r.steps, r.simulated_seconds, r.wall_seconds, r.particle_steps_per_second, r.maximum_overlap, r.threads" run                \
+    " FROM job JOIN run_result r ON r.job=job.number LEFT JOIN drum_input i ON i.job=job.number"                                   \
+    " LEFT JOIN granule_input gi ON gi.job=job.number LEFT JOIN granule_result gr ON gr.job=job.number"                            \
+    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                                 \
+    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"                           \
+    " LEFT JOIN drive_result d ON d.job=job.number LEFT JOIN fill_input fi ON fi.job=job.number"                                   \
+    " LEFT JOIN heap_input hi ON hi.job=job.number LEFT JOIN surface_result f ON f.job=job.number"                                 \
+    " LEFT JOIN heap_result hr ON hr.job=job.number LEFT JOIN fill_result fr ON fr.job=job.number"                                 \
+    " WHERE job.status='successful';"
+
+static const char run_summary_with_more_measures[] = RUN_SUMMARY("", "", "", "");
 
 /* What a step of each job has to do, and its cost over what the calibration says of that: with these numbers the latest
  * runs correct an estimate without a look at their specifications. */
@@ -278,53 +281,15 @@ static const char parts_of_studies[] = "CREATE TABLE study_part("
                                        "  number INTEGER NOT NULL, text TEXT NOT NULL,"
                                        "  PRIMARY KEY(study, number)) STRICT, WITHOUT ROWID;";
 
-static const char verdicts[] =
-    "ALTER TABLE repose_result ADD COLUMN verdict TEXT;"
-    "ALTER TABLE repose_result ADD COLUMN drift_bound_deg_per_revolution REAL;"
-    "ALTER TABLE repose_result ADD COLUMN window_revolutions REAL;"
-    "ALTER TABLE repose_result ADD COLUMN window_correlation_times REAL;"
-    "ALTER TABLE repose_result ADD COLUMN layers REAL;"
-    "ALTER TABLE regime_result ADD COLUMN certain INTEGER;";
+static const char verdicts[] = "ALTER TABLE repose_result ADD COLUMN verdict TEXT;"
+                               "ALTER TABLE repose_result ADD COLUMN drift_bound_deg_per_revolution REAL;"
+                               "ALTER TABLE repose_result ADD COLUMN window_revolutions REAL;"
+                               "ALTER TABLE repose_result ADD COLUMN window_correlation_times REAL;"
+                               "ALTER TABLE repose_result ADD COLUMN layers REAL;"
+                               "ALTER TABLE regime_result ADD COLUMN certain INTEGER;";
 
 static const char run_summary_with_verdicts[] =
-    "DROP VIEW run_summary;"
-    "CREATE VIEW run_summary AS SELECT"
-    "  job.id, job.process, job.label, job.status, job.created, job.started, job.finished, job.attempt,"
-    "  i.drum_diameter, i.drum_length, i.ends, i.lifters, coalesce(i.shape, fi.shape, hi.shape) AS shape,"
-    "  fi.cylinder_diameter, fi.stream_diameter, fi.rate, fi.impact_speed,"
-    "  hi.tube_diameter, hi.lift_speed, hi.plate_diameter, hi.rim_height, hi.plate_friction,"
-    "  coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate,"
-    "  coalesce(i.gravity, fi.gravity, hi.gravity, gi.gravity) AS gravity, i.fill_fraction, r.particles,"
-    "  coalesce(i.species, fi.species, hi.species) AS species, coalesce(i.diameter, fi.diameter, hi.diameter) AS diameter,"
-    "  coalesce(i.density, fi.density, hi.density) AS density,"
-    "  coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"
-    "  coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"
-    "  coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"
-    "  coalesce(i.rolling_friction, fi.rolling_friction, hi.rolling_friction) AS rolling_friction,"
-    "  coalesce(i.wall_rolling_friction, fi.wall_rolling_friction, hi.wall_rolling_friction) AS wall_rolling_friction,"
-    "  coalesce(i.tangential_stiffness_ratio, fi.tangential_stiffness_ratio, hi.tangential_stiffness_ratio)"
-    "   AS tangential_stiffness_ratio,"
-    "  coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, i.lining_diameter,"
-    "  coalesce(i.time_step, fi.time_step, hi.time_step) AS time_step,"
-    "  coalesce(i.duration, fi.duration, hi.duration) AS duration, coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius,"
-    "  a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg, a.steady, a.verdict, a.drift_deg_per_revolution,"
-    "  a.drift_bound_deg_per_revolution, a.layers, a.interface_fluctuation,"
-    "  a.slumps_count, a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg,"
-    "  a.while_filling_angle_deg, a.while_filling_standard_error_deg,"
-    "  f.height, f.center_height, f.wall_height, f.base_diameter, f.static_cohesive_index, hr.lost,"
-    "  g.name AS regime, g.certain, g.omega2_outer, g.omega2_inner,"
-    "  s.radial_index, s.axial_index, s.lacey_index, p.solid_fraction, p.coordination_number, p.mean_overlap, p.overlap_99,"
-    "  d.torque, d.torque_standard_error, d.torque_number, d.power,"
-    "  gr.minimum_omega2, gr.minimum_rotation_rate, gr.slip_per_revolution,"
-    "  r.steps, r.simulated_seconds, r.wall_seconds, r.particle_steps_per_second, r.maximum_overlap, r.threads"
-    " FROM job JOIN run_result r ON r.job=job.number LEFT JOIN drum_input i ON i.job=job.number"
-    " LEFT JOIN granule_input gi ON gi.job=job.number LEFT JOIN granule_result gr ON gr.job=job.number"
-    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"
-    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"
-    " LEFT JOIN drive_result d ON d.job=job.number LEFT JOIN fill_input fi ON fi.job=job.number"
-    " LEFT JOIN heap_input hi ON hi.job=job.number LEFT JOIN surface_result f ON f.job=job.number"
-    " LEFT JOIN heap_result hr ON hr.job=job.number"
-    " WHERE job.status='successful';";
+    RUN_SUMMARY(" a.verdict,", " a.drift_bound_deg_per_revolution, a.layers,", " g.certain,", "");
 
 /* How often in a row an attempt could not go on for want of something of the machine. */
 static const char setbacks[] = "ALTER TABLE job ADD COLUMN setbacks INTEGER NOT NULL DEFAULT 0;";
@@ -342,6 +307,10 @@ static const char retried_and_deleted_jobs[] =
 /* How many. NULL: a run from before there were any. */
 static const char warnings_of_runs[] = "ALTER TABLE run_result ADD COLUMN warnings INTEGER;";
 
+static const char run_summary_with_warnings[] =
+    RUN_SUMMARY(" a.verdict,", " a.drift_bound_deg_per_revolution, a.window_revolutions, a.window_correlation_times, a.layers,",
+                " g.certain,", ", coalesce(fr.at_rest, hr.at_rest) AS at_rest, r.warnings");
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     { { granule_tables, run_summary_with_granule } },
@@ -354,5 +323,6 @@ const schema_migration schema_migrations[] = {
     { { setbacks } },
     { { retried_and_deleted_jobs } },
     { { warnings_of_runs } },
+    { { run_summary_with_warnings } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

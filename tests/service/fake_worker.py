@@ -85,6 +85,15 @@ RESULT = {
     "run": {"particles": 41, "steps": 2000, "time_step": 1e-4, "simulated_seconds": 0.4, "wall_seconds": 0.1,
             "particle_steps_per_second": 8.2e5, "maximum_overlap": 0.01, "threads": 1, "seed": 7},
 }
+OTHER_RESULTS = {
+    "of too few": {"repose": {"angle_deg": None, "standard_error_deg": None, "minimum_deg": None, "maximum_deg": None, "steady": None,
+                              "verdict": "too-few"},
+                   "regime": {"name": None, "certain": None}},
+    "of a moment": {"repose": {"standard_error_deg": None, "steady": None, "verdict": "too-short", "drift_deg_per_revolution": None,
+                               "drift_bound_deg_per_revolution": 1440,
+                               "window": {"start": 0, "end": 0.01, "revolutions": 0.0123, "correlation_times": 1.2}},
+                    "regime": {"certain": False}, "run": {"simulated_seconds": 0.012, "ended_by": "duration"}},
+}
 
 if "angle" in label:  # a number of its own for each seed
     RESULT["repose"]["angle_deg"] = label["angle"] + (spec["inputs"]["seed"] * 7919 % 101) / 50
@@ -98,6 +107,9 @@ if "warnings" in label:  # how many there are, likewise
     counts = label["warnings"].split()
     RESULT["run"]["warnings"] = [{"field": f"/run/fact_{k}", "text": f"is <b>odd</b> {k}"}
                                  for k in range(int(counts[spec["inputs"]["seed"] % len(counts)]))]
+if "results" in label:  # those that have this name
+    for output, members in OTHER_RESULTS[label["results"]].items():
+        RESULT[output].update(members)
 
 signal.signal(signal.SIGTERM, stop)
 print("a word on standard error", file=sys.stderr, flush=True)

@@ -167,6 +167,8 @@ def test_a_granule_shows_its_least_rate(daemon, browser):
     assert f"≥ {least:.2f} rad/s" in shown and "sliding" in shown
     equations = [cell.text.splitlines()[0] for cell in find_all(browser, ".methods tbody th")]
     assert equations == ["this test", "Eq 33", "Eq 34", "Eqns 36–37"]
+    rounds = daemon.get(f"/jobs/{job}/results").json()["regime"]["evidence"]["revolutions"]
+    assert f"revolutions followed\n{rounds}\n" in find(browser, f"#detail-{job} .results").text
     links = [link.get_attribute("href") for link in find_all(browser, ".links a")]
     assert len(links) == 3 and all(requests.get(link).status_code == 200 for link in links)  # no samples, no snapshots
     assert find_all(browser, f"#detail-{job} .plot") == [] and find_all(browser, f"#detail-{job} .snapshots") == []

@@ -60,8 +60,9 @@ def test_warnings_stand_in_messages_lists_tables_and_studies(fake):
     assert rows == {"some": 3, "none": 0}
     lines = csv.DictReader(io.StringIO(fake.get(f"/studies/{study}/results.csv").text))
     assert {line["case"]: line["warnings"] for line in lines} == {"some": "3", "none": "0"}
-    sql = "select warnings, count(*) from run_result group by warnings order by warnings"
-    assert fake.get("/query", params={"sql": sql}).json()["rows"] == [[0, 4], [1, 1], [2, 1]]
+    for table in ("run_result", "run_summary"):
+        sql = f"select warnings, count(*) from {table} group by warnings order by warnings"
+        assert fake.get("/query", params={"sql": sql}).json()["rows"] == [[0, 4], [1, 1], [2, 1]]
     jobs = fake.get(f"/jobs?study={study}&limit=20").json()["jobs"]
     assert {(job["summary"]["warnings"], job["message"]) for job in jobs} == {
         (0, "done"), (1, "done, with 1 warning: /run/fact_0 is <b>odd</b> 0"), (2, "done, with 2 warnings: /run/fact_0 is <b>odd</b> 0")}

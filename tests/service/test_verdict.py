@@ -74,8 +74,9 @@ def test_verdicts_stand_in_lists_tables_and_studies(fake):
            " from run_summary group by verdict order by verdict")
     assert fake.get("/query", params={"sql": sql}).json()["rows"] == [
         ["drifting", 1, 1, 1, 0.4, 6.5], ["steady", 6, 6, 6, 0.4, 6.5], ["too-short", 2, 0, 0, 0.4, 6.5]]
-    sql = "select distinct window_revolutions, window_correlation_times from repose_result"
-    assert fake.get("/query", params={"sql": sql}).json()["rows"] == [[2.5, 30.0]]
+    for table in ("repose_result", "run_summary"):
+        sql = f"select distinct window_revolutions, window_correlation_times from {table}"
+        assert fake.get("/query", params={"sql": sql}).json()["rows"] == [[2.5, 30.0]]
     summaries = [job["summary"] for job in fake.get(f"/jobs?study={study}&limit=20").json()["jobs"]]
-    assert sorted((one["verdict"], one.get("steady")) for one in summaries if one["verdict"] != "steady") == [
-        ("drifting", False), ("too-short", None), ("too-short", None)]
+    assert sorted((one["verdict"], one.get("steady"), one["certain"]) for one in summaries if one["verdict"] != "steady") == [
+        ("drifting", False, True), ("too-short", None, False), ("too-short", None, False)]
