@@ -20,7 +20,7 @@ CFLAGS := -std=c17 -g $(OPT) $(WARNINGS) -MMD -MP $(SANITIZE)
 LDFLAGS := $(SANITIZE)
 
 # Contraction off: an expression has the same bits wherever the compiler inlines it.
-CORE_FLAGS := -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp -Wno-psabi -Iinclude -Icore
+CORE_FLAGS := -ffp-contract=off -fno-math-errno -fno-trapping-math -fopenmp -Wno-psabi
 # The core is compiled once for each set of instructions, and for each in both precisions: single-avx512, double-plain, ...
 # repose is single-plain, which any x86-64 runs, and hands over to the program for the processor it is on.
 VARIANTS := $(foreach p,single double,$(foreach i,avx512 avx2 plain,$(p)-$(i)))
@@ -35,19 +35,52 @@ ISAS := $(if $(filter avx512vl,$(CPU_FLAGS)),avx512) $(if $(filter avx2,$(CPU_FL
 ISA := $(firstword $(ISAS))
 VARIANT := $(if $(DOUBLE),double,single)-$(ISA)
 RUNNABLE := $(foreach i,$(ISAS),$(filter %-$(i),$(VARIANTS)))
-API_FLAGS := -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi
-WORKER_FLAGS = -D_GNU_SOURCE $(HARDENING) -Iinclude -Iapi -Iserver/worker $(HDF5_CFLAGS)
-DAEMON_FLAGS := -D_GNU_SOURCE $(HARDENING) -pthread -Iinclude -Iapi -Iserver/daemon
+API_FLAGS := -D_GNU_SOURCE $(HARDENING)
+WORKER_FLAGS = -D_GNU_SOURCE $(HARDENING) $(HDF5_CFLAGS)
+DAEMON_FLAGS := -D_GNU_SOURCE $(HARDENING) -pthread
+
+# The rooms: what is compiled in a folder sees the headers of these folders and no others, so that a layer which reaches
+# up does not compile. Each line may name the line of a folder below.
+core/numbers_SEES := include core/numbers
+core/bodies_SEES := $(core/numbers_SEES) core/bodies
+core/walls_SEES := $(core/bodies_SEES) core/walls
+core/contacts_SEES := $(core/walls_SEES) core/contacts
+core/scene_SEES := $(core/contacts_SEES) core/scene
+core/measures_SEES := $(core/scene_SEES) core/measures
+core_SEES := $(core/measures_SEES)
+api/text_SEES := include api/text
+api/spec_SEES := $(api/text_SEES) api/spec
+api/process/scene_SEES := $(api/spec_SEES) api/process/scene
+api/process/granule_SEES := $(api/process/scene_SEES) api/process/granule
+api/process/drum_SEES := $(api/process/scene_SEES) api/process/drum
+api/process/fill_SEES := $(api/process/scene_SEES) api/process/fill
+api/process/heap_SEES := $(api/process/scene_SEES) api/process/heap
+PROCESSES := $(wildcard api/process/*)
+api/process_SEES := $(api/spec_SEES) $(filter-out %.c,$(PROCESSES))
+api/study_SEES := $(api/spec_SEES) api/study
+api/store_SEES := $(api/study_SEES) api/store
+api/http_SEES := $(api/store_SEES) api/http
+server/daemon/base_SEES := $(api/http_SEES) server/daemon/base
+server/daemon/store_SEES := $(server/daemon/base_SEES) server/daemon/store
+server/daemon/queue_SEES := $(server/daemon/store_SEES) server/daemon/queue
+server/daemon/http_SEES := $(server/daemon/queue_SEES) server/daemon/http
+server/daemon_SEES := $(server/daemon/http_SEES)
+server/worker/files_SEES := $(api/process_SEES) server/worker/files
+server/worker/run_SEES := $(sort $(api/process_SEES) $(api/study_SEES)) server/worker/files server/worker/run
+server/worker_SEES := $(server/worker/run_SEES)
+# $(call sees,FILE): the -I list of a file, which is its folder's. Tests see everything that they are linked with.
+sees = $(addprefix -I,$($(patsubst %/,%,$(dir $(1)))_SEES))
+EVERYTHING := $(addprefix -I,$(core_SEES) $(sort $(api/process_SEES) $(api/http_SEES)) $(server/daemon_SEES))
 
 # Asked for when something is compiled, not when this file is read: `make help` needs no pkg-config.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5-serial)
 HDF5_LIBS = $(shell pkg-config --libs hdf5-serial)
 
-CORE_SOURCES := $(wildcard core/*.c)
+CORE_SOURCES := $(wildcard core/*.c core/*/*.c)
 DEM := $(BUILD)/core/$(VARIANT)/libdem.a
-API := $(patsubst %.c,$(BUILD)/%.o,$(wildcard api/*.c))
-WORKER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/worker/*.c))
-DAEMON := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/daemon/*.c))
+API := $(patsubst %.c,$(BUILD)/%.o,$(wildcard api/*/*.c api/*/*/*.c))
+WORKER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/worker/*.c server/worker/*/*.c))
+DAEMON := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/daemon/*.c server/daemon/*/*.c))
 DAEMON_PARTS := $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
 PHYSICS := $(patsubst tests/physics/%.c,%,$(wildcard tests/physics/*.c))
 # What differs from variant to variant, once for each that this machine can run.
@@ -75,7 +108,7 @@ define core
 $(BUILD)/core/$(1)/%.o: core/%.c Makefile
 	@mkdir -p $$(@D)
 	$(SAY) compile "$$< for $(1)"
-	$(QUIET)$(CC) $(CFLAGS) $(CORE_FLAGS) $(call variant_flags,$(1)) -c $$< -o $$@
+	$(QUIET)$(CC) $(CFLAGS) $(CORE_FLAGS) $(call variant_flags,$(1)) $$(call sees,$$<) -c $$< -o $$@
 $(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_SOURCES))
 	@rm -f $$@ && ar rcs $$@ $$^
 $(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a
@@ -86,15 +119,15 @@ $(foreach v,$(VARIANTS),$(eval $(call core,$(v))))
 $(BUILD)/api/%.o: api/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<
-	$(QUIET)$(CC) $(CFLAGS) $(API_FLAGS) -c $< -o $@
+	$(QUIET)$(CC) $(CFLAGS) $(API_FLAGS) $(call sees,$<) -c $< -o $@
 $(BUILD)/server/worker/%.o: server/worker/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<
-	$(QUIET)$(CC) $(CFLAGS) $(WORKER_FLAGS) -c $< -o $@
+	$(QUIET)$(CC) $(CFLAGS) $(WORKER_FLAGS) $(call sees,$<) -c $< -o $@
 $(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<
-	$(QUIET)$(CC) $(CFLAGS) $(DAEMON_FLAGS) -c $< -o $@
+	$(QUIET)$(CC) $(CFLAGS) $(DAEMON_FLAGS) $(call sees,$<) -c $< -o $@
 
 $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
@@ -109,13 +142,13 @@ FORCE:
 $(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(DEM) $(BUILD)/variant
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi $< $(BUILD)/libapi.a $(DEM) \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(EVERYTHING) $< $(BUILD)/libapi.a $(DEM) \
 	  $(LDFLAGS) -fopenmp -ljansson -lm -o $@
 # Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
 $(BUILD)/tests/unit/%: tests/unit/%.c $(DEM) $(BUILD)/libapi.a $(DAEMON_PARTS) $(BUILD)/variant
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi -Iinclude -Icore -Iapi -Iserver/daemon $< $(DAEMON_PARTS) \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(EVERYTHING) $< $(DAEMON_PARTS) \
 	  $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lz -lm -o $@
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
@@ -123,12 +156,12 @@ define variant_tests
 $(BUILD)/tests/$(1)/%: tests/physics/%.c $(BUILD)/core/$(1)/libdem.a
 	@mkdir -p $$(@D)
 	$(SAY) link $$@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) $$< \
 	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
 $(BUILD)/tests/unit/%-$(1): tests/unit/%.c $(BUILD)/core/$(1)/libdem.a
 	@mkdir -p $$(@D)
 	$(SAY) link $$@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi -Iinclude -Icore $$< \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) $$< \
 	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
 endef
 $(foreach v,$(VARIANTS),$(eval $(call variant_tests,$(v))))
@@ -189,9 +222,9 @@ format: lint-packages ## clang-format over all C
 lint: lint-packages ## clang-tidy and cppcheck
 	@rm -rf $(BUILD)/lint && mkdir -p $(BUILD)/lint
 	@bear --output $(BUILD)/lint/compile_commands.json -- $(MAKE) --no-print-directory BUILD=$(BUILD)/lint/objects programs >/dev/null
-	@clang-tidy --quiet -p $(BUILD)/lint $(wildcard core/*.c api/*.c server/*/*.c) 2>/dev/null
+	@clang-tidy --quiet -p $(BUILD)/lint $(CORE_SOURCES) $(wildcard api/*/*.c api/*/*/*.c server/*/*.c server/*/*/*.c) 2>/dev/null
 	@cppcheck --quiet --enable=warning,performance,portability --error-exitcode=1 \
-	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex -Iinclude -Icore -Iapi -Iserver/daemon -Iserver/worker core api server
+	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex $(EVERYTHING) -Iserver/worker/files -Iserver/worker/run core api server
 
 clean: ## remove what was built, and data folders in it; not while a daemon is at work on one of these
 	@for lock in $$(find $(BUILD) -maxdepth 4 -type f -name lock 2>/dev/null); do \
@@ -222,4 +255,4 @@ lint-packages: packages
 
 .PHONY: FORCE all programs demo serve test torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
--include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d)
+-include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

@@ -25,7 +25,7 @@
 #define DEM_LEAST_WINDOW_REVOLUTIONS 0.25 /* and in the window */
 #define DEM_LEAST_WINDOW_FRAMES 40
 #define DEM_LEAST_CORRELATION_TIMES 20 /* as the window itself shows them, which may be twice too many */
-#define DEM_LEAST_FALLS 3 /* slumps or avalanches that tell as much as so many revolutions */
+#define DEM_LEAST_FALLS 3              /* slumps or avalanches that tell as much as so many revolutions */
 
 static inline double dem_sphere_mass(double diameter, double density)
 {
@@ -203,7 +203,7 @@ static inline double dem_bed_layers(double drum_diameter, double share, double m
 /* Time to make a bed of many particles in any container of that size, s of simulated time. */
 static inline double dem_settling_time_estimate(double size, double gravity) { return 1.8 * sqrt(size / gravity); }
 
-/* Time to make a drum's bed, s of simulated time. Growing takes what core/filling.c says. Settling ends when little kinetic
+/* Time to make a drum's bed, s of simulated time. Growing takes what core/scene/filling.c says. Settling ends when little kinetic
  * energy is left for each particle: grains that lie side by side on the wall roll down to its lowest line, held back by the
  * drag, and do so the longer the fewer they are beside the row that the random start has room for, 2 sqrt(D/d) of them in a
  * cross-section; where they lie on each other they stop at once. Friction and restitution matter less than the seed: its

@@ -26,11 +26,11 @@ def test_help_needs_no_package(tmp_path):
 
 
 def test_a_file_that_is_compiled_takes_one_line(tmp_path):
-    target = f"{tmp_path}/api/routes.o"
+    target = f"{tmp_path}/api/http/routes.o"
     answer = make(f"BUILD={tmp_path}", target)
-    assert answer.stdout.split() == ["compile", "api/routes.c"] and Path(target).exists(), answer.stdout + answer.stderr
+    assert answer.stdout.split() == ["compile", "api/http/routes.c"] and Path(target).exists(), answer.stdout + answer.stderr
     Path(target).unlink()
-    assert " -c api/routes.c " in make(f"BUILD={tmp_path}", "V=1", target).stdout
+    assert " -c api/http/routes.c " in make(f"BUILD={tmp_path}", "V=1", target).stdout
 
 
 def test_data_may_lie_in_a_folder_with_a_space_in_its_name():

@@ -88,7 +88,7 @@ def test_the_document_is_sound(contract):
 
 
 def test_every_address_of_the_daemon_is_documented_and_no_other(contract):
-    table = re.findall(r'\{ ?"(\w+)", "([^"]+)", "([^"]*)"', (ROOT / "api/route_table.c").read_text())
+    table = re.findall(r'\{ ?"(\w+)", "([^"]+)", "([^"]*)"', (ROOT / "api/http/route_table.c").read_text())
     daemon = {(method, pattern): set(parameters.split()) for method, pattern, parameters in table}
     documented = {}
     for (method, path), operation in contract.operations.items():

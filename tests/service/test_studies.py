@@ -307,7 +307,7 @@ def test_a_database_of_the_first_version_is_brought_up_to_date(fake):
     path = fake.data / "reposed.sqlite"
     for file in fake.data.glob("reposed.sqlite*"):
         file.unlink()
-    source = (ROOT / "server/daemon/schema.c").read_text()
+    source = (ROOT / "server/daemon/store/schema.c").read_text()
     sql = [re.sub(r"/\*.*?\*/", "", re.search(rf"{name}\[\] =(.*?);\n\n", source, re.S)[1], flags=re.S) for name in ("job_tables", "result_tables")]
     with sqlite3.connect(path) as database:
         for part in sql:

@@ -1,0 +1,177 @@
+/* What the handlers need of a store of jobs. The daemon implements it over SQLite and the job folders; a test may
+ * implement it over an array. Times are ISO 8601 in UTC with milliseconds; "" means not yet. */
+#ifndef STORE_H
+#define STORE_H
+
+#include <jansson.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "client_watch.h"
+#include "job_id.h"
+#include "study_spec.h"
+
+typedef struct job_store job_store;
+
+typedef enum store_status {
+    STORE_OK = 0,
+    STORE_NOT_FOUND,
+    STORE_CONFLICT,   /* the job is not in a state that allows this */
+    STORE_FULL,       /* no room on the disk */
+    STORE_QUEUE_FULL, /* as many jobs wait as may */
+    STORE_REFUSED,    /* a document that does not fit the tables */
+    STORE_FAILED      /* anything else the database or the file system refused; the log has the reason */
+} store_status;
+
+typedef enum job_status { JOB_ACCEPTED, JOB_RUNNING, JOB_SUCCESSFUL, JOB_FAILED, JOB_DISMISSED, JOB_STATUSES } job_status;
+
+enum { JOB_TIME_SIZE = 28 };
+
+const char *job_status_name(job_status status);
+bool job_status_parse(const char *name, size_t length, job_status *status);
+
+typedef struct job_record {
+    int64_t number; /* order of submission */
+    char id[JOB_ID_SIZE], process[16];
+    char study[JOB_ID_SIZE]; /* id of the study it belongs to; "": none */
+    job_status status;
+    int attempt;
+    double progress, eta_seconds; /* percent; s, NaN: unknown */
+    char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], finished[JOB_TIME_SIZE], updated[JOB_TIME_SIZE];
+    char message[1024];
+    json_t *label;   /* owned */
+    json_t *summary; /* owned: main inputs, and main results once there are any */
+} job_record;
+
+void job_record_clear(job_record *job);
+
+/* False stops the walk. The record, row or text is only lent. */
+typedef bool job_visitor(void *context, const job_record *job);
+
+typedef struct job_filter {
+    unsigned statuses;                                               /* bit 1 << job_status; 0: all */
+    bool by_process;                                                 /* only jobs of some processes: */
+    unsigned processes;                                              /* bit 1 << index in process_types */
+    bool by_type, type_is_process;                                   /* by_type: only jobs of that type, or none */
+    const char *text;                                                /* to be found in the id or the label; NULL: all */
+    const char *study;                                               /* id; NULL: all */
+    char created_from[JOB_TIME_SIZE], created_before[JOB_TIME_SIZE]; /* "": since ever, for ever */
+    double least_seconds, most_seconds; /* that a job has run, up to now or its end; NaN: whether it has or not */
+    int64_t before;                     /* only jobs with a smaller number; 0: all */
+    int64_t limit;
+} job_filter;
+
+/* The beds that jobs left, for specs that start from one. The source is good as long as the store. */
+start_source store_beds(job_store *store);
+/* Returns after the commit, with spec.json safe on the disk. */
+store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE]);
+/* STORE_CONFLICT: it has already ended. */
+store_status store_dismiss_job(job_store *store, const char *id);
+/* Deletes an ended job: its row, all that the tables have of it, and its folder. STORE_CONFLICT: it has not ended. */
+store_status store_delete_job(job_store *store, const char *id);
+/* A failed or dismissed job into the queue once more, to go on from its checkpoint. STORE_CONFLICT: it is neither. */
+store_status store_retry_job(job_store *store, const char *id);
+/* Of the disk that the folders of jobs are on; NaN: not known. */
+double store_free_bytes(const job_store *store);
+
+store_status store_find_job(job_store *store, const char *id, job_record *job);
+store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context); /* newest first */
+store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES]);
+/* Of those that the filter lets through, whatever their status: what it says of statuses does not count here, nor does the page. */
+store_status store_count_listed(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES]);
+
+typedef struct study_record {
+    int64_t number; /* order of submission */
+    char id[JOB_ID_SIZE], process[16], name[STUDY_NAME_SIZE];
+    int64_t cases, repeats, jobs, counts[JOB_STATUSES]; /* counts: of its jobs */
+    double progress, estimated_seconds;                 /* percent; s of one worker, when it was submitted */
+    char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], updated[JOB_TIME_SIZE]; /* updated: the last change of a job's state */
+} study_record;
+typedef bool study_visitor(void *context, const study_record *study);
+
+/* Where the jobs of a study wait, ready to be added, while the rest of it is still being read: nobody else sees or waits for
+ * them. The study and the machine live as long. NULL: no memory or no disk. */
+typedef struct study_stage study_stage;
+study_stage *store_stage_study(job_store *store, const study_spec *study, const calibration *machine);
+study_taker store_stage_taker(study_stage *stage);         /* for study_check */
+store_status store_stage_status(const study_stage *stage); /* why it did not take a job */
+void store_drop_stage(study_stage *stage);
+/* All its jobs in one commit, or none. */
+store_status store_add_study(job_store *store, study_stage *stage, const study_spec *study, const study_estimate *estimate,
+                             char id[JOB_ID_SIZE]);
+/* Dismisses its jobs that have not ended. STORE_CONFLICT: all have. */
+store_status store_dismiss_study(job_store *store, const char *id);
+/* Deletes it with all its jobs, as store_delete_job. STORE_CONFLICT: not all have ended. */
+store_status store_delete_study(job_store *store, const char *id);
+store_status store_find_study(job_store *store, const char *id, study_record *study);
+store_status store_list_studies(job_store *store, int64_t before, int64_t limit, study_visitor *visit,
+                                void *context);                               /* newest first */
+store_status store_read_study(job_store *store, const char *id, char **text); /* its document, for free() */
+
+typedef struct study_case_row {
+    int64_t index;
+    const char *name, *inputs, *label; /* inputs, label: JSON objects */
+} study_case_row;
+typedef bool study_case_visitor(void *context, const study_case_row *row);
+store_status store_list_study_cases(job_store *store, const char *id, study_case_visitor *visit, void *context); /* in order */
+
+typedef struct study_run_row {
+    int64_t index; /* of its case */
+    job_status status;
+    const json_t *measures; /* {"angle_deg": 23.1, ...}: numbers and texts; what is not known is not in it */
+} study_run_row;
+typedef bool study_run_visitor(void *context, const study_run_row *row);
+store_status store_list_study_runs(job_store *store, const char *id, study_run_visitor *visit,
+                                   void *context); /* in order of cases */
+
+/* How many jobs may wait. */
+int64_t store_queue_limit(const job_store *store);
+
+/* Texts are for free(). STORE_NOT_FOUND: no such job, or (results, failure) it has none. */
+store_status store_read_spec(job_store *store, const char *id, char **text);
+store_status store_read_results(job_store *store, const char *id, char **text);
+store_status store_read_failure(job_store *store, const char *id, char **text); /* the worker's failure event */
+
+typedef struct sample_row {
+    int64_t number, step;
+    double time;          /* s since rotation began */
+    const char *measures; /* JSON object of numbers and nulls */
+} sample_row;
+typedef bool sample_visitor(void *context, const sample_row *row);
+store_status store_list_samples(job_store *store, const char *id, int64_t after, int64_t limit, sample_visitor *visit,
+                                void *context);
+
+typedef struct snapshot_row {
+    int64_t number, step, bytes, particles;
+    double time;
+} snapshot_row;
+typedef bool snapshot_visitor(void *context, const snapshot_row *row);
+store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit,
+                                  void *context);
+
+/* Descriptors for reading, the caller closes. */
+store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file);
+store_status store_open_fields(job_store *store, const char *id, int *file);
+store_status store_open_log(job_store *store, const char *id, int *file);
+
+/* How fast this machine is: as calibrated and as the latest runs corrected it, or the built-in figures. */
+void store_read_calibration(job_store *store, calibration *machine);
+
+/* Read-only SQL of a user. */
+typedef enum query_status { QUERY_OK, QUERY_REFUSED, QUERY_TOO_SLOW, QUERY_UNAVAILABLE } query_status;
+typedef enum query_value_kind { QUERY_NULL, QUERY_INTEGER, QUERY_REAL, QUERY_TEXT } query_value_kind;
+typedef struct query_value {
+    query_value_kind kind;
+    int64_t integer;
+    double real;
+    const char *text;
+    size_t length;
+} query_value;
+/* row 0 holds the column names as texts, the rows follow; another row 0: all of it comes once more, from the beginning.
+ * False stops, which is no error. */
+typedef bool query_visitor(void *context, int64_t row, const query_value *values, int count);
+query_status store_query(job_store *store, const char *sql, const client_watch *client, query_visitor *visit, void *context,
+                         char *problem, size_t problem_size);
+
+#endif

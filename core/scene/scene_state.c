@@ -1,0 +1,287 @@
+/* Saving and restoring: what a scene can't make again from its definition. Neighbor lists are made again, since
+ * no result depends on when they were made (core/contacts/contact_list.h). */
+#include "scene_state.h"
+
+#include "lost.h"
+#include "sorting.h"
+#include "step.h"
+#include "stream.h"
+
+enum { HISTORY_NUMBERS = 8 };
+
+static void *state_add(dem_state *state, const char *name, dem_element element, size_t rows, size_t columns)
+{
+    static const size_t size[] = { [DEM_FLOAT64] = 8, [DEM_INT64] = 8, [DEM_INT32] = 4 };
+    void *data = array_create(rows * columns, size[element]);
+    if (data) state->array[state->array_count++] = (dem_state_array){ name, element, rows, columns, data };
+    return data;
+}
+
+const dem_state_array *state_find(const dem_state *state, const char *name, dem_element element, size_t columns)
+{
+    for (size_t k = 0; k < state->array_count; k++) {
+        const dem_state_array *a = &state->array[k];
+        if (strcmp(a->name, name) == 0) return a->element == element && a->columns == columns ? a : NULL;
+    }
+    return NULL;
+}
+
+static bool is_remembered(const contact_history *h)
+{
+    return h->t[0] != 0 || h->t[1] != 0 || h->t[2] != 0 || h->t_star != 0 || h->alpha_0 != 0 || h->roll[0] != 0 || h->roll[1] != 0
+           || h->roll[2] != 0;
+}
+
+/* Two arrays: the spheres of each contact that remembers something, and what it remembers. */
+static bool save_contacts(dem_state *state, const contact_list *list, const char *ids, const char *history)
+{
+    size_t n = 0;
+    for (size_t k = 0; k < list->count; k++) {
+        const contact_history h = contact_list_history(list, k);
+        n += is_remembered(&h);
+    }
+    int32_t *id = state_add(state, ids, DEM_INT32, n, 2);
+    double *numbers = state_add(state, history, DEM_FLOAT64, n, HISTORY_NUMBERS);
+    if (!id || !numbers) return false;
+    for (size_t k = 0; k < list->count; k++) {
+        const contact_history h = contact_list_history(list, k);
+        if (!is_remembered(&h)) continue;
+        *id++ = list->first[k];
+        *id++ = list->second[k];
+        for (int c = 0; c < 3; c++) *numbers++ = (double)h.t[c];
+        *numbers++ = (double)h.t_star;
+        *numbers++ = (double)h.alpha_0;
+        for (int c = 0; c < 3; c++) *numbers++ = (double)h.roll[c];
+    }
+    return true;
+}
+
+static bool save_vectors(dem_state *state, const char *name, const vector4 *from, size_t n)
+{
+    double *to = state_add(state, name, DEM_FLOAT64, n, 3);
+    for (size_t i = 0; to && i < n; i++) memcpy(to + 3 * i, &from[i], 3 * sizeof *to);
+    return to != NULL;
+}
+
+/* A scene of spheres alone has no such array. */
+static bool save_clusters(dem_state *state, const clusters *c)
+{
+    double *numbers = c->count ? state_add(state, "cluster", DEM_FLOAT64, c->count, CLUSTER_NUMBERS) : NULL;
+    for (size_t k = 0; numbers && k < c->count; k++, numbers += CLUSTER_NUMBERS) {
+        const cluster_body *b = &c->body[k];
+        const quaternion q = b->orientation;
+        const double orientation[4] = { q.q1, q.q2, q.q3, q.q4 };
+        memcpy(numbers + CLUSTER_PLACE, b->x, sizeof b->x);
+        memcpy(numbers + CLUSTER_VELOCITY, &b->velocity, 3 * sizeof *numbers);
+        memcpy(numbers + CLUSTER_SPIN, b->spin, sizeof b->spin);
+        memcpy(numbers + CLUSTER_SPIN_CHANGE, b->spin_change, sizeof b->spin_change);
+        memcpy(numbers + CLUSTER_ORIENTATION, orientation, sizeof orientation);
+    }
+    return c->count == 0 || numbers != NULL;
+}
+
+static bool save_surface(dem_state *state, const surface_meter *meter, const spheres *s)
+{
+    double *last = state_add(state, "surface", DEM_FLOAT64, 1, 2),
+           *track = state_add(state, "surface_track", DEM_FLOAT64, s->mobile_count, 2);
+    if (!last || !track) return false;
+    memcpy(last, (double[]){ meter->since, meter->lag }, 2 * sizeof *last);
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        track[2 * i] = (double)s->surface_track[i].angle;
+        track[2 * i + 1] = (double)s->surface_track[i].way;
+    }
+    return true;
+}
+
+/* A state without it has not looked at the surface yet. */
+static void restore_surface(dem_scene *scene, const dem_state *state)
+{
+    spheres *s = &scene->spheres;
+    const dem_state_array *last = state_find(state, "surface", DEM_FLOAT64, 2);
+    const dem_state_array *track = state_find(state, "surface_track", DEM_FLOAT64, 2);
+    const bool is_there = last && track && last->rows == 1 && track->rows == s->mobile_count;
+    const double *meter = is_there ? last->data : (double[]){ NAN, NAN }, *of = is_there ? track->data : NULL;
+    scene->surface = (surface_meter){ meter[0], meter[1] };
+    for (size_t i = 0; i < s->mobile_count; i++)
+        s->surface_track[i] = of ? (surface_track){ (float)of[2 * i], (float)of[2 * i + 1] } : (surface_track){ 0, NAN };
+}
+
+dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
+{
+    const spheres *s = &scene->spheres;
+    const size_t n = s->mobile_count;
+    memset(state, 0, sizeof *state);
+    int64_t *integers = state_add(state, "counters", DEM_INT64, 1, STATE_INTEGERS);
+    double *numbers = state_add(state, "numbers", DEM_FLOAT64, 1, STATE_NUMBERS);
+    int32_t *id = state_add(state, "particle", DEM_INT32, particles_count(s), 1);
+    double *position = state_add(state, "position", DEM_FLOAT64, n, 3),
+           *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
+    if (!integers || !numbers || !id || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
+        || !save_vectors(state, "angular_velocity", s->angular_velocity, n) || !save_clusters(state, &s->clusters)
+        || !save_surface(state, &scene->surface, s) || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
+        || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
+        dem_state_clear(state);
+        return DEM_NO_MEMORY;
+    }
+    integers[STATE_PHASE] = (int64_t)scene->phase;
+    integers[STATE_STEP] = scene->step_count;
+    integers[STATE_PHASE_START] = scene->phase_start;
+    integers[STATE_ROTATION_START] = scene->rotation_start;
+    integers[STATE_STEPS_BEFORE] = scene->steps_before;
+    integers[STATE_LAW] = (int64_t)scene->definition.contact.law;
+    numbers[STATE_OVERLAP] = scene->maximum_overlap;
+    numbers[STATE_TORQUE_SUM] = scene->torque.sum;
+    numbers[STATE_TORQUE_COUNT] = scene->torque.count;
+    numbers[STATE_ANGLE_BEFORE] = scene->drum.angle_before;
+    numbers[STATE_RATE] = scene->definition.rotation_rate;
+    numbers[STATE_TIME_STEP] = scene->definition.time_step;
+    for (size_t p = 0; p < particles_count(s); p++) id[p] = particle_id(s, p);
+    for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, sphere_place(s, i), 3 * sizeof *position);
+    for (size_t i = 0; i < n; i++) fallen[i] = (double)s->fallen_time[i];
+    return DEM_OK;
+}
+
+void dem_state_clear(dem_state *state)
+{
+    for (size_t k = 0; k < state->array_count; k++) free(state->array[k].data);
+    memset(state, 0, sizeof *state);
+}
+
+/* The two arrays of a list of contacts, ordered by first, then by second, of spheres that are there. */
+static bool contacts_fit(const dem_state *state, const char *ids, const char *history, size_t n, size_t all)
+{
+    const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
+    const dem_state_array *numbers = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS);
+    if (!id || !numbers || id->rows != numbers->rows) return false;
+    const int32_t *pair = id->data;
+    for (size_t k = 0; k < id->rows; k++, pair += 2) {
+        const bool ordered = k == 0 || pair[0] > pair[-2] || (pair[0] == pair[-2] && pair[1] > pair[-1]);
+        if (pair[0] < 0 || (size_t)pair[0] >= n || pair[1] < 0 || (size_t)pair[1] >= all || !ordered) return false;
+    }
+    return true;
+}
+
+/* The list from which the next one carries its histories over. */
+static void restore_contacts(const dem_state *state, contact_list *list, const char *ids, const char *history)
+{
+    const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
+    const int32_t *pair = id->data;
+    const double *h = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS)->data;
+    list->count = id->rows;
+    for (size_t k = 0; k < id->rows; k++, pair += 2, h += HISTORY_NUMBERS) {
+        list->first[k] = pair[0];
+        list->second[k] = pair[1];
+        contact_list_set_history(list, k,
+                                 &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] },
+                                                     .t_star = (real)h[3],
+                                                     .alpha_0 = (real)h[4],
+                                                     .roll = { (real)h[5], (real)h[6], (real)h[7] } });
+    }
+}
+
+static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin,
+                            const double *fallen)
+{
+    spheres *s = &scene->spheres;
+    const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
+    spheres_set_period(s, &scene->definition, scene->drum.period);
+    spheres_set_scale(s, filling_scale(&scene->filling, grown));
+    for (size_t i = 0; i < s->mobile_count; i++) {
+        const double *x = position + 3 * i, *v = velocity + 3 * i, *w = spin + 3 * i;
+        sphere_set(s, i, (vector4){ x[0], x[1], x[2] }, (vector4){ v[0], v[1], v[2] }, (vector4){ w[0], w[1], w[2] });
+        s->fallen_time[i] = (float)fallen[i];
+    }
+    memset(s->load, 0, s->load_count * sizeof *s->load);
+}
+
+static void restore_clusters(clusters *c, const double *numbers)
+{
+    for (size_t k = 0; k < c->count; k++, numbers += CLUSTER_NUMBERS) {
+        cluster_body *b = &c->body[k];
+        const double *q = numbers + CLUSTER_ORIENTATION;
+        memcpy(b->x, numbers + CLUSTER_PLACE, sizeof b->x);
+        for (int a = 0; a < 3; a++) b->velocity[a] = numbers[CLUSTER_VELOCITY + a];
+        memcpy(b->spin, numbers + CLUSTER_SPIN, sizeof b->spin);
+        memcpy(b->spin_change, numbers + CLUSTER_SPIN_CHANGE, sizeof b->spin_change);
+        b->orientation = (quaternion){ q[0], q[1], q[2], q[3] };
+    }
+}
+
+/* Particles in the order in memory that they were saved in. */
+static dem_status restore_order(spheres *s, const dem_state *state)
+{
+    const size_t n = particles_count(s), singles = s->single_count;
+    const dem_state_array *saved = state_find(state, "particle", DEM_INT32, 1);
+    if (!saved || saved->rows != n) return DEM_STATE_MISMATCH;
+    const int32_t *id = saved->data;
+    int32_t *now_at = array_create(n, sizeof *now_at), *order = array_create(n, sizeof *order),
+            *sphere_order = array_create(s->mobile_count, sizeof *sphere_order);
+    dem_status status = now_at && order && sphere_order ? DEM_OK : DEM_NO_MEMORY;
+    if (status == DEM_OK) {
+        for (size_t p = 0; p < n; p++) now_at[p] = -1;
+        for (size_t p = 0; p < n; p++) now_at[particle_id(s, p)] = (int32_t)p;
+        for (size_t p = 0; p < n && status == DEM_OK; p++) {
+            const bool is_there = id[p] >= 0 && (size_t)id[p] < n && now_at[id[p]] >= 0;
+            order[p] = is_there ? now_at[id[p]] : 0;
+            if (!is_there || ((size_t)order[p] < singles) != (p < singles)) status = DEM_STATE_MISMATCH;
+            else now_at[id[p]] = -1; /* once only */
+        }
+    }
+    if (status == DEM_OK) status = sorting_apply(s, order, sphere_order);
+    free(now_at);
+    free(order);
+    free(sphere_order);
+    return status;
+}
+
+dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
+{
+    const dem_state_array *places = state_find(state, "position", DEM_FLOAT64, 3);
+    if (!places || stream_restore(scene, places->rows) != DEM_OK) return DEM_STATE_MISMATCH;
+    const size_t n = scene->spheres.mobile_count;
+    const dem_state_array *integers = state_find(state, "counters", DEM_INT64, STATE_INTEGERS);
+    const dem_state_array *numbers = state_find(state, "numbers", DEM_FLOAT64, STATE_NUMBERS);
+    const dem_state_array *vectors[4];
+    static const char *const name[4] = { "position", "velocity", "angular_velocity", "fallen_time" };
+    for (int k = 0; k < 4; k++) {
+        vectors[k] = state_find(state, name[k], DEM_FLOAT64, k < 3 ? 3 : 1);
+        if (!vectors[k] || vectors[k]->rows != n) return DEM_STATE_MISMATCH;
+    }
+    const size_t bodies = scene->spheres.clusters.count;
+    const dem_state_array *of_clusters = state_find(state, "cluster", DEM_FLOAT64, CLUSTER_NUMBERS);
+    if (!integers || !numbers || (bodies > 0 && !of_clusters) || (of_clusters && of_clusters->rows != bodies))
+        return DEM_STATE_MISMATCH;
+    const int64_t *counter = integers->data;
+    if (counter[STATE_PHASE] < DEM_PHASE_GROWING || counter[STATE_PHASE] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
+
+    const size_t all = spheres_count(&scene->spheres);
+    contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
+    if (!contacts_fit(state, "pair", "pair_history", n, all)
+        || !contacts_fit(state, "wall_contact", "wall_history", n, (size_t)scene->drum.wall_count))
+        return DEM_STATE_MISMATCH;
+    if (contact_list_reserve(pairs, state_find(state, "pair", DEM_INT32, 2)->rows) != DEM_OK
+        || contact_list_reserve(walls, state_find(state, "wall_contact", DEM_INT32, 2)->rows) != DEM_OK) {
+        neighbor_list_invalidate(&scene->neighbors);
+        return DEM_NO_MEMORY;
+    }
+    const dem_status order = restore_order(&scene->spheres, state);
+    if (order != DEM_OK) return order;
+    /* Nothing can fail from here on but memory for new lists. */
+    restore_contacts(state, pairs, "pair", "pair_history");
+    restore_contacts(state, walls, "wall_contact", "wall_history");
+    scene->step_count = counter[STATE_STEP];
+    scene->phase_start = counter[STATE_PHASE_START];
+    scene->rotation_start = counter[STATE_ROTATION_START];
+    scene->steps_before = counter[STATE_STEPS_BEFORE];
+    const double *number = numbers->data;
+    scene->maximum_overlap = number[STATE_OVERLAP];
+    scene->torque = (torque_meter){ .sum = number[STATE_TORQUE_SUM], .count = number[STATE_TORQUE_COUNT] };
+    scene->drum.angle_before = number[STATE_ANGLE_BEFORE];
+    scene->phase = (dem_phase)counter[STATE_PHASE];
+    scene_enter_phase(scene, scene->phase);
+    if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);
+    restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);
+    restore_surface(scene, state);
+    lost_recognize(scene);
+    return scene_update_neighbors(scene);
+}

@@ -1,0 +1,381 @@
+/* Rounds: sleep until a worker ends, somebody wakes us or a second has passed; then record what the workers wrote
+ * (one transaction for all), record the ends, and start what fits. A round that can't write to the database changes
+ * nothing and the next one tries again: an ended worker keeps its slot until its end is recorded. */
+#include "dispatcher.h"
+
+#include <errno.h>
+#include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include "job_folder.h"
+#include "log.h"
+#include "worker_ends.h"
+
+#define SECONDS_TO_LEAVE 5.0    /* between SIGTERM and SIGKILL */
+#define SECONDS_TO_RECORD 10.0  /* after which the daemon leaves although the store refuses */
+#define SECONDS_OF_SILENCE 15.0 /* workers report every second, but for some steps that may take long */
+#define GIGABYTE 1073741824.0
+
+enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8 };
+
+/* Under nohup SIGHUP is ignored, and a blocked signal would come through all the same. */
+void dispatcher_end_signals(sigset_t *ends)
+{
+    static const int signals[] = { JOB_STOP_SIGNALS };
+    struct sigaction action;
+    sigemptyset(ends);
+    for (size_t s = 0; s < sizeof signals / sizeof signals[0]; s++)
+        if (signals[s] != SIGHUP || (sigaction(SIGHUP, NULL, &action) == 0 && action.sa_handler != SIG_IGN))
+            sigaddset(ends, signals[s]);
+    for (int real_time = SIGRTMIN; real_time <= SIGRTMAX; real_time++) sigaddset(ends, real_time);
+}
+
+bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job,
+                     int signals)
+{
+    *dispatcher =
+        (job_dispatcher){ .store = store, .executor = executor, .workers = workers, .threads = workers * threads_per_job };
+    dispatcher->signals = signals;
+    dispatcher->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    dispatcher->slot = calloc((size_t)workers, sizeof dispatcher->slot[0]);
+    dispatcher->last_round = monotonic_seconds();
+    return dispatcher->slot && dispatcher->wake >= 0;
+}
+
+void dispatcher_clear(job_dispatcher *dispatcher)
+{
+    close(dispatcher->wake);
+    free(dispatcher->slot);
+}
+
+void dispatcher_wake(job_dispatcher *dispatcher)
+{
+    const uint64_t one = 1;
+    const ssize_t ignored = write(dispatcher->wake, &one, sizeof one); /* full: it is awake already */
+    (void)ignored;
+}
+
+/* --- starting --- */
+
+static int threads_in_use(const job_dispatcher *dispatcher)
+{
+    int threads = 0;
+    for (int i = 0; i < dispatcher->workers; i++)
+        if (dispatcher->slot[i].state != SLOT_FREE) threads += dispatcher->slot[i].claim.threads;
+    return threads;
+}
+
+static worker_slot *free_slot(job_dispatcher *dispatcher)
+{
+    for (int i = 0; i < dispatcher->workers; i++)
+        if (dispatcher->slot[i].state == SLOT_FREE) return &dispatcher->slot[i];
+    return NULL;
+}
+
+/* Bounds against a worker gone wild, far above what a sound one needs. */
+static void set_limits(const job_claim *claim, worker_order *order)
+{
+    order->memory_bytes = 2.0 * GIGABYTE + 4.0 * claim->estimated_memory_bytes + 0.125 * GIGABYTE * claim->threads;
+    order->cpu_seconds = fmin(1e9, 86400.0 + 50.0 * claim->estimated_seconds * claim->threads);
+    order->file_bytes = 16.0 * GIGABYTE;
+}
+
+static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    const data_folder *data = dispatcher->store->data;
+    const job_claim *claim = &slot->claim;
+    char folder[4096];
+    snprintf(folder, sizeof folder, "%s/jobs/%s", data->path, claim->id);
+    /* Somebody may have tidied the folder away while the job waited. */
+    const bool is_there = job_folder_create(data, claim->id, claim->spec) && job_folder_sync(data, claim->id);
+    const int file = is_there ? job_folder_open(data, claim->id) : -1;
+    if (file < 0) return false;
+    worker_order order = { .job_folder = folder, .job_folder_file = file, .attempt = claim->attempt, .threads = claim->threads };
+    set_limits(claim, &order);
+    const bool started = dispatcher->executor->start(dispatcher->executor, &order, &slot->worker);
+    close(file);
+    return started;
+}
+
+/* Not while the machine can't run jobs; then one after the other, until a worker is well. */
+static bool may_start(const job_dispatcher *dispatcher)
+{
+    if (!dispatcher->recovered || queue_pause_holds(&dispatcher->pause, monotonic_seconds())) return false;
+    for (int i = 0; i < dispatcher->workers; i++) {
+        const worker_slot *slot = &dispatcher->slot[i];
+        if (slot->state != SLOT_FREE && queue_pause_is_trying(&dispatcher->pause, slot->started)) return false;
+    }
+    return true;
+}
+
+/* False: no job waits that fits, or the store refuses. */
+static bool start_next_job(job_dispatcher *dispatcher)
+{
+    worker_slot *slot = may_start(dispatcher) ? free_slot(dispatcher) : NULL;
+    job_claim claim;
+    if (!slot
+        || store_claim_job(dispatcher->store, dispatcher->threads - threads_in_use(dispatcher), dispatcher->threads, &claim)
+               != STORE_OK)
+        return false;
+    const double now = monotonic_seconds();
+    *slot = (worker_slot){ .state = SLOT_WORKING,
+                           .claim = claim,
+                           .worker.watch = -1,
+                           .events = -1,
+                           .speed = NAN,
+                           .started = now,
+                           .last_word = now,
+                           .oom_kills = worker_end_oom_kills() };
+    const bool started = start_worker(dispatcher, slot);
+    const int reason = errno;
+    free(slot->claim.spec);
+    slot->claim.spec = NULL;
+    if (started) {
+        dispatcher->started++;
+        log_line("job %s: attempt %d started, process %d", claim.id, claim.attempt, (int)slot->worker.process);
+    } else { /* no folder or no process to be had */
+        slot->state = SLOT_ENDED;
+        slot->end = (worker_end){ false, WORKER_MACHINE };
+        snprintf(slot->trouble, sizeof slot->trouble, "its worker can't be started: %s", strerror(reason));
+        queue_pause_add(&dispatcher->pause, now);
+    }
+    dispatcher->jobs_changed(dispatcher->context);
+    return true;
+}
+
+/* --- following --- */
+
+static store_status record_batch(job_dispatcher *dispatcher, worker_slot *slot, bool *more)
+{
+    if (slot->events < 0) slot->events = job_file_open(dispatcher->store->data, slot->claim.id, NULL, JOB_EVENTS_FILE);
+    event_batch batch;
+    *more = false;
+    if (slot->events < 0 || !event_tail_read(slot->events, slot->events_at, &batch)) return STORE_OK;
+    const store_status status = batch.any ? store_record_events(dispatcher->store, &slot->claim, &batch) : STORE_OK;
+    if (status == STORE_OK) {
+        *more = batch.more;
+        job_claim_note(&slot->claim, &batch);
+        slot->events_at = batch.end;
+        if (batch.any) {
+            slot->last_word = monotonic_seconds();
+            slot->silent = false;
+            queue_pause_note_well(&dispatcher->pause, slot->started, slot->last_word);
+        }
+        if (isfinite(batch.speed)) slot->speed = batch.speed;
+        if (batch.failure) {
+            json_decref(slot->failure);
+            slot->failure = json_incref(batch.failure);
+        }
+    }
+    event_batch_clear(&batch);
+    return status;
+}
+
+/* Somebody may have stopped it to have the machine for himself, or swapping may hold it up: it is not killed for that, but
+ * who looks at the job is told. Its next progress takes the message's place. */
+static store_status record_silence(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    const double seconds = monotonic_seconds() - slot->last_word;
+    if (slot->silent || slot->state != SLOT_WORKING || seconds < SECONDS_OF_SILENCE) return STORE_OK;
+    const store_status status = store_record_silence(dispatcher->store, &slot->claim, seconds);
+    if (status != STORE_OK) return status;
+    slot->silent = true;
+    log_line("job %s: no word from process %d for %.0f s", slot->claim.id, (int)slot->worker.process, seconds);
+    return STORE_OK;
+}
+
+static store_status record_events_of(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    bool more = true;
+    store_status status = STORE_OK;
+    for (int i = 0; more && status == STORE_OK && i < BATCHES_A_ROUND; i++) status = record_batch(dispatcher, slot, &more);
+    if (status == STORE_OK) status = record_silence(dispatcher, slot);
+    if (status == STORE_CONFLICT) slot->claim_lost = true;
+    return status == STORE_CONFLICT ? STORE_OK : status;
+}
+
+/* One transaction for what all workers wrote. If it fails nothing is forgotten: the files still have it. */
+static void record_events(job_dispatcher *dispatcher)
+{
+    int64_t before[CONFIG_MOST_WORKERS] = { 0 };
+    bool any = false;
+    for (int i = 0; i < dispatcher->workers; i++) {
+        before[i] = dispatcher->slot[i].events_at;
+        any = any || (dispatcher->slot[i].state != SLOT_FREE && !dispatcher->slot[i].claim_lost);
+    }
+    if (!any) return;
+    store_status status = store_begin(dispatcher->store);
+    if (status == STORE_OK) {
+        for (int i = 0; status == STORE_OK && i < dispatcher->workers; i++)
+            if (dispatcher->slot[i].state != SLOT_FREE && !dispatcher->slot[i].claim_lost)
+                status = record_events_of(dispatcher, &dispatcher->slot[i]);
+        status = store_end(dispatcher->store, status);
+    }
+    if (status == STORE_OK) return;
+    dispatcher->store_failures++;
+    for (int i = 0; i < dispatcher->workers; i++) dispatcher->slot[i].events_at = before[i];
+}
+
+/* --- stopping and ending --- */
+
+static void stop_worker(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    const double now = monotonic_seconds();
+    if (slot->stop_asked == 0.0) {
+        slot->stop_asked = now;
+        dispatcher->executor->ask_to_stop(dispatcher->executor, &slot->worker);
+    } else if (now - slot->stop_asked > SECONDS_TO_LEAVE) {
+        dispatcher->executor->kill(dispatcher->executor, &slot->worker);
+    }
+}
+
+static void stop_unwanted(job_dispatcher *dispatcher)
+{
+    for (int i = 0; i < dispatcher->workers; i++) {
+        worker_slot *slot = &dispatcher->slot[i];
+        if (slot->state != SLOT_WORKING) continue;
+        /* Leaving asks nobody: the store may be what hangs. */
+        if (!dispatcher->stopping && !slot->claim_lost && !store_claim_holds(dispatcher->store, &slot->claim))
+            slot->claim_lost = true;
+        if (slot->claim_lost || dispatcher->stopping) stop_worker(dispatcher, slot);
+    }
+}
+
+static void notice_ends(job_dispatcher *dispatcher)
+{
+    for (int i = 0; i < dispatcher->workers; i++) {
+        worker_slot *slot = &dispatcher->slot[i];
+        if (slot->state != SLOT_WORKING || !dispatcher->executor->has_ended(dispatcher->executor, &slot->worker, &slot->end))
+            continue;
+        slot->state = SLOT_ENDED;
+        if (worker_end_is_of_the_machine(dispatcher, slot)) queue_pause_add(&dispatcher->pause, monotonic_seconds());
+        else queue_pause_note_end(&dispatcher->pause, slot->started);
+    }
+}
+
+static void release_slot(worker_slot *slot)
+{
+    if (slot->events >= 0) close(slot->events);
+    json_decref(slot->failure);
+    *slot = (worker_slot){ .state = SLOT_FREE, .events = -1 };
+}
+
+static void record_ends(job_dispatcher *dispatcher)
+{
+    for (int i = 0; i < dispatcher->workers; i++) {
+        worker_slot *slot = &dispatcher->slot[i];
+        if (slot->state != SLOT_ENDED) continue;
+        const store_status status = slot->claim_lost ? STORE_CONFLICT : worker_end_record(dispatcher, slot);
+        if (status != STORE_OK && status != STORE_CONFLICT) {
+            dispatcher->store_failures++;
+            continue;
+        }
+        if (status == STORE_CONFLICT) log_line("job %s: dismissed, its worker has left", slot->claim.id);
+        release_slot(slot);
+        dispatcher->jobs_changed(dispatcher->context);
+    }
+}
+
+/* --- the rounds --- */
+
+static void count_work(job_dispatcher *dispatcher)
+{
+    double speed = 0.0;
+    int running = 0;
+    for (int i = 0; i < dispatcher->workers; i++) {
+        if (dispatcher->slot[i].state == SLOT_WORKING) running++;
+        if (dispatcher->slot[i].state == SLOT_WORKING && isfinite(dispatcher->slot[i].speed)) speed += dispatcher->slot[i].speed;
+    }
+    dispatcher->running = running;
+    dispatcher->speed = speed;
+    dispatcher->last_round = monotonic_seconds();
+}
+
+static bool is_idle(const job_dispatcher *dispatcher)
+{
+    for (int i = 0; i < dispatcher->workers; i++)
+        if (dispatcher->slot[i].state != SLOT_FREE) return false;
+    return true;
+}
+
+static bool take_signal(job_dispatcher *dispatcher)
+{
+    uint64_t count;
+    return read(dispatcher->signals, &count, sizeof count) == (ssize_t)sizeof count;
+}
+
+static void sleep_until_needed(job_dispatcher *dispatcher)
+{
+    struct pollfd watched[CONFIG_MOST_WORKERS + 2] = { { .fd = dispatcher->wake, .events = POLLIN },
+                                                       { .fd = dispatcher->signals, .events = POLLIN } };
+    nfds_t count = 2;
+    for (int i = 0; i < dispatcher->workers; i++)
+        if (dispatcher->slot[i].state == SLOT_WORKING && dispatcher->slot[i].worker.watch >= 0)
+            watched[count++] = (struct pollfd){ .fd = dispatcher->slot[i].worker.watch, .events = POLLIN };
+    const bool calm = is_idle(dispatcher) && dispatcher->recovered && dispatcher->pause.setbacks == 0;
+    poll(watched, count, calm ? IDLE_ROUND_MS : BUSY_ROUND_MS);
+    uint64_t ignored;
+    while (read(dispatcher->wake, &ignored, sizeof ignored) > 0) continue;
+}
+
+/* What an earlier daemon left running goes first; on a full disk that has to wait, and reads are served meanwhile. */
+static void recover(job_dispatcher *dispatcher)
+{
+    if (dispatcher->recovered || dispatcher->stopping) return;
+    dispatcher->recovered = store_recover(dispatcher->store) == STORE_OK;
+    if (dispatcher->recovered) dispatcher->jobs_changed(dispatcher->context);
+    else dispatcher->store_failures++;
+}
+
+static void record(job_dispatcher *dispatcher, double *recorded)
+{
+    bool ended = false;
+    notice_ends(dispatcher);
+    for (int i = 0; i < dispatcher->workers; i++) ended = ended || dispatcher->slot[i].state == SLOT_ENDED;
+    if (!ended && monotonic_seconds() - *recorded < 0.95) return; /* progress reaches the disk once a second, not at every wake */
+    record_events(dispatcher);
+    *recorded = monotonic_seconds();
+}
+
+static void begin_to_leave(job_dispatcher *dispatcher, void (*leaving)(void *context))
+{
+    dispatcher->stopping = true;
+    dispatcher->stopping_from = monotonic_seconds();
+    log_line("leaving: workers are asked to save their state");
+    stop_unwanted(dispatcher);
+    leaving(dispatcher->context);
+}
+
+/* Ends that can't be recorded, on a full disk say, are not waited for longer than that. */
+static bool may_leave(const job_dispatcher *dispatcher)
+{
+    if (!dispatcher->stopping) return false;
+    if (is_idle(dispatcher)) return true;
+    for (int i = 0; i < dispatcher->workers; i++)
+        if (dispatcher->slot[i].state == SLOT_WORKING) return false;
+    if (monotonic_seconds() - dispatcher->stopping_from < SECONDS_TO_RECORD) return false;
+    log_line("leaving: what became of the last workers can't be recorded now; the next start does it");
+    return true;
+}
+
+void dispatcher_run(job_dispatcher *dispatcher, void (*leaving)(void *context))
+{
+    double recorded = 0.0;
+    while (!may_leave(dispatcher)) {
+        recover(dispatcher);
+        record(dispatcher, &recorded);
+        stop_unwanted(dispatcher);
+        record_ends(dispatcher);
+        while (!dispatcher->stopping && start_next_job(dispatcher)) continue;
+        count_work(dispatcher);
+        if (may_leave(dispatcher)) break;
+        sleep_until_needed(dispatcher);
+        if (take_signal(dispatcher) && !dispatcher->stopping) begin_to_leave(dispatcher, leaving);
+    }
+}

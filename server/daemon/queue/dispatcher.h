@@ -1,0 +1,67 @@
+/* The supervisor: takes jobs from the queue, starts workers, follows what they write, records how they end. It runs
+ * on the main thread and is the only one that forks. */
+#ifndef DISPATCHER_H
+#define DISPATCHER_H
+
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "config.h"
+#include "event_tail.h"
+#include "executor.h"
+#include "job_store.h"
+#include "queue_pause.h"
+
+/* One worker at work. */
+typedef struct worker_slot {
+    enum { SLOT_FREE, SLOT_WORKING, SLOT_ENDED } state; /* ended: gone, but not recorded yet */
+    job_claim claim;
+    worker_handle worker;
+    worker_end end;
+    int events;        /* descriptor of events.ndjson; -1: not there yet */
+    int64_t events_at; /* recorded up to this offset */
+    char trouble[600]; /* what the machine lacked when it ended; "": nothing, the end is the job's own */
+    int doubts;        /* how often what it left was looked at in vain */
+    int64_t oom_kills; /* of the whole machine, when it was started */
+    bool claim_lost;   /* dismissed: what it writes does not count any more */
+    double stop_asked; /* monotonic s; 0: not asked to stop */
+    double started;    /* monotonic s */
+    double last_word;  /* monotonic s: when it last wrote an event, or was started */
+    bool silent;       /* and that this is long ago was told */
+    double speed;      /* particle steps a second, as it last said; NaN: not yet */
+    json_t *failure;   /* the failure event; NULL: none */
+} worker_slot;
+
+typedef struct job_dispatcher {
+    job_store *store;
+    worker_executor *executor;
+    int workers, threads; /* slots; threads of all workers together */
+    worker_slot *slot;    /* (workers) */
+    int wake, signals;    /* eventfds */
+    queue_pause pause;
+    _Atomic bool recovered; /* jobs that an earlier daemon left running are put back */
+    bool stopping;
+    double stopping_from;                /* monotonic s */
+    void (*jobs_changed)(void *context); /* told after every recorded change of a job's state */
+    void *context;
+    /* for the metrics, written here, read by any thread */
+    _Atomic double last_round, speed; /* monotonic s; particle steps a second of all workers */
+    _Atomic int64_t started, put_back, ended[JOB_STATUSES], store_failures;
+    _Atomic int running;
+} job_dispatcher;
+
+/* The signals that end the daemon in good order: JOB_STOP_SIGNALS. To be blocked in all threads. */
+void dispatcher_end_signals(sigset_t *ends);
+/* signals: becomes readable when one of them has come (end_signals.h); the caller's. */
+bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job,
+                     int signals);
+void dispatcher_clear(job_dispatcher *dispatcher);
+/* Returns after one of the end signals, when every worker has left and its job is back in the queue, or can't be put there
+ * now: then the next start does it. leaving is called once, when the workers know. */
+void dispatcher_run(job_dispatcher *dispatcher, void (*leaving)(void *context));
+/* From any thread: look at the queue and at the jobs now. */
+void dispatcher_wake(job_dispatcher *dispatcher);
+
+#endif

@@ -1,0 +1,327 @@
+/* The store's connections, and what the handlers ask of it (api/store/store.h). */
+#include "job_store.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/random.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "database.h"
+#include "job_folder.h"
+#include "log.h"
+
+job_store *store_open(data_folder *data, int64_t queue_limit)
+{
+    job_store *store = calloc(1, sizeof *store);
+    if (!store) return NULL;
+    store->data = data;
+    store->queue_limit = queue_limit;
+    pthread_mutex_init(&store->write_lock, NULL);
+    pthread_mutex_init(&store->readers_lock, NULL);
+    pthread_cond_init(&store->reader_is_free, NULL);
+    char path[4096];
+    snprintf(path, sizeof path, "%s/reposed.sqlite", data->path);
+    store->writer = database_open_writer(path);
+    bool good = store->writer != NULL;
+    for (; good && store->readers_free < STORE_READERS; store->readers_free++)
+        good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
+    if (good) good = (store->query = database_open_reader(path)) != NULL && query_connection_restrict(store);
+    if (!good) {
+        store_close(store);
+        return NULL;
+    }
+    return store;
+}
+
+void store_close(job_store *store)
+{
+    database_close(store->query);
+    for (int i = 0; i < STORE_READERS; i++) database_close(store->reader[i]);
+    database_close(store->writer); /* last, so that the checkpoint at the end is the writer's */
+    pthread_cond_destroy(&store->reader_is_free);
+    pthread_mutex_destroy(&store->readers_lock);
+    pthread_mutex_destroy(&store->write_lock);
+    free(store->query_tables);
+    free(store);
+}
+
+sqlite3 *store_borrow_reader(job_store *store)
+{
+    pthread_mutex_lock(&store->readers_lock);
+    while (store->readers_free == 0) pthread_cond_wait(&store->reader_is_free, &store->readers_lock);
+    sqlite3 *reader = store->reader[--store->readers_free];
+    pthread_mutex_unlock(&store->readers_lock);
+    return reader;
+}
+
+void store_return_reader(job_store *store, sqlite3 *reader)
+{
+    pthread_mutex_lock(&store->readers_lock);
+    store->reader[store->readers_free++] = reader;
+    pthread_cond_signal(&store->reader_is_free);
+    pthread_mutex_unlock(&store->readers_lock);
+}
+
+store_status store_begin(job_store *store)
+{
+    pthread_mutex_lock(&store->write_lock);
+    const store_status status = sql_run(store->writer, NULL, "BEGIN IMMEDIATE", "");
+    if (status != STORE_OK) pthread_mutex_unlock(&store->write_lock);
+    return status;
+}
+
+store_status store_end(job_store *store, store_status status)
+{
+    if (status == STORE_OK) status = sql_run(store->writer, NULL, "COMMIT", "");
+    /* A full disk may have rolled back by itself already. */
+    if (status != STORE_OK && !sqlite3_get_autocommit(store->writer)) sql_run(store->writer, NULL, "ROLLBACK", "");
+    pthread_mutex_unlock(&store->write_lock);
+    return status;
+}
+
+store_status store_try_write(job_store *store)
+{
+    if (pthread_mutex_trylock(&store->write_lock) != 0) return STORE_OK;
+    store_status status = sql_run(store->writer, NULL, "BEGIN IMMEDIATE", "");
+    if (status == STORE_OK) return store_end(store, sql_run(store->writer, NULL, "UPDATE job_count SET jobs=jobs", ""));
+    pthread_mutex_unlock(&store->write_lock);
+    return status;
+}
+
+/* --- adding and dismissing --- */
+
+bool store_random_bits(uint32_t *bits) { return getrandom(bits, sizeof *bits, 0) == (ssize_t)sizeof *bits; }
+
+void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits)
+{
+    struct tm parts;
+    gmtime_r(&second, &parts);
+    const size_t length = strftime(id, JOB_ID_SIZE, "%Y%m%d-%H%M%S-", &parts);
+    snprintf(id + length, JOB_ID_SIZE - length, "%08x", bits);
+}
+
+int64_t store_queue_limit(const job_store *store) { return store->queue_limit; }
+
+double store_free_bytes(const job_store *store) { return data_folder_free_bytes(store->data); }
+
+store_status store_check_queue(job_store *store, int64_t jobs)
+{
+    sqlite3_stmt *statement = sql_prepare(store->writer, "SELECT jobs FROM job_count WHERE status='accepted'", "");
+    if (!statement) return STORE_FAILED;
+    const int code = sqlite3_step(statement);
+    const int64_t waiting = code == SQLITE_ROW ? sqlite3_column_int64(statement, 0) : 0;
+    const store_status status = sql_finish(statement, code);
+    return status == STORE_OK && waiting + jobs > store->queue_limit ? STORE_QUEUE_FULL : status;
+}
+
+static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
+                               const char *label, const study_place *place, const job_estimate *estimate)
+{
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    return sql_run(
+        writer, NULL,
+        "INSERT INTO "
+        "job(number,id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
+        "study,study_case,study_repeat) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
+        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11))",
+        "ttttiddtiiii", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes, now,
+        place->study, place->index, place->repeat, number);
+}
+
+store_status store_insert_job(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
+                              const study_place *place, const calibration *machine)
+{
+    char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
+    const job_estimate estimate = job_spec_estimate(spec, machine);
+    store_status status = label ? insert_row(writer, number, spec, id, text, label, place, &estimate) : STORE_FAILED;
+    if (number == 0) number = sqlite3_last_insert_rowid(writer);
+    if (status == STORE_OK) status = process_inputs_insert(writer, number, spec);
+    if (status == STORE_OK) status = store_insert_load(writer, number, &estimate, machine);
+    free(label);
+    return status;
+}
+
+const char *job_started_from(const job_spec *spec)
+{
+    return strcmp(spec->process, "drum") == 0 && *spec->inputs.start.job ? spec->inputs.start.job : NULL;
+}
+
+bool store_bring_start(job_store *store, const char *from, double snapshot, const char *id)
+{
+    char name[32] = JOB_CHECKPOINT_FILE;
+    const bool is_snapshot = !isnan(snapshot);
+    if (is_snapshot) snprintf(name, sizeof name, JOB_SNAPSHOT_FILE_FORMAT, (long long)snapshot);
+    return job_folder_add_start(store->data, id, from, is_snapshot ? JOB_SNAPSHOT_FOLDER : NULL, name);
+}
+
+/* The largest that a job ever had. */
+static store_status last_number(job_store *store, int64_t *number)
+{
+    sqlite3_stmt *row =
+        sql_prepare(store->writer, "SELECT max(number,coalesce((SELECT max(number) FROM job),0)) FROM last_deleted", "");
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    if (code == SQLITE_ROW) *number = sqlite3_column_int64(row, 0);
+    return row ? sql_finish(row, code) : STORE_FAILED;
+}
+
+static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
+{
+    static const study_place of_no_study = { 0, 0, 0 };
+    uint32_t bits;
+    if (!text || !store_random_bits(&bits)) return STORE_FAILED;
+    store_write_id(id, time(NULL), bits);
+    const char *from = job_started_from(spec);
+    if (!job_folder_create(store->data, id, text)
+        || (from && !(store_bring_start(store, from, spec->inputs.start.snapshot, id) && job_folder_sync(store->data, id)))) {
+        const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
+        log_line("job %s: its folder can't be written: %s", id, strerror(errno));
+        job_folder_discard(store->data, id);
+        return reason;
+    }
+    calibration machine;
+    store_read_calibration(store, &machine);
+    store_status status = store_begin(store);
+    if (status == STORE_OK) {
+        status = store_check_queue(store, 1);
+        int64_t last = 0;
+        if (status == STORE_OK) status = last_number(store, &last);
+        if (status == STORE_OK) status = store_insert_job(store->writer, last + 1, spec, id, text, &of_no_study, &machine);
+        status = store_end(store, status);
+    }
+    if (status != STORE_OK) job_folder_discard(store->data, id);
+    return status;
+}
+
+store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE])
+{
+    char *text = job_spec_to_text(spec);
+    const store_status status = add_with_text(store, spec, text, id);
+    free(text);
+    return status;
+}
+
+store_status store_has_job(job_store *store, const char *id)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT 1 FROM job WHERE id=?", "t", id);
+    const int code = statement ? sqlite3_step(statement) : SQLITE_ERROR;
+    const store_status status = statement ? sql_finish(statement, code) : STORE_FAILED;
+    store_return_reader(store, reader);
+    return status == STORE_OK && code != SQLITE_ROW ? STORE_NOT_FOUND : status;
+}
+
+store_status store_dismiss_job(job_store *store, const char *id)
+{
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    int64_t changed = 0;
+    store_status status = store_begin(store);
+    if (status != STORE_OK) return status;
+    status = sql_run(store->writer, &changed,
+                     "UPDATE job SET status='dismissed', message='dismissed on request', eta_seconds=NULL, finished=?, updated=?"
+                     " WHERE id=? AND status IN ('accepted','running')",
+                     "ttt", now, now, id);
+    status = store_end(store, status);
+    if (status != STORE_OK || changed > 0) return status;
+    const store_status found = store_has_job(store, id);
+    return found == STORE_OK ? STORE_CONFLICT : found;
+}
+
+/* --- texts, counts, files --- */
+
+store_status store_read_text(job_store *store, const char *sql, const char *id, char **text)
+{
+    *text = NULL;
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, sql, "t", id);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        const char *value = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+        if (value) *text = strdup(value);
+        status = sql_finish(statement, code);
+        if (status == STORE_OK && !*text) status = value ? STORE_FAILED : STORE_NOT_FOUND;
+    }
+    store_return_reader(store, reader);
+    return status;
+}
+
+store_status store_read_spec(job_store *store, const char *id, char **text)
+{
+    *text = NULL;
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT spec, study FROM job WHERE id=?", "t", id);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        const char *spec = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+        if (spec) *text = study_parts_expand(reader, sqlite3_column_int64(statement, 1), spec);
+        status = sql_finish(statement, code);
+        if (status == STORE_OK && !*text) status = code == SQLITE_ROW ? STORE_FAILED : STORE_NOT_FOUND;
+    }
+    store_return_reader(store, reader);
+    return status;
+}
+
+store_status store_read_results(job_store *store, const char *id, char **text)
+{
+    return store_read_text(store, "SELECT document FROM result JOIN job ON result.job=job.number WHERE job.id=?", id, text);
+}
+
+store_status store_read_failure(job_store *store, const char *id, char **text)
+{
+    return store_read_text(store, "SELECT failure FROM job WHERE id=?", id, text);
+}
+
+store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES])
+{
+    memset(counts, 0, JOB_STATUSES * sizeof counts[0]);
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(reader, "SELECT status, jobs FROM job_count", "");
+    store_status result = STORE_FAILED;
+    if (statement) {
+        int code;
+        while ((code = sqlite3_step(statement)) == SQLITE_ROW) {
+            const char *name = (const char *)sqlite3_column_text(statement, 0);
+            job_status status;
+            if (name && job_status_parse(name, strlen(name), &status)) counts[status] = sqlite3_column_int64(statement, 1);
+        }
+        result = sql_finish(statement, code);
+    }
+    store_return_reader(store, reader);
+    return result;
+}
+
+store_status store_open_fields(job_store *store, const char *id, int *file)
+{
+    *file = job_file_open(store->data, id, NULL, JOB_FIELDS_FILE);
+    return *file >= 0 ? STORE_OK : STORE_NOT_FOUND;
+}
+
+store_status store_open_log(job_store *store, const char *id, int *file)
+{
+    *file = job_file_open(store->data, id, NULL, JOB_LOG_FILE);
+    return *file >= 0 ? STORE_OK : STORE_NOT_FOUND;
+}
+
+store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *statement = sql_prepare(
+        reader, "SELECT file FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number=?", "ti", id, number);
+    store_status status = STORE_FAILED;
+    if (statement) {
+        const int code = sqlite3_step(statement);
+        const char *name = code == SQLITE_ROW ? (const char *)sqlite3_column_text(statement, 0) : NULL;
+        *file = name && !strchr(name, '/') ? job_file_open(store->data, id, JOB_SNAPSHOT_FOLDER, name) : -1;
+        status = sql_finish(statement, code);
+        if (status == STORE_OK && *file < 0) status = STORE_NOT_FOUND;
+    }
+    store_return_reader(store, reader);
+    return status;
+}

@@ -1,0 +1,119 @@
+/* The store over SQLite and the job folders. Handlers use it through api/store/store.h; the dispatcher through this. */
+#ifndef JOB_STORE_H
+#define JOB_STORE_H
+
+#include <pthread.h>
+#include <sqlite3.h>
+#include <time.h>
+
+#include "data_folder.h"
+#include "event_tail.h"
+#include "query_functions.h"
+#include "store.h"
+
+enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
+
+/* Everything below is private to job_store*.c, result_tables.c and query.c. */
+struct job_store {
+    data_folder *data;
+    int64_t queue_limit;        /* jobs that may wait */
+    pthread_mutex_t write_lock; /* held for each transaction of the one writer */
+    sqlite3 *writer;
+    pthread_mutex_t readers_lock;
+    pthread_cond_t reader_is_free;
+    sqlite3 *reader[STORE_READERS]; /* the first readers_free are free */
+    int readers_free;
+    sqlite3 *query; /* for users' SQL alone: it has an authorizer and limits; the lane of what reads is its only thread */
+    query_watch query_watch;
+    char *query_tables; /* names of all tables and views of the schema */
+};
+
+job_store *store_open(data_folder *data, int64_t queue_limit);
+void store_close(job_store *store);
+
+sqlite3 *store_borrow_reader(job_store *store);
+void store_return_reader(job_store *store, sqlite3 *reader);
+/* Between begin and end this thread owns the writer. end commits where status is STORE_OK, else rolls back;
+ * returns what became of it. */
+store_status store_begin(job_store *store);
+store_status store_end(job_store *store, store_status status);
+
+/* Commits a change that changes nothing, to see whether that can be done; not while somebody else writes. */
+store_status store_try_write(job_store *store);
+
+/* An id of this second; bits tell it from others of the same second. */
+void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits);
+bool store_random_bits(uint32_t *bits);
+/* Which job of which study; study 0: of none. */
+typedef struct study_place {
+    int64_t study, index, repeat;
+} study_place;
+/* The bed of that job, into the folder of this one; snapshot NaN: its checkpoint. Safe on the disk after job_folder_sync
+ * or data_folder_sync. False: errno says why. */
+bool store_bring_start(job_store *store, const char *from, double snapshot, const char *id);
+/* The job that a spec starts from; NULL: none. */
+const char *job_started_from(const job_spec *spec);
+/* Between begin and end: one job's rows. text: its canonical specification. number: 0 takes the next. */
+store_status store_insert_job(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
+                              const study_place *place, const calibration *machine);
+/* study_parts.c: a text of the table with the long parts of its study in it; NULL: no memory, or a part is missing. */
+char *study_parts_expand(sqlite3 *database, int64_t study, const char *text);
+/* machine_speed.c, between begin and end: what its steps have to do, for when it has run. */
+store_status store_insert_load(sqlite3 *writer, int64_t job, const job_estimate *estimate, const calibration *machine);
+/* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */
+store_status store_check_queue(job_store *store, int64_t jobs);
+store_status store_read_text(job_store *store, const char *sql, const char *id, char **text);
+
+/* One attempt of one job: what every write a worker causes is fenced by. */
+typedef struct job_claim {
+    int64_t number;
+    char id[JOB_ID_SIZE];
+    int attempt, threads;
+    double estimated_seconds, estimated_memory_bytes;
+    char *spec;         /* owned; NULL once the worker has started */
+    int64_t saved_step; /* of the furthest checkpoint that any attempt told of, */
+    int saved_in;       /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
+} job_claim;
+
+/* Takes the oldest job that waits, if it needs no more threads than are free (a job of more than `all_threads`
+ * counts as that many). STORE_NOT_FOUND: none. */
+store_status store_claim_job(job_store *store, int free_threads, int all_threads, job_claim *claim);
+
+/* Takes in how far checkpoints have come; the same events again change nothing. */
+void job_claim_note(job_claim *claim, const event_batch *events);
+/* Whether the job fails if this attempt dies: the last JOB_ATTEMPTS of them have all died without coming further. */
+bool job_claim_is_last(const job_claim *claim);
+
+/* The calls below return STORE_CONFLICT when the claim no longer holds (the job was dismissed): then nothing was
+ * written. store_record_events is for use between begin and end. */
+store_status store_record_events(job_store *store, const job_claim *claim, const event_batch *events);
+/* The worker has written nothing for so long; between begin and end, too. */
+store_status store_record_silence(job_store *store, const job_claim *claim, double seconds);
+store_status store_record_success(job_store *store, const job_claim *claim, const char *document);
+store_status store_record_failure(job_store *store, const job_claim *claim, const char *message, const json_t *failure);
+/* Back into the queue. uses_attempt: the worker died; the death of the last attempt fails
+ * the job. */
+store_status store_put_back(job_store *store, const job_claim *claim, bool uses_attempt, const char *message);
+/* Back into the queue after a setback that was the machine's: no attempt is used, and the job waits the longer the more
+ * setbacks it has had in a row, so that others come before it. */
+store_status store_put_off(job_store *store, const job_claim *claim, const char *message);
+bool store_claim_holds(job_store *store, const job_claim *claim);
+
+/* Jobs that a dead daemon left running are put back, with no attempt used, or recorded as done where the result is
+ * there. Anything but STORE_OK: to be called again. */
+store_status store_recover(job_store *store);
+/* unused_folders.c: those that a POST made which a crash has cut off. Before the first request: one that is being posted has no
+ * row either. */
+store_status store_remove_unused_folders(job_store *store);
+store_status store_has_job(job_store *store, const char *id); /* STORE_NOT_FOUND: there is none */
+
+/* process_tables.c: the main inputs of a job as columns of its process's table; between begin and end. */
+store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec);
+
+/* result_tables.c: spreads the results document over the tables; between begin and end. */
+store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document, const json_t *results);
+
+/* query.c: the limits, the authorizer and the functions of users' SQL, on store->query. False: no memory. */
+bool query_connection_restrict(job_store *store);
+
+#endif
