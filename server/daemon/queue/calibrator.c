@@ -16,7 +16,7 @@
 
 #include "log.h"
 
-enum { MOST_SECONDS = 60 }; /* of the clock, which an idle process may hardly get any time of; processor time is no more */
+enum { MOST_SECONDS = 60 }; /* of the clock, within which it sees to it that it ends; processor time is no more */
 
 /* SIGIO, which ends the process, comes when the last writer is gone; not if that was before. */
 static void end_with_the_daemon(void)

@@ -19,6 +19,7 @@
 #include "dem.h"
 #include "job_spec.h"
 #include "json_text.h"
+#include "measuring_time.h"
 #include "version.h"
 #include "worker_log.h"
 
@@ -31,8 +32,11 @@
 #define AS_USUAL 0.01
 #define CLUSTERS_USUAL 0.02 /* as in the paper's rows of clusters */
 #define FLOWING_SECONDS 0.2 /* of rotation, until the bed flows */
+#define GROWING_BY_FLOWING 1.35 /* cost of a flowing bed by that of one that grows */
 
-enum { WARMING_STEPS = 1000, MEASURED_STEPS = 3000, GROWING_STEPS = 400 };
+#define IN_PART ", in part" /* behind the program's name: so it is no current calibration, and measured again */
+
+enum { WARMING_STEPS = 1000, MEASURED_STEPS = 3000, GROWING_STEPS = 400, STEPS_BETWEEN_LOOKS = 200 };
 
 static double processor_seconds(void)
 {
@@ -61,13 +65,31 @@ static bool define(double diameter, double length, const char *shape, const char
 
 static double median_of_three(const double x[3]) { return fmax(fmin(x[0], x[1]), fmin(fmax(x[0], x[1]), x[2])); }
 
+/* False: it failed, or there is no time left. */
+static bool advance(dem_scene *scene, int64_t steps)
+{
+    bool good = true;
+    for (int64_t done = 0; good && done < steps; done += STEPS_BETWEEN_LOOKS) {
+        const int64_t rest = steps - done;
+        good = measuring_time_is_left()
+               && dem_scene_advance(scene, rest < STEPS_BETWEEN_LOOKS ? rest : STEPS_BETWEEN_LOOKS) == DEM_OK;
+    }
+    return good;
+}
+
+static bool advance_anyway(dem_scene *scene, int64_t steps)
+{
+    measuring_time_is_left(); /* for what it does where there is little */
+    return dem_scene_advance(scene, steps) == DEM_OK;
+}
+
 /* ns a sphere-step. 0: it failed. */
-static double cost_of(dem_scene *scene, int64_t steps)
+static double cost_of(dem_scene *scene, int64_t steps, bool (*go)(dem_scene *, int64_t))
 {
     double cost[3];
     for (int window = 0; window < 3; window++) {
         const double begin = processor_seconds();
-        if (dem_scene_advance(scene, steps) != DEM_OK) return 0.0;
+        if (!go(scene, steps)) return 0.0;
         cost[window] = 1e9 * (processor_seconds() - begin) / ((double)steps * (double)dem_scene_sphere_count(scene));
     }
     return median_of_three(cost);
@@ -86,14 +108,13 @@ static void forget_contacts(dem_state *state)
 static bool make_bed(const dem_drum_definition *drum, dem_state *state)
 {
     dem_scene *scene;
-    dem_status status = dem_scene_create(drum, &scene);
-    if (status != DEM_OK) return false;
-    while (status == DEM_OK && dem_scene_phase(scene) != DEM_PHASE_ROTATING) status = dem_scene_advance(scene, 100);
-    if (status == DEM_OK) status = dem_scene_advance(scene, (int64_t)(FLOWING_SECONDS / drum->time_step));
-    if (status == DEM_OK) status = dem_scene_save(scene, state);
+    if (dem_scene_create(drum, &scene) != DEM_OK) return false;
+    bool good = true;
+    while (good && dem_scene_phase(scene) != DEM_PHASE_ROTATING) good = advance(scene, 100);
+    good = good && advance(scene, (int64_t)(FLOWING_SECONDS / drum->time_step)) && dem_scene_save(scene, state) == DEM_OK;
     dem_scene_free(scene);
-    if (status == DEM_OK) forget_contacts(state);
-    return status == DEM_OK;
+    if (good) forget_contacts(state);
+    return good;
 }
 
 static double cost_from_bed(const dem_drum_definition *drum, const dem_state *state)
@@ -101,8 +122,8 @@ static double cost_from_bed(const dem_drum_definition *drum, const dem_state *st
     dem_scene *scene;
     double cost = 0.0;
     if (dem_scene_create(drum, &scene) != DEM_OK) return 0.0;
-    if (dem_scene_restore(scene, state) == DEM_OK && dem_scene_advance(scene, WARMING_STEPS) == DEM_OK)
-        cost = cost_of(scene, MEASURED_STEPS);
+    if (dem_scene_restore(scene, state) == DEM_OK && advance(scene, WARMING_STEPS))
+        cost = cost_of(scene, MEASURED_STEPS, advance);
     dem_scene_free(scene);
     return cost;
 }
@@ -129,12 +150,13 @@ static double cost_of_growing(double diameter, double length, int64_t steps, dou
     if (!define(diameter, length, "sphere", calibration_law_name(0), AS_USUAL, &drum)) return 0.0;
     if (dem_scene_create(&drum, &scene) != DEM_OK) return 0.0;
     *spheres = (double)dem_scene_sphere_count(scene);
-    const double cost = dem_scene_advance(scene, 200) == DEM_OK ? cost_of(scene, steps) : 0.0;
+    const double cost = advance_anyway(scene, 200) ? cost_of(scene, steps, advance_anyway) : 0.0;
     dem_scene_free(scene);
     return cost;
 }
 
-/* Relative to the bed in which the laws were measured. */
+/* Relative to the bed in which the laws are measured. The whole takes a third of a second, and gives how fast the machine is
+ * beside the one of the built-in figures: all that is known where there is no time for more. */
 static bool measure_sizes(calibration *machine)
 {
     static const struct {
@@ -149,6 +171,11 @@ static bool measure_sizes(calibration *machine)
         if (!(cost[k] > 0.0)) return false;
     }
     for (size_t k = 0; k < CALIBRATION_SIZES; k++) machine->size_factor[k] = cost[k] / cost[1];
+    const double pace = cost[1] * GROWING_BY_FLOWING / machine->sphere[0];
+    for (int law = 0; law < CALIBRATION_LAWS; law++) {
+        machine->sphere[law] *= pace;
+        machine->cluster[law] *= pace;
+    }
     return true;
 }
 
@@ -177,8 +204,11 @@ static void name_program(char text[CALIBRATION_TEXT])
              (long long)program.st_mtim.tv_sec);
 }
 
-static bool measure(calibration *machine)
+/* What there was no time for is left as it follows from the sizes. False: not even these were measured. */
+static bool measure(calibration *machine, bool *whole)
 {
+    measuring_time_begin();
+    *whole = false;
     *machine = calibration_built_in();
     name_processor(machine->processor);
     name_program(machine->program);
@@ -186,14 +216,17 @@ static bool measure(calibration *machine)
     struct tm utc;
     gmtime_r(&now, &utc);
     strftime(machine->made, sizeof machine->made, "%Y-%m-%dT%H:%M:%S.000Z", &utc);
-    if (!measure_laws("sphere", 0.0252, AS_USUAL, CALIBRATION_LAWS, machine->sphere)
-        || !measure_laws("tetrahedron", 0.0264, CLUSTERS_USUAL, 1, machine->cluster) || !measure_sizes(machine)) {
+    if (!measure_sizes(machine)) {
         *machine = calibration_built_in();
         return false;
     }
+    calibration better = *machine;
+    *whole = measure_laws("sphere", 0.0252, AS_USUAL, CALIBRATION_LAWS, better.sphere)
+             && measure_laws("tetrahedron", 0.0264, CLUSTERS_USUAL, 1, better.cluster);
     /* Joining spheres costs the same with any law. */
-    for (int law = 1; law < CALIBRATION_LAWS; law++)
-        machine->cluster[law] = machine->cluster[0] + machine->sphere[law] - machine->sphere[0];
+    for (int law = 1; law < CALIBRATION_LAWS; law++) better.cluster[law] = better.cluster[0] + better.sphere[law] - better.sphere[0];
+    if (*whole) *machine = better;
+    else snprintf(machine->program + strlen(machine->program), CALIBRATION_TEXT - strlen(machine->program), IN_PART);
     return true;
 }
 
@@ -279,12 +312,14 @@ bool calibrate(const char *wish, calibration *machine, bool *is_new)
             worker_warn("another process measures this machine's speed: estimates are rough until it is done");
             return false;
         }
-        if (!measure(machine)) {
+        bool whole;
+        if (!measure(machine, &whole)) {
             worker_warn("this machine's speed could not be measured: estimates are rough");
             return false;
         }
         *is_new = true;
-        if (has_cache) keep(machine, cache); /* a convenience: who has no room there has it in the folder */
+        if (!whole) worker_warn("this machine has much else to do, and its speed was measured in part: it will be again");
+        if (has_cache && whole) keep(machine, cache); /* a convenience: who has no room there has it in the folder */
     }
     if (folder && (!has_folder || !keep(machine, folder)))
         worker_warn("%s can't be kept in %s: %s", CALIBRATION_FILE, folder, strerror(errno));
