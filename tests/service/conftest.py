@@ -1,7 +1,11 @@
 """A real daemon on a free port with a fresh data folder, and a real client."""
+import contextlib
+import fcntl
+import functools
 import os
 import signal
 import subprocess
+import tempfile
 import time
 from pathlib import Path
 
@@ -23,12 +27,41 @@ SPEC = {
 }
 
 
+@pytest.fixture(scope="session", autouse=True)
+def cache(tmp_path_factory):
+    """A user's cache that is the tests' own, one for all that run at once: the cache of whoever runs them stays as it is."""
+    folder = tmp_path_factory.getbasetemp()
+    folder = (folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) / "cache"
+    folder.mkdir(exist_ok=True)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("XDG_CACHE_HOME", str(folder))
+        yield
+
+
+@contextlib.contextmanager
+def alone_at_measuring():
+    """Of the tests that run at once: of two that measure the machine one would give up."""
+    with open(Path(os.environ["XDG_CACHE_HOME"]) / "lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        yield
+
+
+@functools.cache
+def ready_calibration():
+    """The file in that cache, where daemons find it, so that none has the machine measured while tests run. The first test that
+    needs it makes it, in some seconds of processor time; those that run at once wait for it."""
+    with alone_at_measuring(), tempfile.TemporaryDirectory() as data:
+        subprocess.run([BUILD.absolute() / "repose", "calibrate", "--data", data], stdout=subprocess.DEVNULL, check=True)
+    return Path(os.environ["XDG_CACHE_HOME"]) / "reposed" / "calibration.json"
+
+
 class Daemon:
     """One data folder, and the daemon that may be running on it."""
 
     def __init__(self, folder, worker=None, options=()):
         self.folder, self.data = folder, folder / "data"
         self.options = list(options) + (["--worker", str(worker)] if worker else [])
+        self.measures = worker is None
         if BUILD.parent != ROOT:  # the page and the OpenAPI document are looked for beside the build folder
             self.options = ["--web", str(ROOT / "web"), "--api-file", str(ROOT / "api/openapi.yaml"), *self.options]
         self.port, self.process = 0, None
@@ -39,6 +72,8 @@ class Daemon:
 
     def start(self):
         """On the port it had before, if it was running before."""
+        if self.measures:
+            ready_calibration()
         command = [BUILD / "reposed", "serve", "--port", str(self.port), "--data", self.data, *self.options]
         with open(self.folder / "daemon.log", "ab") as log:
             # SIGHUP as it is by default, also where nohup has it ignored

@@ -2,12 +2,13 @@
 depends on how fast the machine is."""
 import json
 import os
+import signal
 import sqlite3
 import subprocess
 import time
 
 import pytest
-from conftest import FAKE_WORKER, SPEC, Daemon
+from conftest import FAKE_WORKER, SPEC, Daemon, alone_at_measuring, ready_calibration
 from worker_runs import REPOSE, SMALL
 
 # What the seconds said may differ by: JSON texts of 15 digits, and sums in another order.
@@ -31,11 +32,9 @@ def estimate(spec, data):
 
 
 @pytest.fixture(scope="module")
-def measured(tmp_path_factory):
+def measured():
     """A calibration of this machine."""
-    data = tmp_path_factory.mktemp("measured") / "data"
-    repose("calibrate", "--data", data)
-    return json.loads((data / "calibration.json").read_text())
+    return json.loads(ready_calibration().read_text())
 
 
 def keep(data, calibration, factor=1.0):
@@ -55,7 +54,8 @@ def test_a_calibration_is_made_once_and_again_for_another_machine_or_program(mea
     assert "as measured before" in repose("calibrate", "--data", data)
     assert (data / "calibration.json").read_bytes() == written
     keep(data, {**measured, "processor": "another"})
-    assert "measured now" in repose("calibrate", "--data", data)
+    with alone_at_measuring():
+        assert "measured now" in repose("calibrate", "--data", data)
     assert json.loads((data / "calibration.json").read_text())["processor"] == measured["processor"]
 
 
@@ -136,3 +136,41 @@ def test_the_daemon_has_its_machine_measured_in_the_background(tmp_path):
         assert daemon.workers() == []
     finally:
         daemon.stop()
+
+
+def test_the_other_tests_have_a_calibration_that_counts(tmp_path):
+    """Without it each of their daemons would have the machine measured."""
+    ready_calibration()
+    assert "as measured before" in repose("calibrate", "--data", tmp_path / "data", cache=os.environ["XDG_CACHE_HOME"])
+
+
+def is_there(process):
+    try:
+        return open(f"/proc/{process}/stat").read().rsplit(")", 1)[1].split()[0] != "Z"
+    except (FileNotFoundError, ProcessLookupError):
+        return False
+
+
+def test_killed_daemons_leave_no_calibration_behind(tmp_path):
+    """Five, each killed while its calibration runs, by a worker program whose calibration takes no processor time and ends
+    only when it is made to."""
+    program, calls = tmp_path / "worker", tmp_path / "calls"
+    program.write_text(f'#!/bin/sh\necho $$ >> {calls}\nexec sleep 50\n')
+    program.chmod(0o700)
+    calls.touch()
+    calibrations = []
+    for number in range(1, 6):
+        daemon = Daemon(tmp_path, worker=program).start()
+        try:
+            end = time.monotonic() + 30
+            while calls.read_text().count("\n") < number:
+                assert time.monotonic() < end
+                time.sleep(0.02)
+            calibrations = [int(line) for line in calls.read_text().split()]
+            assert is_there(calibrations[-1])
+        finally:
+            daemon.stop(signal.SIGKILL)
+    end = time.monotonic() + 20  # idle processes may wait for their end
+    while any(map(is_there, calibrations)) and time.monotonic() < end:
+        time.sleep(0.02)
+    assert not any(map(is_there, calibrations))
