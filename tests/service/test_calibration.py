@@ -174,3 +174,62 @@ def test_killed_daemons_leave_no_calibration_behind(tmp_path):
     while any(map(is_there, calibrations)) and time.monotonic() < end:
         time.sleep(0.02)
     assert not any(map(is_there, calibrations))
+
+
+def begin_calibration(data, **how):
+    environment = {**os.environ, "XDG_CACHE_HOME": "", "HOME": ""}
+    return subprocess.Popen([REPOSE, "calibrate", "--data", data], env=environment, text=True, stdout=subprocess.PIPE,
+                            stderr=subprocess.PIPE, **how)
+
+
+def processor_seconds(process):
+    fields = open(f"/proc/{process.pid}/stat").read().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def wait_for_processor_seconds(process, seconds):
+    while processor_seconds(process) < seconds:
+        assert process.poll() is None, process.stderr.read()
+        time.sleep(0.01)
+
+
+def test_of_two_that_measure_at_once_one_gives_up(tmp_path):
+    with alone_at_measuring():
+        first = begin_calibration(tmp_path / "first")
+        try:
+            wait_for_processor_seconds(first, 0.2)
+            first.send_signal(signal.SIGSTOP)  # however fast the machine is
+            second = begin_calibration(tmp_path / "second")
+            _, said = second.communicate(timeout=60)
+            assert second.returncode == 1 and "another process measures" in said
+            assert not (tmp_path / "second" / "calibration.json").exists()
+            first.kill()
+            first.communicate()
+            third = begin_calibration(tmp_path / "third")  # the lock has gone with its holder
+            wait_for_processor_seconds(third, 0.2)
+            third.kill()
+            assert "another process measures" not in third.communicate()[1]
+        finally:
+            first.kill()
+
+
+def test_a_calibration_that_gets_too_little_time_ends_in_time_with_what_it_has(measured, tmp_path):
+    """Held up by a stop until three quarters of its time are over: as on a machine that does other things."""
+    seconds = 12
+    with alone_at_measuring():
+        start = time.monotonic()
+        held_up = begin_calibration(tmp_path, preexec_fn=lambda: signal.alarm(seconds))
+        try:
+            wait_for_processor_seconds(held_up, 0.7)
+            held_up.send_signal(signal.SIGSTOP)
+            time.sleep(max(0, start + 0.75 * seconds + 0.2 - time.monotonic()))
+            held_up.send_signal(signal.SIGCONT)
+            said, warned = held_up.communicate(timeout=60)
+        finally:
+            held_up.kill()
+    assert held_up.returncode == 0 and "measured now" in said and "in part" in warned
+    rough = json.loads((tmp_path / "calibration.json").read_text())
+    for kind in ("spheres", "clusters"):
+        for law, cost in measured["nanoseconds_a_sphere_step"][kind].items():
+            assert 0.25 * cost < rough["nanoseconds_a_sphere_step"][kind][law] < 4.0 * cost
+    assert rough["program"] != measured["program"]  # so that it is measured again
