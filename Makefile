@@ -70,7 +70,7 @@ server/worker/run_SEES := $(sort $(api/process_SEES) $(api/study_SEES)) server/w
 server/worker_SEES := $(server/worker/run_SEES)
 # $(call sees,FILE): the -I list of a file, which is its folder's. Tests see everything that they are linked with.
 sees = $(addprefix -I,$($(patsubst %/,%,$(dir $(1)))_SEES))
-EVERYTHING := $(addprefix -I,$(core_SEES) $(sort $(api/process_SEES) $(api/http_SEES)) $(server/daemon_SEES))
+API_SEES := $(addprefix -I,$(sort $(api/process_SEES) $(api/http_SEES)))
 
 # Asked for when something is compiled, not when this file is read: `make help` needs no pkg-config.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5-serial)
@@ -84,8 +84,8 @@ DAEMON := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/daemon/*.c server/daemon
 DAEMON_PARTS := $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
 PHYSICS := $(patsubst tests/physics/%.c,%,$(wildcard tests/physics/*.c))
 # What differs from variant to variant, once for each that this machine can run.
-KERNEL_TESTS = $(foreach v,$(filter-out $(VARIANT),$(RUNNABLE)),$(patsubst %,$(BUILD)/tests/unit/%-$(v),test_contact_forces test_two_bodies test_cell_grid))
-UNIT_TESTS = $(patsubst tests/unit/%.c,$(BUILD)/tests/unit/%,$(wildcard tests/unit/test_*.c)) $(KERNEL_TESTS)
+KERNEL_TESTS = $(foreach v,$(filter-out $(VARIANT),$(RUNNABLE)),$(patsubst %,$(BUILD)/tests/unit/core/%-$(v),test_contact_forces test_two_bodies test_cell_grid))
+UNIT_TESTS = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/unit/*/test_*.c))
 
 programs: $(BUILD)/repose $(patsubst %,$(BUILD)/repose-%,$(filter-out single-plain,$(VARIANTS))) $(BUILD)/reposed
 all: packages ## install what is missing and build both programs
@@ -142,26 +142,44 @@ FORCE:
 $(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(DEM) $(BUILD)/variant
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(EVERYTHING) $< $(BUILD)/libapi.a $(DEM) \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(addprefix -I,$(core_SEES)) $(API_SEES) $< $(BUILD)/libapi.a $(DEM) \
 	  $(LDFLAGS) -fopenmp -ljansson -lm -o $@
-# Unit tests see the insides they test: core tests link the core, api tests the api, daemon tests the daemon's objects.
-$(BUILD)/tests/unit/%: tests/unit/%.c $(DEM) $(BUILD)/libapi.a $(DAEMON_PARTS) $(BUILD)/variant
+# Unit tests see the insides of what they test, and are linked with that alone.
+$(BUILD)/libdaemon.a: $(DAEMON_PARTS)
+	@rm -f $@ && ar rcs $@ $^
+$(BUILD)/tests/unit/core/%: tests/unit/core/%.c $(DEM) $(BUILD)/variant
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(EVERYTHING) $< $(DAEMON_PARTS) \
-	  $(BUILD)/libapi.a $(DEM) $(LDFLAGS) -fopenmp -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lz -lm -o $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(addprefix -I,$(core_SEES)) -Itests/unit $< \
+	  $(DEM) $(LDFLAGS) -fopenmp -lcmocka -lm -o $@
+$(BUILD)/tests/unit/api/%: tests/unit/api/%.c $(BUILD)/libapi.a
+	@mkdir -p $(@D)
+	$(SAY) link $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) -Itests/unit $< $(BUILD)/libapi.a $(LDFLAGS) -lcmocka -ljansson -lm -o $@
+$(BUILD)/libworker.a: $(filter-out $(BUILD)/server/worker/main.o,$(WORKER))
+	@rm -f $@ && ar rcs $@ $^
+$(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD)/libapi.a $(BUILD)/core/single-plain/libdem.a
+	@mkdir -p $(@D)
+	$(SAY) link $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
+	  $(BUILD)/core/single-plain/libdem.a $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -ljansson -lm -o $@
+$(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD)/libapi.a
+	@mkdir -p $(@D)
+	$(SAY) link $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) $(addprefix -I,$(server/daemon_SEES)) -Itests/unit $< $(BUILD)/libdaemon.a \
+	  $(BUILD)/libapi.a $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lz -lm -o $@
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
 define variant_tests
 $(BUILD)/tests/$(1)/%: tests/physics/%.c $(BUILD)/core/$(1)/libdem.a
 	@mkdir -p $$(@D)
 	$(SAY) link $$@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) $$< \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) -Itests/unit $$< \
 	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
-$(BUILD)/tests/unit/%-$(1): tests/unit/%.c $(BUILD)/core/$(1)/libdem.a
+$(BUILD)/tests/unit/core/%-$(1): tests/unit/core/%.c $(BUILD)/core/$(1)/libdem.a
 	@mkdir -p $$(@D)
 	$(SAY) link $$@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) $$< \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) -Itests/unit $$< \
 	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
 endef
 $(foreach v,$(VARIANTS),$(eval $(call variant_tests,$(v))))
@@ -173,8 +191,13 @@ serve: all ## the daemon in the foreground: PORT=8080 DATA=data
 	@$(BUILD)/reposed serve --port $(PORT) --data "$(DATA)"
 
 test: test-packages ## unit, short physics and service tests; closes with a line that counts them
-	@$(MAKE) --no-print-directory check programs $(UNIT_TESTS) physics-programs
+	@$(MAKE) --no-print-directory check programs $(UNIT_TESTS) $(KERNEL_TESTS) physics-programs
 	@PYTHON=$(PYTHON) sh tests/run.sh $(BUILD)
+
+unit: test-packages ## unit tests by the best instructions of this machine; TEST=test_wave: one of them
+	@$(MAKE) --no-print-directory $(WANTED_TESTS)
+	@sh tests/run.sh $(BUILD) unit $(WANTED_TESTS)
+WANTED_TESTS = $(if $(TEST),$(or $(filter %/$(TEST),$(UNIT_TESTS)),$(error there is no unit test $(TEST))),$(UNIT_TESTS))
 
 physics: test-packages ## verification, a quarter of an hour: tests/physics/RESULTS.md; LONG=1: all of it, an hour more
 	@$(MAKE) --no-print-directory physics-programs
@@ -210,7 +233,7 @@ bench-peers: all ## the same drum by LAMMPS and LIGGGHTS beside ours, taking tur
 
 asan: test-packages ## unit and worker tests under the address and undefined-behavior sanitizers, in build/asan
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan SANITIZE="-fsanitize=address,undefined -fno-omit-frame-pointer" asan-run
-asan-run: programs $(UNIT_TESTS)
+asan-run: programs $(UNIT_TESTS) $(KERNEL_TESTS)
 	@PYTHON=$(PYTHON) sh tests/run.sh $(BUILD) unit
 
 tsan: test-packages ## unit tests of the daemon under the thread sanitizer, in build/tsan
@@ -224,7 +247,7 @@ lint: lint-packages ## clang-tidy and cppcheck
 	@bear --output $(BUILD)/lint/compile_commands.json -- $(MAKE) --no-print-directory BUILD=$(BUILD)/lint/objects programs >/dev/null
 	@clang-tidy --quiet -p $(BUILD)/lint $(CORE_SOURCES) $(wildcard api/*/*.c api/*/*/*.c server/*/*.c server/*/*/*.c) 2>/dev/null
 	@cppcheck --quiet --enable=warning,performance,portability --error-exitcode=1 \
-	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex $(EVERYTHING) -Iserver/worker/files -Iserver/worker/run core api server
+	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex $(addprefix -I,$(core_SEES) $(server/daemon_SEES)) $(API_SEES) -Iserver/worker/files -Iserver/worker/run core api server
 
 clean: ## remove what was built, and data folders in it; not while a daemon is at work on one of these
 	@for lock in $$(find $(BUILD) -maxdepth 4 -type f -name lock 2>/dev/null); do \
@@ -253,6 +276,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
-.PHONY: FORCE all programs demo serve test torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve test unit torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

@@ -14,6 +14,8 @@ if [ -n "$outside$printed" ]; then
   echo "core reaches outside its layer:" $outside $printed
   status=1
 fi
+of_core=$(nm -u "$build/libapi.a" | awk '$1 == "U" {print $2}' | sort -u | grep -xF "$defined")
+[ -n "$of_core" ] && { echo "the api needs the core:" $of_core; status=1; }
 ldd "$build/reposed" | grep -E 'hdf5|gomp' && { echo "reposed links what only a worker may"; status=1; }
 nm "$build/reposed" | grep -E ' T dem_scene_' && { echo "reposed links the core"; status=1; }
 ldd "$build/repose" | grep -E 'microhttpd|sqlite' && { echo "repose links what only the daemon may"; status=1; }

@@ -1,14 +1,16 @@
 #!/bin/sh
-# Runs the tests and closes with "N passed, N failed": run.sh BUILD [unit]
+# Runs the tests and closes with "N passed, N failed": run.sh BUILD, or of unit tests alone: run.sh BUILD unit [PROGRAM ...]
 build=${1:-build}
+only=$2
+[ $# -gt 2 ] && shift 2 || set --
 passed=0
 failed=0
 logs=$(mktemp -d)
 trap 'rm -rf "$logs"' EXIT
 
 # Unit tests, as many programs at once as there are processors; then what each of them said, in order.
-programs=$(ls "$build"/tests/unit/test_* | grep -v '\.d$')
-echo "$programs" | LOGS=$logs xargs -P "$(nproc)" -I{} sh -c '"$1" >"$LOGS/${1##*/}" 2>&1; echo $? >"$LOGS/${1##*/}.code"' sh {}
+programs=${*:-$(ls "$build"/tests/unit/*/test_* | grep -v '\.d$')}
+printf '%s\n' $programs | LOGS=$logs xargs -P "$(nproc)" -I{} sh -c '"$1" >"$LOGS/${1##*/}" 2>&1; echo $? >"$LOGS/${1##*/}.code"' sh {}
 for program in $programs; do
   log=$logs/$(basename "$program")
   ok=$(grep -c '^\[       OK \]' "$log")
@@ -23,7 +25,7 @@ for program in $programs; do
 done
 
 # Tests of physics use all processors themselves. Those of the service mostly wait: several of them at once.
-if [ "$2" != unit ]; then
+if [ "$only" != unit ]; then
   for folder in physics service; do
     [ $folder = service ] && at_once=$(($(nproc) * 2)) || at_once=0
     REPOSED_BUILD=$build "${PYTHON:-python3}" -m pytest -q -p no:cacheprovider -n $at_once -m "not long and not minutes and not torture" \

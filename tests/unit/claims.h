@@ -1,4 +1,4 @@
-/* What every unit test of the core starts from: cmocka, and checks that say what they saw. */
+/* What unit tests start from: cmocka, and checks that say what they saw. */
 #ifndef CLAIMS_H
 #define CLAIMS_H
 
@@ -9,17 +9,11 @@
 /* cmocka.h needs the four above. */
 #include <cmocka.h>
 
-#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include "real.h"
-
-/* Rounding of the numbers that contacts are computed in: tolerances are stated in multiples of it. */
-#define ROUNDING (sizeof(real) == sizeof(float) ? (double)FLT_EPSILON : DBL_EPSILON)
 
 #define CHECK_BETWEEN(value, low, high) check_between(#value, value, low, high, __FILE__, __LINE__)
 #define CHECK_NEAR(value, expected, tolerance) check_near(#value, value, expected, tolerance, __FILE__, __LINE__)

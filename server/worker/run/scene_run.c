@@ -109,7 +109,8 @@ static bool write_series(scene_run *r, bool now)
 static enum worker_exit take_snapshot(scene_run *r)
 {
     int64_t bytes;
-    if (!snapshot_file_write(r->scene, r->spec->is_mirrored, r->next_snapshot, r->params, &bytes)) return fail_for_disk(r, "a snapshot");
+    if (!snapshot_file_write(r->scene, r->spec->is_mirrored, r->next_snapshot, r->params, &bytes))
+        return fail_for_disk(r, "a snapshot");
     const long long number = r->next_snapshot++;
     json_t *event =
         json_pack("{s:I, s:o, s:I, s:I}", "number", (json_int_t)number, "file", json_sprintf(JOB_SNAPSHOT_FILE_FORMAT, number),

@@ -153,7 +153,7 @@ static void test_all_combinations_come_once_and_the_last_varies_fastest(void **s
     (void)state;
     study_spec study;
     take("{" BASE ",\"vary\":{\"/inputs/contact/friction\":[0.1,0.2],\"/inputs/drum/rotation_rate\":[1,2,4],\"/inputs/wall/"
-                  "friction\":[0.3,0.6]}}",
+         "friction\":[0.3,0.6]}}",
          &study);
     assert_int_equal(study.cases, 12);
     static const double friction[] = { 0.1, 0.2 }, rate[] = { 1, 2, 4 }, wall[] = { 0.3, 0.6 };
@@ -260,7 +260,7 @@ static void test_problems_point_into_the_study(void **state)
 {
     (void)state;
     expect_problems("{" BASE ",\"cases\":[{\"name\":\"a\"},{\"name\":\"b\",\"inputs\":{\"contact\":{\"friction\":-1}}},{\"name\":"
-                             "\"c\",\"inputs\":{\"contakt\":{}}}]}",
+                    "\"c\",\"inputs\":{\"contakt\":{}}}]}",
                     "/cases/1/inputs/contact/friction: is -1; must be in [0, 5]\n"
                     "/cases/2/inputs/contakt: is not an input; did you mean inputs/contact?\n");
     /* Of the base: once, however many cases. */

@@ -1,6 +1,6 @@
 /* Claims about teams of threads: every part of every piece of work is done once, whoever is there to do it, and when team_run
  * returns all of it is done. */
-#include "claims.h"
+#include "core_claims.h"
 #include "team.h"
 
 enum { PARTS = 7, ROUNDS = 3000 };

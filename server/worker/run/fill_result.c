@@ -1,4 +1,4 @@
-/* Needs the core's names. */
+/* The results document of a fill: the table's numbers, and the words beside them. */
 #include "fill_result.h"
 
 #include "fill_process.h"

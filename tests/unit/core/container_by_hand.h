@@ -3,7 +3,7 @@
 #ifndef CONTAINER_BY_HAND_H
 #define CONTAINER_BY_HAND_H
 
-#include "claims.h"
+#include "core_claims.h"
 #include "dem.h"
 #include "dem_rules.h"
 #include "scene.h"

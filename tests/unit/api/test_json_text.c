@@ -12,7 +12,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include "drum_result.h"
 #include "job_spec.h"
 #include "json_text.h"
 
@@ -139,40 +138,6 @@ static void numbers_are_written_in_the_fewest_digits_that_read_back_the_same(voi
     }
 }
 
-static void what_was_not_measured_is_null(void **state)
-{
-    (void)state;
-    drum_result result;
-    drum_result_init(&result);
-    json_t *document = drum_result_to_json(&result);
-    assert_true(json_is_null(json_object_get(json_object_get(document, "repose"), "angle_deg")));
-    assert_true(json_is_null(json_object_get(json_object_get(document, "regime"), "name")));
-    assert_true(json_is_null(json_object_get(json_object_get(document, "run"), "steps")));
-    json_decref(document);
-}
-
-static void results_stand_under_their_own_names(void **state)
-{
-    (void)state;
-    drum_result result;
-    drum_result_init(&result);
-    result.measured.repose.angle[DEM_SURFACE_FIT].mean_deg = 22.5;
-    result.measured.repose.angle[DEM_CHORD].mean_deg = 23.5;
-    result.measured.regime.predicted_stationary = 2.5;
-    result.measured.regime.regime = DEM_ROLLING;
-    result.has_regime = true;
-    result.run.seed = 9007199254740991.0;
-    json_t *document = drum_result_to_json(&result);
-    json_t *repose = json_object_get(document, "repose"), *regime = json_object_get(document, "regime");
-    assert_true(json_real_value(json_object_get(repose, "angle_deg")) == 22.5);
-    assert_true(json_real_value(json_object_get(json_object_get(repose, "other_methods"), "chord")) == 23.5);
-    assert_null(json_object_get(json_object_get(repose, "other_methods"), "surface-fit"));
-    assert_true(json_real_value(json_object_get(json_object_get(regime, "predicted"), "stationary_eq33")) == 2.5);
-    assert_string_equal(json_string_value(json_object_get(regime, "name")), "rolling");
-    assert_int_equal(json_integer_value(json_object_get(json_object_get(document, "run"), "seed")), 9007199254740991);
-    json_decref(document);
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -181,8 +146,6 @@ int main(void)
         cmocka_unit_test(bodies_are_read_by_their_length),
         cmocka_unit_test(digits_inside_a_text_are_no_numbers),
         cmocka_unit_test(numbers_are_written_in_the_fewest_digits_that_read_back_the_same),
-        cmocka_unit_test(what_was_not_measured_is_null),
-        cmocka_unit_test(results_stand_under_their_own_names),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -522,8 +522,10 @@ static void the_estimate_of_settling_follows_how_few_grains_there_are(void **sta
     };
     for (size_t k = 0; k < sizeof runs / sizeof runs[0]; k++) {
         char text[400];
-        snprintf(text, sizeof text, "{\"inputs\": {\"drum\": {%s, \"rotation_rate\": 1}, \"particles\": [%s, \"duration\": "
-                                    "{\"seconds\": 0.1}}}", runs[k].drum, runs[k].particles);
+        snprintf(text, sizeof text,
+                 "{\"inputs\": {\"drum\": {%s, \"rotation_rate\": 1}, \"particles\": [%s, \"duration\": "
+                 "{\"seconds\": 0.1}}}",
+                 runs[k].drum, runs[k].particles);
         job_spec spec = parse_or_fail(load(text));
         const double settling = job_spec_estimate(&spec, NULL).simulated_seconds - 0.1;
         assert_true(fabs(settling / sqrt(spec.drum.diameter / spec.drum.gravity) / runs[k].falls - 1) < 0.2);

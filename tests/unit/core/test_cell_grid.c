@@ -1,7 +1,7 @@
 /* Claims about the grid of cells: it finds every pair within reach, once, however few cells the period has and however far
  * sizes are apart. */
 #include "cell_grid.h"
-#include "claims.h"
+#include "core_claims.h"
 
 /* Over a drum's box. */
 static dem_status fill(cell_grid *grid, const spheres *s, double radius, double period, double skin)

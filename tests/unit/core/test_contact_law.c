@@ -1,7 +1,7 @@
 /* Claims about the contact law alone: the scalar functions of contact_law.h against closed forms that the law's
  * equations have (core/NUMERICS.md), with the test's own stepping. */
-#include "claims.h"
 #include "contact_law.h"
+#include "core_claims.h"
 
 static const double K_1 = 1000, MU_N = 2, K_T = 800; /* N/m, N, N/m */
 static const real UP[3] = { 0, 0, 1 };

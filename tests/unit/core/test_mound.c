@@ -1,5 +1,5 @@
 /* Claims about the measures of heaps and beds in cylinders: mounds of small spheres whose shapes are known beforehand. */
-#include "claims.h"
+#include "core_claims.h"
 #include "dem_mound.h"
 
 #define GRAIN 1.0

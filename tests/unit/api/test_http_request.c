@@ -34,26 +34,22 @@ static void parameters_are_decoded_once(void **state)
 static void strange_targets_are_refused(void **state)
 {
     (void)state;
-    static const char *const targets[] = { "",
-                                           "jobs",
-                                           "//",
-                                           "/a//b",
-                                           "/./a",
-                                           "/a/..",
-                                           "/a/../b",
-                                           "/%2e%2e",
-                                           "/a%00",
-                                           "/a b",
-                                           "/a\\b",
-                                           "/jobs?q=%00",
-                                           "/jobs?q=%4",
-                                           "/jobs?q=%gg",
-                                           "/jobs?q=%ff",
-                                           "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&q&a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p" };
+    static const char *const targets[] = {
+        "",           "jobs",        "//",          "/a//b",
+        "/./a",       "/a/..",       "/a/../b",     "/%2e%2e",
+        "/a%00",      "/a b",        "/a\\b",       "/jobs?q=%00",
+        "/jobs?q=%4", "/jobs?q=%gg", "/jobs?q=%ff", "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&q&a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p"
+    };
     http_request request;
     char copy[200];
     for (size_t i = 0; i < sizeof targets / sizeof targets[0]; i++) assert_non_null(split(&request, copy, targets[i]));
-    static const char *const good[] = { "/", "/jobs/", "/web/a.b_c~d-e", "/...", "/jobs?", "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p", "/jobs?a=1&a=2" };
+    static const char *const good[] = { "/",
+                                        "/jobs/",
+                                        "/web/a.b_c~d-e",
+                                        "/...",
+                                        "/jobs?",
+                                        "/j?a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p&a&b&c&d&e&f&g&h&i&j&k&l&m&n&o&p",
+                                        "/jobs?a=1&a=2" };
     for (size_t i = 0; i < sizeof good / sizeof good[0]; i++) assert_null(split(&request, copy, good[i]));
 }
 
@@ -175,7 +171,10 @@ static void a_text_is_no_formula_in_a_spreadsheet(void **state)
                                              { "-1e", "\"'-1e\"" },
                                              { "-1e5-2", "\"'-1e5-2\"" },
                                              { "-.", "\"'-.\"" },
-                                             { "\xef\xbc\x9d" "1+1", "\"'\xef\xbc\x9d" "1+1\"" },
+                                             { "\xef\xbc\x9d"
+                                               "1+1",
+                                               "\"'\xef\xbc\x9d"
+                                               "1+1\"" },
                                              /* numbers stay numbers */
                                              { "-1", "-1" },
                                              { "+2.5", "+2.5" },
@@ -200,9 +199,16 @@ static void a_text_is_no_formula_in_a_spreadsheet(void **state)
 static void a_problem_is_told_whatever_bytes_it_quotes(void **state)
 {
     (void)state;
-    static const char *const quoted[][2] = { { "h\xc3\xa4\xc3\x9f", "h\xc3\xa4\xc3\x9f" }, { "h\xc3\xa4\xc3", "h\xc3\xa4" },
-                                             { "\xff\xfe" "a", "a" },           { "\xe2\x82\xac\xe2\x82", "\xe2\x82\xac" },
-                                             { "\xed\xa0\x80" "b", "b" },      { "\xf0\x9f\x98\x80", "\xf0\x9f\x98\x80" } };
+    static const char *const quoted[][2] = { { "h\xc3\xa4\xc3\x9f", "h\xc3\xa4\xc3\x9f" },
+                                             { "h\xc3\xa4\xc3", "h\xc3\xa4" },
+                                             { "\xff\xfe"
+                                               "a",
+                                               "a" },
+                                             { "\xe2\x82\xac\xe2\x82", "\xe2\x82\xac" },
+                                             { "\xed\xa0\x80"
+                                               "b",
+                                               "b" },
+                                             { "\xf0\x9f\x98\x80", "\xf0\x9f\x98\x80" } };
     for (size_t i = 0; i < sizeof quoted / sizeof quoted[0]; i++) {
         http_response response;
         http_response_init(&response);
@@ -235,10 +241,14 @@ static void ids_have_one_shape(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parameters_are_decoded_once), cmocka_unit_test(strange_targets_are_refused),
-        cmocka_unit_test(whole_numbers_have_bounds),   cmocka_unit_test(accept_names_types_not_wildcards),
-        cmocka_unit_test(routes_fill_in_segments),     cmocka_unit_test(a_buffer_keeps_its_cap),
-        cmocka_unit_test(ids_have_one_shape),          cmocka_unit_test(a_text_is_no_formula_in_a_spreadsheet),
+        cmocka_unit_test(parameters_are_decoded_once),
+        cmocka_unit_test(strange_targets_are_refused),
+        cmocka_unit_test(whole_numbers_have_bounds),
+        cmocka_unit_test(accept_names_types_not_wildcards),
+        cmocka_unit_test(routes_fill_in_segments),
+        cmocka_unit_test(a_buffer_keeps_its_cap),
+        cmocka_unit_test(ids_have_one_shape),
+        cmocka_unit_test(a_text_is_no_formula_in_a_spreadsheet),
         cmocka_unit_test(a_problem_is_told_whatever_bytes_it_quotes),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

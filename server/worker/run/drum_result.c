@@ -1,4 +1,4 @@
-/* The results document of a drum: the table's numbers, and the words beside them. Needs the core's names. */
+/* The results document of a drum: the table's numbers, and the words beside them. */
 #include "drum_result.h"
 
 #include <math.h>

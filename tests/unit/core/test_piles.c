@@ -1,7 +1,7 @@
 /* A pile of four equal spheres at the step that runs take. Closed form: the upper sphere's weight spreads the three below it;
  * floor and upper sphere press each of them, and the pile stands where the friction between spheres is above
  * tan(half the angle between the upward vertical and a line of centres) = sqrt(3) - sqrt(2) = 0.318, and that of the floor too. */
-#include "claims.h"
+#include "core_claims.h"
 #include "dem.h"
 #include "dem_rules.h"
 

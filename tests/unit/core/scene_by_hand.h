@@ -3,7 +3,7 @@
 #ifndef SCENE_BY_HAND_H
 #define SCENE_BY_HAND_H
 
-#include "claims.h"
+#include "core_claims.h"
 #include "dem.h"
 #include "dem_rules.h"
 #include "scene.h"

@@ -2,7 +2,7 @@
 #ifndef SMALL_DRUM_H
 #define SMALL_DRUM_H
 
-#include "claims.h"
+#include "core_claims.h"
 #include "dem.h"
 #include "dem_rules.h"
 

@@ -1,6 +1,6 @@
 /* Claims about one frictional particle on the wall of a rotating cylinder. The core knows each piece of the motion in
  * closed form; the oracle here steps Newton's law through time and knows nothing of that. */
-#include "claims.h"
+#include "core_claims.h"
 #include "dem_granule.h"
 
 static const double MU[] = { .05, .1, .2, .3, .4, .5, .6, .7, .8, .9, 1.0 };

@@ -1,4 +1,4 @@
-/* Needs the core's names. */
+/* The results document of a heap: the table's numbers, and the words beside them. */
 #include "heap_result.h"
 
 #include "heap_process.h"

@@ -1,6 +1,6 @@
 /* Spring-dashpot and Hertz-Mindlin against closed forms and published benchmarks, and the wide passes against the
  * scalar law. Impacts are integrated here, by leap-frog with thousands of steps a collision. */
-#include "claims.h"
+#include "core_claims.h"
 
 #include "contact_block.h"
 #include "contact_law.h"

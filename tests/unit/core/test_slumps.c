@@ -1,7 +1,7 @@
 /* Claims about slumps as events, against saw-teeth whose period and height are known. */
 #include "measure.h"
 
-#include "claims.h"
+#include "core_claims.h"
 
 enum { COUNT = 1200 };
 static const double INTERVAL = 0.05; /* s */

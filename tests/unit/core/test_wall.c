@@ -1,7 +1,7 @@
 /* Claims about walls: each is as far away, and in that direction, as the nearest of a dense cloud of points on its
  * surface, which is made here from what the wall is said to be; and its points move as a rigid body does. */
-#include "claims.h"
 #include "container.h"
+#include "core_claims.h"
 #include "dem_rules.h"
 
 enum { MOST_POINTS = 400000 };

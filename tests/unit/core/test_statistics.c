@@ -1,5 +1,5 @@
 /* Claims about the statistics of correlated series, against series whose answers are known beforehand. */
-#include "claims.h"
+#include "core_claims.h"
 #include "statistics.h"
 
 /* Sum of twelve uniforms less six: mean 0, deviation 1, near enough to normal. */

@@ -1,4 +1,4 @@
-/* From the core's numbers, in radians, to what the table of results tells. Needs the core's names. */
+/* From the core's numbers, in radians, to what the table of results tells. */
 #include "granule_result.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Claims about the table of processes, and about the specification and results of a granule. */
+/* Claims about the table of processes, and about the specification of a granule. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -11,7 +11,6 @@
 #include <string.h>
 
 #include "granule_process.h"
-#include "granule_result.h"
 
 static void every_field_has_its_own_name_and_a_meaning(void **state)
 {
@@ -102,41 +101,6 @@ static void an_unknown_process_is_told_which_there_are(void **state)
     free(problems);
 }
 
-static const json_t *at(const json_t *document, const char *output, const char *group, const char *name)
-{
-    const json_t *object = json_object_get(document, output);
-    return json_object_get(group ? json_object_get(object, group) : object, name);
-}
-
-static void a_granules_results_are_null_where_no_rate_was_given(void **state)
-{
-    (void)state;
-    dem_granule_definition d = {
-        .friction = 1.0, .radius = 0.1, .gravity = 9.81, .rotation_rate = NAN, .revolutions = 2, .tolerance = 1e-9
-    };
-    dem_granule_result solved;
-    granule_result result;
-    const run_facts run = { .particles = 1, .wall_seconds = 0.25, .threads = 1, .attempt = 2 };
-    for (int asked = 0; asked < 2; asked++) {
-        if (asked) d.rotation_rate = sqrt(1.2 * 9.81 / 0.1); /* below the least, 1.319 */
-        assert_int_equal(dem_granule_solve(&d, &solved), DEM_OK);
-        granule_result_set(&result, &solved, &run);
-        json_t *document = granule_result_to_json(&result);
-        assert_true(json_real_value(at(document, "granule", NULL, "minimum_omega2")) == solved.minimum_omega2);
-        assert_true(json_real_value(at(document, "granule", "fits", "sliding_eq34")) == solved.sliding_eq34);
-        assert_true(json_real_value(at(document, "granule", "deviations", "sliding_eq34")) == solved.sliding_deviation_eq34);
-        /* 24 degrees: where cos/(1.319 - sin) reaches 1 */
-        assert_true(fabs(json_real_value(at(document, "granule", NULL, "slip_onset_deg")) - 24) < 0.5);
-        assert_int_equal(json_integer_value(at(document, "run", NULL, "attempt")), 2);
-        if (asked) assert_string_equal(json_string_value(at(document, "regime", NULL, "name")), "raining");
-        else assert_true(json_is_null(at(document, "regime", NULL, "name")));
-        assert_true(asked ? json_is_false(at(document, "regime", "evidence", "keeps_contact"))
-                          : json_is_null(at(document, "regime", "evidence", "keeps_contact")));
-        assert_true(json_is_null(at(document, "regime", "evidence", "slip_per_revolution"))); /* none completed */
-        json_decref(document);
-    }
-}
-
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -144,7 +108,6 @@ int main(void)
         cmocka_unit_test(a_granule_needs_its_friction_alone),
         cmocka_unit_test(a_canonical_granule_is_read_and_written_with_the_same_bytes),
         cmocka_unit_test(an_unknown_process_is_told_which_there_are),
-        cmocka_unit_test(a_granules_results_are_null_where_no_rate_was_given),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
