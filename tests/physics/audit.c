@@ -1,6 +1,6 @@
 /* A small drum over some revolutions with its energy audited at every step. Prints as JSON, in J: what the particles
  * gained in motion and height, from places and velocities alone; the contacts' work on them; the drum's work on the bed. */
-#include "../unit/small_drum.h"
+#include "../unit/core/small_drum.h"
 #include "dem_cluster.h"
 #include "named_numbers.h"
 

@@ -2,7 +2,7 @@
  * weight = 0: an elastic gas without friction, and its whole energy (motion and springs) at the start and after;
  * weight = 1: a settled bed, how far its spheres have moved (half of them no farther than the median; together, as their
  * centre has), in diameters, and their kinetic energy over what they would lose by falling a diameter. */
-#include "../unit/small_drum.h"
+#include "../unit/core/small_drum.h"
 #include "named_numbers.h"
 
 enum { WEIGHT, PARTICLES, STEPS, PER_CONTACT, SEED };

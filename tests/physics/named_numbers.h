@@ -2,7 +2,7 @@
 #ifndef NAMED_NUMBERS_H
 #define NAMED_NUMBERS_H
 
-#include "../unit/scene_by_hand.h"
+#include "../unit/core/scene_by_hand.h"
 
 typedef struct named_number {
     const char *name;

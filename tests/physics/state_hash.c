@@ -4,7 +4,7 @@
  * All builds of the core must come to the same one, with any number of threads (test_same_bits.py). */
 #include <inttypes.h>
 
-#include "../unit/small_drum.h"
+#include "../unit/core/small_drum.h"
 #include "dem_cluster.h"
 #include "named_numbers.h"
 

@@ -1,6 +1,9 @@
 """One state, whatever computed it: the hash of all that a scene saves, by each instruction set, at -O3 (avx512, avx2) and
 -O2 (plain), with any number of threads. The programs of an instruction set differ in how many contacts a vector holds, in
 how they fuse products (plain: by double arithmetic of its own, and libm), and in what the optimiser did."""
+import json
+from pathlib import Path
+
 import pytest
 from conftest import BUILD, program
 
@@ -8,6 +11,7 @@ SECTION = "The same bits"
 WHY = "every operation rounds alike: fused products are written out, and sums have one order"
 CASES = ["spheres", "two sizes", "tetrahedra", "spring-dashpot, lifters", "hertz-mindlin, end walls",
          "rolling friction, two sizes"]
+KEPT = json.loads((Path(__file__).parent / "state_hashes.json").read_text())
 
 
 def builds(precision):
@@ -24,6 +28,9 @@ def test_instruction_sets_come_to_one_state(record, precision):
         found = {folder.name: program("state_hash", folder, case=number, steps=2000) for folder in folders}
         assert all(f"{one['precision']}-{one['isa']}" == name for name, one in found.items())
         assert all(one["settled"] > 1000 and one["overlap"] > 0 for one in found.values())
+        assert {one["hash"] for one in found.values()} == {KEPT[precision][case]}, (
+            f"the bits of '{case}', {precision}, are not those that state_hashes.json keeps. Where that is meant, say so in the commit"
+            " and write the new hash there")
         record.same(f"{case}, {precision}: states after {found[folders[0].name]['settled'] + 2000} steps by "
                     + ", ".join(name.split("-")[1] for name in found), len({one["hash"] for one in found.values()}), 1, WHY)
 

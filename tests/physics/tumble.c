@@ -3,7 +3,7 @@
  * and angular momentum over those at the start.
  *
  * The spin asked for is that at time zero, along the principal axes. */
-#include "../unit/small_drum.h"
+#include "../unit/core/small_drum.h"
 #include "dem_cluster.h"
 #include "named_numbers.h"
 #include "scene.h"
