@@ -39,6 +39,7 @@ typedef struct contact_list {
     real *rolling_friction; /* mu_r */
     bool ends_differ;       /* in their moments */
     damped_law damped;      /* of the list's materials, where contacts have a damped law */
+    real latch_damping;     /* likewise, where Walton & Braun's: latch_damping_of */
     contact_row *row;       /* of walls alone: what each contact gave at the last step */
 } contact_list;
 

@@ -270,6 +270,7 @@ static dem_status parts_reserve(contact_parts *parts, const contact_list *pairs,
         if (copies->capacity == 0) enough = contact_list_init(copies, pairs->has_rolling, pairs->constants) == DEM_OK && enough;
         copies->ends_differ = pairs->ends_differ;
         copies->damped = pairs->damped;
+        copies->latch_damping = pairs->latch_damping;
     }
     return enough ? DEM_OK : DEM_NO_MEMORY;
 }

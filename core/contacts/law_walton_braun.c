@@ -1,47 +1,59 @@
 /* Walton & Braun's law of contact_law.h for a block of contacts, LANES at a time. */
 #include "contact_block.h"
 
-/* latching_force of contact_law.h, LANES at a time. */
+/* What the dashpots of a block are made of: c_n of an effective mass of 1 kg, and the roots of the masses. */
+typedef struct latch_dashpots {
+    real damping;
+    const real *root_mass;
+} latch_dashpots;
+
+/* -c_n of the contacts from k on. */
+WIDE_INLINE wide minus_c_n(latch_dashpots dashpots, int k)
+{
+    return wide_all(-dashpots.damping) * wide_load(dashpots.root_mass + k);
+}
+
+/* latching_force of contact_law.h, LANES at a time. The spring does not push where nothing touches; latched is 0 there. */
 WIDE_INLINE void store_latching_force(contact_block *restrict block, int k, wide latch, wide latched, wide_mask touching, wide k_1,
-                                      wide k_2, wide minus_c_n)
+                                      wide k_2, wide minus_c)
 {
     const wide zero = wide_all(0), alpha = wide_load(block->overlap + k);
     const wide spring = wide_lesser(k_1 * alpha, k_2 * (alpha - latched));
-    const wide damped = wide_fused(minus_c_n, wide_lesser(wide_load(block->parting + k), zero), spring);
-    const wide f_n = wide_select(wide_exceeds(latched, latch), damped, spring);
-    wide_store(block->f_n + k, wide_select(touching, wide_greater(f_n, zero), zero));
+    const wide_mask loaded_before = wide_both(touching, wide_exceeds(latched, latch));
+    const wide f_n = wide_fused_where(loaded_before, wide_lesser(wide_load(block->parting + k), zero), minus_c, spring);
+    wide_store(block->f_n + k, wide_greater(f_n, zero));
 }
 
-/* normal_force of contact_law.h, LANES at a time. */
-static void normal_forces(contact_block *restrict block, real *restrict alpha_0, const real *restrict root_mass, real stiffness,
-                          real unloading_stiffness, real damping)
+/* normal_force of contact_law.h, LANES at a time. alike: all masses are. */
+WIDE_INLINE void normal_forces(contact_block *restrict block, real *restrict alpha_0, real stiffness, real unloading_stiffness,
+                               latch_dashpots dashpots, bool alike)
 {
     const wide k_1 = wide_all(stiffness), k_2 = wide_all(unloading_stiffness), zero = wide_all(0);
-    const wide share = wide_all(1 - stiffness / unloading_stiffness), minus_damping = wide_all(-damping);
+    const wide share = wide_all(1 - stiffness / unloading_stiffness), of_all = minus_c_n(dashpots, 0);
     for (int k = 0; k < BLOCK; k += LANES) {
-        const wide alpha = wide_load(block->overlap + k);
-        const wide latch = alpha * share, latched = wide_greater(wide_load(alpha_0 + k), latch);
+        const wide alpha = wide_load(block->overlap + k), latch = alpha * share;
         const wide_mask touching = wide_exceeds(alpha, zero);
-        wide_store(alpha_0 + k, wide_select(touching, latched, zero));
-        store_latching_force(block, k, latch, latched, touching, k_1, k_2, minus_damping * wide_load(root_mass + k));
+        const wide latched = wide_where(touching, wide_greater(wide_load(alpha_0 + k), latch));
+        wide_store(alpha_0 + k, latched);
+        store_latching_force(block, k, latch, latched, touching, k_1, k_2, alike ? of_all : minus_c_n(dashpots, k));
     }
 }
 
 /* normal_force_of_slope of contact_law.h, LANES at a time. */
-static void normal_forces_of_slope(contact_block *restrict block, real *restrict alpha_0, const real *restrict root_mass,
-                                   real stiffness, real unloading_slope, real damping)
+static void normal_forces_of_slope(contact_block *restrict block, real *restrict alpha_0, real stiffness, real unloading_slope,
+                                   latch_dashpots dashpots)
 {
     const wide k_1 = wide_all(stiffness), half_k_1 = wide_all(stiffness / 2), slope = wide_all(unloading_slope);
     const wide zero = wide_all(0), one = wide_all(1), four = wide_all(4), tiny = wide_all(TINY_SQUARE);
-    const wide minus_damping = wide_all(-damping);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide alpha = wide_load(block->overlap + k), pressed = wide_greater(alpha, zero), s = slope * pressed;
-        const wide latch = s * pressed / (one + s), latched = wide_greater(wide_load(alpha_0 + k), latch);
+        const wide latch = s * pressed / (one + s);
         const wide_mask touching = wide_exceeds(alpha, zero);
-        wide_store(alpha_0 + k, wide_select(touching, latched, zero));
+        const wide latched = wide_where(touching, wide_greater(wide_load(alpha_0 + k), latch));
+        wide_store(alpha_0 + k, latched);
         const wide q = slope * latched, root2 = wide_greater(q * (q + four), tiny);
         const wide steepness = q + root2 * wide_inverse_root(root2), k_2 = wide_fused(half_k_1, steepness, k_1);
-        store_latching_force(block, k, latch, latched, touching, k_1, k_2, minus_damping * wide_load(root_mass + k));
+        store_latching_force(block, k, latch, latched, touching, k_1, k_2, minus_c_n(dashpots, k));
     }
 }
 
@@ -106,10 +118,12 @@ void contact_block_walton_braun(contact_block *block, contact_list *list, size_t
 {
     const double k_1 = contact->stiffness, k_2 = k_1 / (contact->restitution * contact->restitution);
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
-    const real damping = latch_damping_of(contact), *root_mass = list->root_mass + constants_of(list, start);
-    if (contact->unloading_slope > 0)
-        normal_forces_of_slope(block, list->alpha_0 + start, root_mass, (real)k_1, (real)contact->unloading_slope, damping);
-    else normal_forces(block, list->alpha_0 + start, root_mass, (real)k_1, (real)k_2, damping);
+    real *const alpha_0 = list->alpha_0 + start;
+    const latch_dashpots dashpots = { list->latch_damping, list->root_mass + constants_of(list, start) };
+    const bool alike = list->constants == CONSTANTS_OF_ALL;
+    if (contact->unloading_slope > 0) normal_forces_of_slope(block, alpha_0, (real)k_1, (real)contact->unloading_slope, dashpots);
+    else if (alike) normal_forces(block, alpha_0, (real)k_1, (real)k_2, dashpots, true);
+    else normal_forces(block, alpha_0, (real)k_1, (real)k_2, dashpots, false);
     turn_friction(block, t_x, t_y, t_z, list->friction + constants_of(list, start));
     friction_stiffness(block, list->t_star + start);
     friction_forces(block, t_x, t_y, t_z);

@@ -36,6 +36,7 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_d
     list->pairs.ends_differ = ends_differ;
     list->pairs.damped = damped_law_of(&definition->contact, false, definition->time_step);
     list->walls.damped = damped_law_of(&definition->contact, true, definition->time_step);
+    list->pairs.latch_damping = list->walls.latch_damping = latch_damping_of(&definition->contact);
     if (enough) return DEM_OK;
     neighbor_list_clear(list);
     return DEM_NO_MEMORY;

@@ -114,6 +114,7 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
                             .rolling_friction = aside->constant[4],
                             .ends_differ = walls->ends_differ,
                             .damped = walls->damped,
+                            .latch_damping = walls->latch_damping,
                             .row = aside->row };
     const real *const constant[] = { walls->friction, walls->first_radius, walls->root_mass, walls->radius,
                                      walls->rolling_friction };

@@ -207,6 +207,16 @@ WIDE_INLINE wide wide_minus_product(wide c, wide a, wide b)
 #endif
 }
 
+/* a b + c, rounded once, where m says so; else c, of which a zero may lose its sign. b is finite. */
+WIDE_INLINE wide wide_fused_where(wide_mask m, wide a, wide b, wide c)
+{
+#if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
+    return (wide)_mm512_mask3_fmadd_ps((__m512)a, (__m512)b, (__m512)c, m);
+#else
+    return wide_fused(wide_where(m, a), b, c);
+#endif
+}
+
 WIDE_INLINE double wide_largest_lane(wide x)
 {
     double largest = (double)x[0];

@@ -11,6 +11,9 @@ typedef int32_t wide_mask __attribute__((vector_size(WIDE_BYTES)));
 
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return (wide_mask)(a > b); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)((m & (wide_mask)a) | (~m & (wide_mask)b)); }
+WIDE_INLINE wide_mask wide_both(wide_mask m, wide_mask o) { return m & o; }
+/* a where m says so, else 0. */
+WIDE_INLINE wide wide_where(wide_mask m, wide a) { return (wide)(m & (wide_mask)a); }
 /* -a where the sign of s is negative. */
 WIDE_INLINE wide wide_times_sign(wide a, wide s) { return (wide)((wide_mask)a ^ ((wide_mask)s & (wide_mask)wide_all((real)-0.0))); }
 WIDE_INLINE wide wide_greater(wide a, wide b) { return wide_select(wide_exceeds(a, b), a, b); }

@@ -11,6 +11,9 @@ WIDE_INLINE wide wide_greater(wide a, wide b) { return (wide)_mm256_max_ps((__m2
 WIDE_INLINE wide wide_lesser(wide a, wide b) { return (wide)_mm256_min_ps((__m256)a, (__m256)b); }
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return _mm256_cmp_ps((__m256)a, (__m256)b, _CMP_GT_OQ); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)_mm256_blendv_ps((__m256)b, (__m256)a, m); }
+WIDE_INLINE wide_mask wide_both(wide_mask m, wide_mask o) { return _mm256_and_ps(m, o); }
+/* a where m says so, else 0. */
+WIDE_INLINE wide wide_where(wide_mask m, wide a) { return (wide)_mm256_and_ps(m, (__m256)a); }
 WIDE_INLINE wide wide_rint(wide x) { return (wide)_mm256_round_ps((__m256)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }
 WIDE_INLINE uint32_t wide_mask_bits(wide_mask m) { return (uint32_t)_mm256_movemask_ps(m); }
 WIDE_INLINE uint32_t wide_index_above(const int32_t *index, int32_t i)

@@ -8,6 +8,9 @@ WIDE_INLINE wide wide_greater(wide a, wide b) { return (wide)_mm512_max_ps((__m5
 WIDE_INLINE wide wide_lesser(wide a, wide b) { return (wide)_mm512_min_ps((__m512)a, (__m512)b); }
 WIDE_INLINE wide_mask wide_exceeds(wide a, wide b) { return _mm512_cmp_ps_mask((__m512)a, (__m512)b, _CMP_GT_OQ); }
 WIDE_INLINE wide wide_select(wide_mask m, wide a, wide b) { return (wide)_mm512_mask_blend_ps(m, (__m512)b, (__m512)a); }
+WIDE_INLINE wide_mask wide_both(wide_mask m, wide_mask o) { return _kand_mask16(m, o); }
+/* a where m says so, else 0. */
+WIDE_INLINE wide wide_where(wide_mask m, wide a) { return (wide)_mm512_maskz_mov_ps(m, (__m512)a); }
 /* -a where the sign of s is negative. */
 WIDE_INLINE wide wide_times_sign(wide a, wide s)
 {
