@@ -34,6 +34,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->mobile_count = n;
     s->single_count = singles;
     s->lining_count = lining_count;
+    s->species_count = definition->species_count;
     s->of_one_species = definition->species_count == 1;
     s->are_many = n >= MANY;
     s->exceed_caches = n >= VERY_MANY;

@@ -40,6 +40,7 @@ typedef struct surface_track {
 typedef struct spheres {
     size_t mobile_count, lining_count;
     size_t single_count; /* of the mobile: particles by themselves */
+    size_t species_count;
     clusters clusters;   /* the bodies that the other mobile spheres make up */
     sphere_row *row;     /* (row_count) of mobile and lining and two; from first_copy on, of some again (contact_parts.h) */
     sphere_rest *rest;   /* (row_count) */

@@ -2,6 +2,7 @@
 
 #include <stdbool.h>
 
+#include "contact_constants.h"
 #include "dem_rules.h"
 #include "wall_reach.h"
 
@@ -356,6 +357,7 @@ typedef struct pick_work {
     const spheres *spheres;
     const container *drum;
     const dem_contact_parameters *contact;
+    species_roots roots;
     wall_outlook ahead;
     double apart;    /* m: pairs_in_reach */
     bool same_outer; /* as at the pick before */
@@ -427,41 +429,6 @@ static dem_status wall_rows_reserve(neighbor_list *list)
     return DEM_OK;
 }
 
-/* What does not change in a step, of each pair from..to-1. */
-static void describe_pairs(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact, size_t from, size_t to)
-{
-    const int32_t mobile = (int32_t)s->mobile_count;
-    const real mu = (real)contact->friction, mu_wall = (real)contact->wall_friction;
-    const real mu_r = (real)contact->rolling_friction, mu_r_wall = (real)contact->wall_rolling_friction;
-    const int32_t *restrict first = pairs->first, *restrict second = pairs->second;
-    for (size_t k = from; k < to; k++) {
-        const bool between_mobile = second[k] < mobile;
-        pairs->friction[k] = between_mobile ? mu : mu_wall;
-        pairs->first_radius[k] = s->full_radius[first[k]];
-    }
-    if (pairs->has_rolling)
-        for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
-    if (contact->law == DEM_WALTON_BRAUN && !pairs->has_rolling) return; /* which needs neither masses nor R* */
-    for (size_t k = from; k < to; k++) {
-        const real r_i = s->full_radius[first[k]], r_j = s->full_radius[second[k]];
-        pairs->radius[k] = r_i * r_j / (r_i + r_j);
-        const double own = sphere_inverse_mass(s, (size_t)first[k]);
-        pairs->root_mass[k] = (real)(1 / sqrt(second[k] < mobile ? own + sphere_inverse_mass(s, (size_t)second[k]) : own));
-    }
-}
-
-/* The same of all, which are alike. */
-static void describe_all_pairs(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact)
-{
-    for (size_t k = 0; k < BLOCK; k++) {
-        pairs->friction[k] = (real)contact->friction;
-        pairs->first_radius[k] = s->full_radius[0];
-        pairs->root_mass[k] = (real)sqrt(0.5 / sphere_inverse_mass(s, 0));
-        pairs->radius[k] = s->full_radius[0] / 2;
-        if (pairs->has_rolling) pairs->rolling_friction[k] = (real)contact->rolling_friction;
-    }
-}
-
 /* A part's pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells
  * what its pairs remember. */
 static void pick_pairs(const pick_work *work, int part, int parts)
@@ -515,7 +482,8 @@ static void make_contacts(void *context, int part, int parts)
     const spheres *const s = work->spheres;
     const size_t first = work->now[part], end = work->now[part + 1];
     pick_pairs(work, part, parts);
-    if (list->pairs.constants == CONSTANTS_OF_EACH) describe_pairs(&list->pairs, s, work->contact, first, end);
+    if (list->pairs.constants == CONSTANTS_OF_EACH)
+        contact_constants_of_each(&list->pairs, s, work->contact, &work->roots, first, end);
     if (!work->same_outer) contact_list_carry(&list->pairs, &list->pairs_before, first, end);
     fill_walls(work, part, parts);
     if (part + 1 < parts) return;
@@ -529,6 +497,7 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     const int parts = team_parts(threads);
     const double duration = list->safe_steps * time_step;
     pick_work work = { .list = list, .spheres = s, .drum = drum, .contact = contact, .ahead = { duration, list->margin } };
+    if (list->pairs.constants == CONSTANTS_OF_EACH) species_roots_set(&work.roots, s);
     work.apart = list->steps_apart * time_step * list->at_pick.largest_speed;
     work.same_outer = list->picked_of == list->outer_builds;
     contact_list_swap(&list->pairs, &list->pairs_before);
@@ -550,7 +519,7 @@ static dem_status inner_pick(neighbor_list *list, spheres *s, const container *d
     list->pairs.count = count;
     list->walls.count = wall_count;
     team_run(parts, make_contacts, &work);
-    if (list->pairs.constants == CONSTANTS_OF_ALL) describe_all_pairs(&list->pairs, s, contact);
+    if (list->pairs.constants == CONSTANTS_OF_ALL) contact_constants_of_all(&list->pairs, s, contact);
     list->picked_of = list->outer_builds;
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
     list->strayed = s->lining_count ? 0.5 * drum->rotation_rate * drum->rotation_rate * drum->radius * duration * duration : 0.0;

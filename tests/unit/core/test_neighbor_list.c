@@ -248,6 +248,49 @@ static void contacts_of_each_particle_are_counted_as_by_all_pairs(void **unused)
     dem_scene_free(scene);
 }
 
+/* Against the definition's diameters and densities. */
+static void check_pair(const dem_scene *scene, size_t k)
+{
+    const contact_list *pairs = &scene->neighbors.pairs;
+    const spheres *s = &scene->spheres;
+    const size_t j = (size_t)pairs->second[k];
+    const dem_species *a = &scene->definition.species[s->species[pairs->first[k]]], *b = NULL;
+    if (j < s->mobile_count) b = &scene->definition.species[s->species[j]];
+    const double m_a = dem_sphere_mass(a->diameter, a->density), m_b = b ? dem_sphere_mass(b->diameter, b->density) : INFINITY;
+    const double r_a = a->diameter / 2, r_b = (b ? b->diameter : scene->definition.lining.diameter) / 2;
+    CHECK_NEAR((double)pairs->root_mass[k] / sqrt(1 / (1 / m_a + 1 / m_b)), 1, 1e-6);
+    CHECK_NEAR((double)pairs->radius[k] / (1 / (1 / r_a + 1 / r_b)), 1, 1e-6);
+    CHECK_NEAR((double)pairs->first_radius[k] / r_a, 1, 1e-6);
+}
+
+static void every_law_finds_masses_and_radii_of_all_pairs(void **unused)
+{
+    (void)unused;
+    const dem_contact_law laws[] = { DEM_WALTON_BRAUN, DEM_SPRING_DASHPOT };
+    for (int k = 0; k < 2; k++) {
+        dem_drum_definition d = two_sizes_drum();
+        d.contact.law = laws[k];
+        d.species[1].density = 4000;
+        d.lining = (dem_lining){ .diameter = 0.003, .pitch = 0.0035 };
+        d.fill_fraction = 0.2;
+        d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 2);
+        follow_rules(&d, 0.03);
+        dem_scene *scene = drum_scene(&d);
+        run_to_phase(scene, DEM_PHASE_ROTATING);
+        const contact_list *pairs = &scene->neighbors.pairs;
+        const spheres *s = &scene->spheres;
+        size_t mixed = 0, fixed = 0;
+        for (size_t p = 0; p < pairs->count; p++) {
+            const size_t i = (size_t)pairs->first[p], j = (size_t)pairs->second[p];
+            check_pair(scene, p);
+            fixed += j >= s->mobile_count;
+            mixed += j < s->mobile_count && s->species[i] != s->species[j];
+        }
+        assert_true(mixed > 10 && fixed > 10);
+        dem_scene_free(scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -258,6 +301,7 @@ int main(void)
         cmocka_unit_test(no_contact_is_missed_along_a_very_short_axis),
         cmocka_unit_test(no_contact_is_missed_among_tumbling_clusters),
         cmocka_unit_test(contacts_are_listed_in_the_order_of_their_ids),
+        cmocka_unit_test(every_law_finds_masses_and_radii_of_all_pairs),
         cmocka_unit_test(contacts_of_each_particle_are_counted_as_by_all_pairs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
