@@ -2,8 +2,7 @@
  * of its cost, and a table of results; everything else about requests, jobs and descriptions is common to all.
  *
  * A new one: X_fields.c (inputs), X_rules.c, X_result_fields.c, X_process.c with its process_type, a line in process_type.c,
- * its members in job_spec.h, its runner in the worker (server/worker/run/job_run.c), its tables in the daemon
- * (server/daemon/store/process_tables.c and schema.c). */
+ * its members in job_spec.h, its runner in the worker (server/worker/run/job_run.c). Its tables in the daemon follow from its rows. */
 #ifndef PROCESS_TYPE_H
 #define PROCESS_TYPE_H
 

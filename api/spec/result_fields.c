@@ -10,25 +10,25 @@ static const char *const nullable_types[] = {
     [RESULT_TEXT] = "string",
 };
 
+static json_t *warnings_schema(const result_field *field)
+{
+    return json_pack("{s:s, s:s, s:{s:s, s:[s, s], s:{s:{s:s, s:s}, s:{s:s}}}}", "type", "array", "description", field->meaning,
+                     "items", "type", "object", "required", "field", "text", "properties", "field", "type", "string",
+                     "description", "JSON Pointer into the results", "text", "type", "string");
+}
+
 static json_t *field_schema(const result_field *field)
 {
+    if (field->kind == RESULT_WARNINGS) return warnings_schema(field);
     json_t *schema = json_pack("{s:s}", "description", field->meaning);
     json_t *type;
     if (field->kind == RESULT_TRUTH) type = json_string("boolean");
     else if (field->kind == RESULT_SIZE) type = json_string("integer");
+    else if (field->kind == RESULT_WORD) type = json_string("string");
     else type = json_pack("[s, s]", nullable_types[field->kind], "null");
     json_object_set_new(schema, "type", type);
     if (*field->unit) json_object_set_new(schema, "x-unit", json_string(field->unit));
     return schema;
-}
-
-/* Of every process (result_warnings.h). */
-static json_t *warnings_schema(void)
-{
-    return json_pack("{s:s, s:s, s:{s:s, s:[s, s], s:{s:{s:s, s:s}, s:{s:s}}}}", "type", "array", "description",
-                     "what the run knows of itself and its numbers do not show at a glance", "items", "type", "object", "required",
-                     "field", "text", "properties", "field", "type", "string", "description", "JSON Pointer into the results",
-                     "text", "type", "string");
 }
 
 /* The properties that a field is one of: those of the output itself or of an object in it. Borrowed. */
@@ -51,7 +51,6 @@ json_t *result_outputs_description(const result_table *table)
             if (strcmp(field->output, table->output[o].name) != 0) continue;
             json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field));
         }
-        if (strcmp(table->output[o].name, "run") == 0) json_object_set_new(properties, "warnings", warnings_schema());
         json_object_set_new(description, table->output[o].name,
                             json_pack("{s:s, s:s, s:{s:s, s:o}}", "title", table->output[o].name, "description",
                                       table->output[o].meaning, "schema", "type", "object", "properties", properties));

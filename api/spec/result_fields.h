@@ -1,9 +1,10 @@
-/* A table of a process's results: output, name, unit and meaning of each. It drives writing the results document and
- * describing it. */
+/* A table of a process's results: output, name, unit and meaning of each. It drives writing the results document,
+ * describing it and keeping it in SQL: the tables <output>_result, the view run_summary, summaries of jobs and studies. */
 #ifndef RESULT_FIELDS_H
 #define RESULT_FIELDS_H
 
 #include <jansson.h>
+#include <stdbool.h>
 #include <stddef.h>
 
 typedef enum result_kind {
@@ -12,7 +13,9 @@ typedef enum result_kind {
     RESULT_SIZE,  /* a size_t */
     RESULT_TRUTH, /* a bool */
     RESULT_MAYBE, /* true or false kept in a double; NaN: not known */
-    RESULT_TEXT   /* a const char *; NULL: not known */
+    RESULT_TEXT,  /* a const char *; NULL: not known */
+    RESULT_WORD,  /* a const char * that is always known */
+    RESULT_WARNINGS /* a list that result_warnings_add writes; in SQL how many it holds */
 } result_kind;
 
 typedef struct result_field {
@@ -20,6 +23,14 @@ typedef struct result_field {
     result_kind kind;
     size_t offset; /* in the process's struct of results */
     const char *unit, *meaning;
+
+    /* In SQL. Processes that have an output of the same name share its table: what one row says of a column holds for all. */
+    bool is_stored;        /* a column of the table <output>_result, named name or group_name */
+    int in_view;           /* the place among the columns of run_summary; 0: not there */
+    const char *view_name; /* its name there, in summaries and in studies; NULL: the column's */
+    bool is_listed;        /* a member of a job's summary */
+    int in_study;          /* the place among what a study tells of each case; 0: not there */
+    const char *run_error; /* the column that holds a single run's own error of it; NULL: there is none */
 } result_field;
 
 typedef struct result_output {

@@ -3,6 +3,7 @@
 #include <stdbool.h>
 #include <string.h>
 
+#include "json_text.h"
 #include "result_fields.h"
 
 void results_init(const result_table *table, void *results, size_t size)
@@ -15,8 +16,6 @@ void results_init(const result_table *table, void *results, size_t size)
     }
 }
 
-static json_t *real_or_null(double number) { return isfinite(number) ? json_real(number) : json_null(); }
-
 static json_t *field_value(const result_field *field, const void *results)
 {
     const char *place = (const char *)results + field->offset;
@@ -27,8 +26,9 @@ static json_t *field_value(const result_field *field, const void *results)
         if (isfinite(*(const double *)place)) return json_integer((json_int_t) * (const double *)place);
         return json_null();
     case RESULT_MAYBE: return isnan(*(const double *)place) ? json_null() : json_boolean(*(const double *)place != 0.0);
+    case RESULT_WORD:
     case RESULT_TEXT: return *(const char *const *)place ? json_string(*(const char *const *)place) : json_null();
-    default: return real_or_null(*(const double *)place);
+    default: return json_real_or_null(*(const double *)place);
     }
 }
 
@@ -49,6 +49,7 @@ json_t *results_to_json(const result_table *table, const void *results)
     bool complete = document != NULL;
     for (size_t f = 0; complete && f < table->count; f++) {
         const result_field *field = &table->field[f];
+        if (field->kind == RESULT_WARNINGS) continue;
         complete = json_object_set_new(field_parent(document, field), field->name, field_value(field, results)) == 0;
     }
     if (complete) return document;

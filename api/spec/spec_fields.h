@@ -1,5 +1,6 @@
 /* A table of a process's inputs: name, place, unit, range, default and meaning of each. It alone drives reading a
- * request, writing the canonical spec, describing the process and telling unusual values, so these can't disagree. */
+ * request, writing the canonical spec, describing the process, telling unusual values and keeping the input in SQL, so
+ * these can't disagree. */
 #ifndef SPEC_FIELDS_H
 #define SPEC_FIELDS_H
 
@@ -44,6 +45,15 @@ typedef enum field_kind {
     FIELD_LONG_LIST       /* the same, kept in memory of its own: see spec_inputs_clear */
 } field_kind;
 
+/* How a number of the job's specification is kept in a column of SQL. */
+typedef enum input_column {
+    COLUMN_NONE,
+    COLUMN_REAL,  /* a double */
+    COLUMN_COUNT, /* a size_t */
+    COLUMN_WHOLE, /* a whole number in a double */
+    COLUMN_WORD   /* the word whose index among the choices a double holds */
+} input_column;
+
 typedef struct spec_field {
     spec_group group;
     const char *name;
@@ -69,6 +79,14 @@ typedef struct spec_field {
     double usual_low, usual_high; /* what is outside was hardly meant; both 0: nothing is unusual */
     const char *slip_unit;        /* the unit that numbers too large are often in by mistake; NULL: none */
     double slip_factor;           /* of that unit in `unit` */
+
+    /* In SQL: the input as it was used, which may follow from others. An object's column has the object's unit. */
+    const char *column; /* of the table <process>_input; NULL: none */
+    input_column column_kind;
+    size_t column_at;     /* of the number in the job_spec */
+    bool column_may_miss; /* where it is NaN, the column is null */
+    int in_view;          /* the place among the columns of run_summary; 0: not there */
+    bool is_listed;       /* a member of a job's summary */
 } spec_field;
 
 typedef struct spec_table {

@@ -1,6 +1,7 @@
 #include "json_text.h"
 
 #include <ctype.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -142,3 +143,5 @@ static char *write_text(const json_t *value, int depth, const char *end)
 char *json_text_write(const json_t *document) { return write_text(document, 0, "\n"); }
 
 char *json_text_write_within(const json_t *value, int depth) { return write_text(value, depth, ""); }
+
+json_t *json_real_or_null(double number) { return isfinite(number) ? json_real(number) : json_null(); }

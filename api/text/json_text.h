@@ -16,4 +16,7 @@ char *json_text_write(const json_t *document);
 /* A value as it stands in such a text, so many objects and lists deep: from its first character to its last. */
 char *json_text_write_within(const json_t *value, int depth);
 
+/* New reference; NaN and infinities become null. */
+json_t *json_real_or_null(double number);
+
 #endif

@@ -45,12 +45,21 @@ def tables_of(database):
     return [name for name, in database.execute("SELECT name FROM sqlite_schema WHERE type IN ('table','view') ORDER BY name")]
 
 
+def missing(before, now, where=""):
+    """What of an answer is no longer as it was; objects may have got more members."""
+    if isinstance(before, dict) and isinstance(now, dict):
+        return [one for name, value in before.items() for one in missing(value, now.get(name), f"{where}/{name}")]
+    if isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
+        return [one for i in range(len(before)) for one in missing(before[i], now[i], f"{where}/{i}")]
+    return [] if type(before) is type(now) and before == now else [(where, before, now)]
+
+
 @pytest.mark.parametrize("path", ANSWERS)
 def test_it_is_answered_as_before(daemon, path):
     answer = daemon.get(path)
     assert answer.status_code == 200
     text = answer.text.replace(daemon.url, "")
-    assert (text if isinstance(ANSWERS[path], str) else json.loads(text)) == ANSWERS[path]
+    assert missing(ANSWERS[path], text if isinstance(ANSWERS[path], str) else json.loads(text)) == []
 
 
 def test_every_number_of_every_table_and_view_is_found_again(before, daemon):

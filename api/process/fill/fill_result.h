@@ -12,6 +12,7 @@ typedef struct fill_result {
     dem_angle while_filling;
     dem_standing standing;
     double azimuths;
+    const char *method; /* set where it is written */
     run_facts run;
 } fill_result;
 

@@ -3,7 +3,7 @@
 
 #include "fill_process.h"
 #include "fill_result.h"
-#include "run_fields.h"
+#include "result_rows.h"
 #include "standing_result.h"
 
 #define ANGLE(member) offsetof(fill_result, measured.angle[DEM_RADIAL_FIT].member)
@@ -14,34 +14,45 @@
 
 static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees",
-      "slope of the mound at the end, mean over the azimuths; negative: the middle is lower" },
+      .meaning = "slope of the mound at the end, mean over the azimuths; negative: the middle is lower" },
     { "repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees",
-      "error of that mean; the other definitions have none, since one bed cannot tell it" },
-    { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", "flattest azimuth" },
-    { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", "steepest azimuth" },
-    { "repose", NULL, "azimuths", RESULT_WHOLE, offsetof(fill_result, azimuths), "", "sectors" },
+      .meaning = "error of that mean; the other definitions have none, since one bed cannot tell it" },
+    { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", .meaning = "flattest azimuth" },
+    { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", .meaning = "steepest azimuth" },
+    { "repose", NULL, "method", RESULT_WORD, offsetof(fill_result, method), "", .meaning = "how angle_deg was measured" },
+    { "repose", NULL, "azimuths", RESULT_WHOLE, offsetof(fill_result, azimuths), "", .meaning = "sectors" },
     { "repose", "while_filling", "angle_deg", RESULT_REAL, FILLING(mean_deg), "degrees",
-      "the same, mean over the samples of the second half of the stream" },
+      .meaning = "the same, mean over the samples of the second half of the stream",
+      IN_VIEW(540), IN_STUDY(200), RUN_ERROR("while_filling_standard_error_deg") },
     { "repose", "while_filling", "standard_error_deg", RESULT_REAL, FILLING(standard_error_deg), "degrees",
-      "error of that mean; null: fewer than 8 samples" },
-    { "repose", "while_filling", "minimum_deg", RESULT_REAL, FILLING(minimum_deg), "degrees", "lowest of a sample" },
-    { "repose", "while_filling", "maximum_deg", RESULT_REAL, FILLING(maximum_deg), "degrees", "highest of a sample" },
+      .meaning = "error of that mean; null: fewer than 8 samples",
+      IN_VIEW(550) },
+    { "repose", "while_filling", "minimum_deg", RESULT_REAL, FILLING(minimum_deg), "degrees", .meaning = "lowest of a sample" },
+    { "repose", "while_filling", "maximum_deg", RESULT_REAL, FILLING(maximum_deg), "degrees", .meaning = "highest of a sample" },
 
-    { "surface", NULL, "height", RESULT_REAL, FILL(height), "m", "mean over the floor" },
-    { "surface", NULL, "center_height", RESULT_REAL, FILL(center_height), "m", "mean within 20 % of the radius" },
-    { "surface", NULL, "wall_height", RESULT_REAL, FILL(wall_height), "m", "mean beyond 80 % of the radius" },
+    { "surface", NULL, "height", RESULT_REAL, FILL(height), "m", .meaning = "mean over the floor",
+      IN_VIEW(560), IN_STUDY(210) },
+    { "surface", NULL, "center_height", RESULT_REAL, FILL(center_height), "m", .meaning = "mean within 20 % of the radius",
+      IN_VIEW(570) },
+    { "surface", NULL, "wall_height", RESULT_REAL, FILL(wall_height), "m", .meaning = "mean beyond 80 % of the radius",
+      IN_VIEW(580) },
 
     { "packing", NULL, "solid_fraction", RESULT_REAL, FILL(solid_fraction), "",
-      "of the core: two grains off wall, floor and surface; null: too small a bed" },
-    { "packing", NULL, "coordination_number", RESULT_REAL, STANDING(coordination_number), "", "contacts a particle of the bed" },
+      .meaning = "of the core: two grains off wall, floor and surface; null: too small a bed" },
+    { "packing", NULL, "coordination_number", RESULT_REAL, STANDING(coordination_number), "", .meaning = "contacts a particle of the bed" },
 
     { "fill", NULL, "inside", RESULT_SIZE, STANDING(inside), "",
-      "particles of the bed: joined to the floor, by others if need be" },
-    { "fill", NULL, "apart", RESULT_SIZE, STANDING(in_flight), "", "particles in flight" },
-    { "fill", NULL, "waiting", RESULT_SIZE, STANDING(waiting), "", "particles that never entered" },
-    { "fill", NULL, "at_rest", RESULT_TRUTH, STANDING(at_rest), "", "the bed had come to rest" },
+      .meaning = "particles of the bed: joined to the floor, by others if need be",
+      STORED },
+    { "fill", NULL, "apart", RESULT_SIZE, STANDING(in_flight), "", .meaning = "particles in flight",
+      STORED },
+    { "fill", NULL, "waiting", RESULT_SIZE, STANDING(waiting), "", .meaning = "particles that never entered",
+      STORED },
+    { "fill", NULL, "at_rest", RESULT_TRUTH, STANDING(at_rest), "", .meaning = "the bed had come to rest",
+      IN_VIEW(860) },
 
-    FIELDS_OF_RUN,
+    FIELDS_OF_RUN("from when filling or lifting began", "that", "while filling or lifting",
+                  "at-rest; duration: it was not yet at rest"),
 };
 
 static const result_output outputs[] = {

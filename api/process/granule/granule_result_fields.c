@@ -1,6 +1,7 @@
 /* Results of `granule`. This file knows nothing of the core, so that the daemon can describe results without it. */
 #include "granule_process.h"
 #include "granule_result.h"
+#include "result_rows.h"
 
 #define SOLVED(member) offsetof(granule_result, solved.member)
 #define MOTION(member) offsetof(granule_result, solved.motion.member)
@@ -9,41 +10,47 @@
 
 static const result_field fields[] = {
     { "granule", NULL, "minimum_omega2", RESULT_REAL, SOLVED(minimum_omega2), "",
-      "least omega^2 R/g at which the particle keeps contact round the cylinder" },
-    { "granule", NULL, "error", RESULT_REAL, SOLVED(error), "", "bound on the error of minimum_omega2" },
-    { "granule", NULL, "minimum_rotation_rate", RESULT_REAL, SOLVED(minimum_rotation_rate), "rad/s", "the same as a rate" },
+      .meaning = "least omega^2 R/g at which the particle keeps contact round the cylinder",
+      IN_VIEW(770), LISTED, IN_STUDY(170), RUN_ERROR("error") },
+    { "granule", NULL, "error", RESULT_REAL, SOLVED(error), "", .meaning = "bound on the error of minimum_omega2",
+      STORED },
+    { "granule", NULL, "minimum_rotation_rate", RESULT_REAL, SOLVED(minimum_rotation_rate), "rad/s", .meaning = "the same as a rate",
+      IN_VIEW(780), LISTED, IN_STUDY(180) },
     { "granule", NULL, "slip_per_revolution", RESULT_REAL, SOLVED(slip_per_revolution), "rad/revolution",
-      "by which the particle lags the wall at that rate" },
+      .meaning = "by which the particle lags the wall at that rate",
+      IN_VIEW(790), IN_STUDY(190) },
     { "granule", NULL, "slip_onset_deg", RESULT_REAL, HERE(slip_onset_deg), "degrees",
-      "where it begins to slip at that rate, above the horizontal on the rising side" },
+      .meaning = "where it begins to slip at that rate, above the horizontal on the rising side",
+      STORED },
     { "granule", "fits", "stationary_eq33", RESULT_REAL, SOLVED(stationary_eq33), "",
-      "omega^2 R/g above which nothing slips, Eq 33 with tan(angle of repose) = friction" },
-    { "granule", "fits", "sliding_eq34", RESULT_REAL, SOLVED(sliding_eq34), "", "fit of minimum_omega2, Eq 34 (Eq 35 for a bed)" },
-    { "granule", "fits", "sliding_eq36", RESULT_REAL, SOLVED(sliding_eq36), "", "fit of minimum_omega2, Eqns 36-37" },
+      .meaning = "omega^2 R/g above which nothing slips, Eq 33 with tan(angle of repose) = friction" },
+    { "granule", "fits", "sliding_eq34", RESULT_REAL, SOLVED(sliding_eq34), "", .meaning = "fit of minimum_omega2, Eq 34 (Eq 35 for a bed)" },
+    { "granule", "fits", "sliding_eq36", RESULT_REAL, SOLVED(sliding_eq36), "", .meaning = "fit of minimum_omega2, Eqns 36-37" },
     { "granule", "deviations", "stationary_eq33", RESULT_REAL, SOLVED(stationary_deviation_eq33), "",
-      "Eq 33 over minimum_omega2, less 1" },
-    { "granule", "deviations", "sliding_eq34", RESULT_REAL, SOLVED(sliding_deviation_eq34), "", "of Eq 34, likewise" },
-    { "granule", "deviations", "sliding_eq36", RESULT_REAL, SOLVED(sliding_deviation_eq36), "", "of Eqns 36-37, likewise" },
+      .meaning = "Eq 33 over minimum_omega2, less 1" },
+    { "granule", "deviations", "sliding_eq34", RESULT_REAL, SOLVED(sliding_deviation_eq34), "", .meaning = "of Eq 34, likewise" },
+    { "granule", "deviations", "sliding_eq36", RESULT_REAL, SOLVED(sliding_deviation_eq36), "", .meaning = "of Eqns 36-37, likewise" },
 
     { "regime", NULL, "name", RESULT_TEXT, HERE(regime), "",
-      "slipping: slides back before the horizontal and never goes round; raining: falls off the wall; sliding: goes round, "
+      .meaning = "slipping: slides back before the horizontal and never goes round; raining: falls off the wall; sliding: goes round, "
       "slipping; centrifuging: never slips; null: no rotation_rate was given" },
-    { "regime", NULL, "omega2_outer", RESULT_REAL, MOTION(omega2), "", "omega^2 R/g at the rate given" },
-    { "regime", "evidence", "keeps_contact", RESULT_MAYBE, HERE(keeps_contact), "", "the wall pushes it at all times" },
-    { "regime", "evidence", "goes_round", RESULT_MAYBE, HERE(goes_round), "", "all the way, in contact" },
+    { "regime", NULL, "omega2_outer", RESULT_REAL, MOTION(omega2), "", .meaning = "omega^2 R/g at the rate given" },
+    { "regime", "evidence", "keeps_contact", RESULT_MAYBE, HERE(keeps_contact), "", .meaning = "the wall pushes it at all times" },
+    { "regime", "evidence", "goes_round", RESULT_MAYBE, HERE(goes_round), "", .meaning = "all the way, in contact" },
     { "regime", "evidence", "revolutions", RESULT_WHOLE, HERE(revolutions), "",
-      "completed; fewer than asked for where the motion repeats itself or ends" },
+      .meaning = "completed; fewer than asked for where the motion repeats itself or ends" },
     { "regime", "evidence", "slip_per_revolution", RESULT_REAL, MOTION(slip_per_revolution), "rad/revolution",
-      "by which it lags the wall in the last revolution; null: none was completed" },
+      .meaning = "by which it lags the wall in the last revolution; null: none was completed" },
     { "regime", "evidence", "slip_onset_deg", RESULT_REAL, HERE(motion_slip_onset_deg), "degrees",
-      "where it begins to slip, above the horizontal on the rising side; null: nowhere" },
+      .meaning = "where it begins to slip, above the horizontal on the rising side; null: nowhere" },
     { "regime", "evidence", "least_normal_force", RESULT_REAL, MOTION(least_normal_force), "",
-      "least force between wall and particle, over its weight" },
+      .meaning = "least force between wall and particle, over its weight" },
 
-    { "run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", "one" },
-    { "run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", "time spent" },
-    { "run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", "threads" },
-    { "run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", "the attempt that came to the end" },
+    { "run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", .meaning = "one" },
+    { "run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", .meaning = "time spent" },
+    { "run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", .meaning = "threads" },
+    { "run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", .meaning = "the attempt that came to the end" },
+    RUN_WARNINGS,
 };
 
 static const result_output outputs[] = {

@@ -11,6 +11,7 @@ typedef struct heap_result {
     dem_heap_results measured;
     dem_standing standing;
     double azimuths;
+    const char *method; /* set where it is written */
     run_facts run;
 } heap_result;
 

@@ -3,7 +3,7 @@
 
 #include "heap_process.h"
 #include "heap_result.h"
-#include "run_fields.h"
+#include "result_rows.h"
 #include "standing_result.h"
 
 #define ANGLE(member) offsetof(heap_result, measured.angle[DEM_AZIMUTHAL_FIT].member)
@@ -13,30 +13,39 @@
 
 static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees",
-      "static angle of repose, mean over the azimuths; null: too small a heap" },
+      .meaning = "static angle of repose, mean over the azimuths; null: too small a heap" },
     { "repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees",
-      "error of that mean; the other definitions have none, since one heap cannot tell it" },
-    { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", "flattest azimuth" },
-    { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", "steepest azimuth" },
-    { "repose", NULL, "azimuths", RESULT_WHOLE, offsetof(heap_result, azimuths), "", "sectors, or sides that it is seen from" },
+      .meaning = "error of that mean; the other definitions have none, since one heap cannot tell it" },
+    { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", .meaning = "flattest azimuth" },
+    { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", .meaning = "steepest azimuth" },
+    { "repose", NULL, "method", RESULT_WORD, offsetof(heap_result, method), "", .meaning = "how angle_deg was measured" },
+    { "repose", NULL, "azimuths", RESULT_WHOLE, offsetof(heap_result, azimuths), "", .meaning = "sectors, or sides that it is seen from" },
 
-    { "surface", NULL, "height", RESULT_REAL, HEAP(height), "m", "of the highest particle's top over the plate" },
+    { "surface", NULL, "height", RESULT_REAL, HEAP(height), "m", .meaning = "of the highest particle's top over the plate" },
     { "surface", NULL, "base_diameter", RESULT_REAL, HEAP(base_diameter), "m",
-      "mean over the azimuths: where the surface is half a grain high, or as high as the rim, or the plate ends" },
-    { "surface", NULL, "volume", RESULT_REAL, HEAP(volume), "m3", "below the surface" },
+      .meaning = "mean over the azimuths: where the surface is half a grain high, or as high as the rim, or the plate ends",
+      IN_VIEW(590), IN_STUDY(220) },
+    { "surface", NULL, "volume", RESULT_REAL, HEAP(volume), "m3", .meaning = "below the surface",
+      STORED },
     { "surface", NULL, "static_cohesive_index", RESULT_REAL, HEAP(static_cohesive_index), "m",
-      "mean over the radius of the standard deviation over azimuths of the height" },
+      .meaning = "mean over the radius of the standard deviation over azimuths of the height",
+      IN_VIEW(600), IN_STUDY(230) },
 
     { "packing", NULL, "solid_fraction", RESULT_REAL, HEAP(solid_fraction), "",
-      "solid over all that is below the surface, dips between spheres left out: higher than within the heap" },
-    { "packing", NULL, "coordination_number", RESULT_REAL, STANDING(coordination_number), "", "contacts a particle of the heap" },
+      .meaning = "solid over all that is below the surface, dips between spheres left out: higher than within the heap" },
+    { "packing", NULL, "coordination_number", RESULT_REAL, STANDING(coordination_number), "", .meaning = "contacts a particle of the heap" },
 
-    { "heap", NULL, "inside", RESULT_SIZE, STANDING(inside), "", "particles of the heap: with two contacts or more" },
-    { "heap", NULL, "apart", RESULT_SIZE, STANDING(in_flight), "", "particles by themselves on the plate, or in flight" },
-    { "heap", NULL, "lost", RESULT_SIZE, STANDING(lost), "", "particles that fell off the plate" },
-    { "heap", NULL, "at_rest", RESULT_TRUTH, STANDING(at_rest), "", "no angle of repose before it is" },
+    { "heap", NULL, "inside", RESULT_SIZE, STANDING(inside), "", .meaning = "particles of the heap: with two contacts or more",
+      STORED },
+    { "heap", NULL, "apart", RESULT_SIZE, STANDING(in_flight), "", .meaning = "particles by themselves on the plate, or in flight",
+      STORED },
+    { "heap", NULL, "lost", RESULT_SIZE, STANDING(lost), "", .meaning = "particles that fell off the plate",
+      IN_VIEW(610), IN_STUDY(240) },
+    { "heap", NULL, "at_rest", RESULT_TRUTH, STANDING(at_rest), "", .meaning = "no angle of repose before it is",
+      IN_VIEW(860) },
 
-    FIELDS_OF_RUN,
+    FIELDS_OF_RUN("from when filling or lifting began", "that", "while filling or lifting",
+                  "at-rest; duration: it was not yet at rest"),
 };
 
 static const result_output outputs[] = {

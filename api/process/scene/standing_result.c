@@ -2,16 +2,16 @@
 
 #include <math.h>
 
-static json_t *real_or_null(double number) { return isfinite(number) ? json_real(number) : json_null(); }
+#include "json_text.h"
 
 bool angle_methods_add(json_t *repose, const dem_angle *angle, int count, const char *const *name)
 {
     json_t *angles = json_object(), *errors = json_object();
     for (int m = 1; m < count; m++) {
-        json_object_set_new(angles, name[m], real_or_null(angle[m].mean_deg));
-        json_object_set_new(errors, name[m], real_or_null(angle[m].standard_error_deg));
+        json_object_set_new(angles, name[m], json_real_or_null(angle[m].mean_deg));
+        json_object_set_new(errors, name[m], json_real_or_null(angle[m].standard_error_deg));
     }
-    return (json_object_set_new(repose, "method", json_string(name[0])) | json_object_set_new(repose, "other_methods", angles)
+    return (json_object_set_new(repose, "other_methods", angles)
             | json_object_set_new(repose, "other_methods_standard_error_deg", errors))
            == 0;
 }
@@ -19,7 +19,7 @@ bool angle_methods_add(json_t *repose, const dem_angle *angle, int count, const 
 static json_t *list_of(const double *values, size_t count)
 {
     json_t *list = json_array();
-    for (size_t k = 0; k < count; k++) json_array_append_new(list, real_or_null(values[k]));
+    for (size_t k = 0; k < count; k++) json_array_append_new(list, json_real_or_null(values[k]));
     return list;
 }
 
@@ -35,8 +35,6 @@ json_t *profile_to_json(const dem_profile *profile, const char *place, const cha
 
 void describe_angle_methods(json_t *properties)
 {
-    json_object_set_new(properties, "method",
-                        json_pack("{s:s, s:s}", "type", "string", "description", "how angle_deg was measured"));
     json_object_set_new(
         properties, "other_methods",
         json_pack("{s:s, s:s, s:s}", "type", "object", "description", "mean angle by other definitions", "x-unit", "degrees"));

@@ -1,4 +1,4 @@
-/* What results of a fill and of a heap have in common: profiles as lists, angles under several definitions. */
+/* What results of several processes have in common: profiles as lists, angles under several definitions. */
 #ifndef STANDING_RESULT_H
 #define STANDING_RESULT_H
 
@@ -7,7 +7,7 @@
 
 #include "dem_mound.h"
 
-/* Adds "method", "other_methods" and "other_methods_standard_error_deg" to an object of angles, of which the first is the
+/* Adds "other_methods" and "other_methods_standard_error_deg" to an object of angles: all but the first, which is the
  * object's own. False: no memory. */
 bool angle_methods_add(json_t *repose, const dem_angle *angle, int count, const char *const *name);
 /* {<place>: [...], <value>: [...], "standard_error": [...]}; errors that are not known are left out as a whole. New

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "field_tables.h"
 #include "log.h"
 #include "schema.h"
 #include "statement_cache.h"
@@ -82,15 +83,8 @@ static int read_pragma(sqlite3 *database, const char *sql)
 }
 
 /* Each migration and the new version number in one transaction. */
-static bool migrate(sqlite3 *database, const char *path)
+static bool migrate_from(sqlite3 *database, const char *path, int version)
 {
-    const int version = read_pragma(database, "PRAGMA user_version");
-    const int application = read_pragma(database, "PRAGMA application_id");
-    if (version < 0 || version > schema_version || (application != SCHEMA_APPLICATION_ID && (application != 0 || version != 0))) {
-        log_line("%s is of schema version %d, application %d; this program knows versions 0 to %d", path, version, application,
-                 schema_version);
-        return false;
-    }
     for (int next = version; next < schema_version; next++) {
         const char *const *parts = schema_migrations[next].parts;
         const size_t most = sizeof schema_migrations[next].parts / sizeof *parts;
@@ -105,6 +99,22 @@ static bool migrate(sqlite3 *database, const char *path)
         }
     }
     return true;
+}
+
+static bool bring_up_to_date(sqlite3 *database, const char *path)
+{
+    const int version = read_pragma(database, "PRAGMA user_version");
+    const int application = read_pragma(database, "PRAGMA application_id");
+    if (version < 0 || version > schema_version || (application != SCHEMA_APPLICATION_ID && (application != 0 || version != 0))) {
+        log_line("%s is of schema version %d, application %d; this program knows versions 0 to %d", path, version, application,
+                 schema_version);
+        return false;
+    }
+    field_tables tables;
+    const bool good = field_tables_init(&tables) && field_tables_make(&tables, database) && migrate_from(database, path, version)
+                && field_tables_make_view(&tables, database);
+    field_tables_clear(&tables);
+    return good;
 }
 
 static sqlite3 *open_with(const char *path, int flags, const char *pragmas)
@@ -126,7 +136,7 @@ sqlite3 *database_open_writer(const char *path)
                                   "PRAGMA foreign_keys=ON; PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-2000;");
     int keep = 1; /* the log and its index: on a full disk they could not be made anew, and nothing could be read */
     if (database) sqlite3_file_control(database, NULL, SQLITE_FCNTL_PERSIST_WAL, &keep);
-    if (database && migrate(database, path)) return database;
+    if (database && bring_up_to_date(database, path)) return database;
     sqlite3_close(database);
     return NULL;
 }

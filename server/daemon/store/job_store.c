@@ -25,8 +25,7 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
     pthread_cond_init(&store->reader_is_free, NULL);
     char path[4096];
     snprintf(path, sizeof path, "%s/reposed.sqlite", data->path);
-    store->writer = database_open_writer(path);
-    bool good = store->writer != NULL;
+    bool good = field_tables_init(&store->fields) && (store->writer = database_open_writer(path)) != NULL;
     for (; good && store->readers_free < STORE_READERS; store->readers_free++)
         good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
     if (good) good = (store->query = database_open_reader(path)) != NULL && query_connection_restrict(store);
@@ -46,6 +45,7 @@ void store_close(job_store *store)
     pthread_mutex_destroy(&store->readers_lock);
     pthread_mutex_destroy(&store->write_lock);
     free(store->query_tables);
+    field_tables_clear(&store->fields);
     free(store);
 }
 
@@ -133,14 +133,14 @@ static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *
         place->study, place->index, place->repeat, number);
 }
 
-store_status store_insert_job(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
-                              const study_place *place, const calibration *machine)
+store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,
+                              const char *text, const study_place *place, const calibration *machine)
 {
     char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
     const job_estimate estimate = job_spec_estimate(spec, machine);
     store_status status = label ? insert_row(writer, number, spec, id, text, label, place, &estimate) : STORE_FAILED;
     if (number == 0) number = sqlite3_last_insert_rowid(writer);
-    if (status == STORE_OK) status = process_inputs_insert(writer, number, spec);
+    if (status == STORE_OK) status = field_tables_insert_inputs(fields, writer, number, spec);
     if (status == STORE_OK) status = store_insert_load(writer, number, &estimate, machine);
     free(label);
     return status;
@@ -190,7 +190,7 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
         status = store_check_queue(store, 1);
         int64_t last = 0;
         if (status == STORE_OK) status = last_number(store, &last);
-        if (status == STORE_OK) status = store_insert_job(store->writer, last + 1, spec, id, text, &of_no_study, &machine);
+        if (status == STORE_OK) status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &of_no_study, &machine);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);

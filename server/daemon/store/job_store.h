@@ -8,14 +8,16 @@
 
 #include "data_folder.h"
 #include "event_tail.h"
+#include "field_tables.h"
 #include "query_functions.h"
 #include "store.h"
 
 enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
 
-/* Everything below is private to job_store*.c, result_tables.c and query.c. */
+/* Everything below is private to job_store*.c and query.c. */
 struct job_store {
     data_folder *data;
+    field_tables fields;
     int64_t queue_limit;        /* jobs that may wait */
     pthread_mutex_t write_lock; /* held for each transaction of the one writer */
     sqlite3 *writer;
@@ -54,8 +56,8 @@ bool store_bring_start(job_store *store, const char *from, double snapshot, cons
 /* The job that a spec starts from; NULL: none. */
 const char *job_started_from(const job_spec *spec);
 /* Between begin and end: one job's rows. text: its canonical specification. number: 0 takes the next. */
-store_status store_insert_job(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
-                              const study_place *place, const calibration *machine);
+store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,
+                              const char *text, const study_place *place, const calibration *machine);
 /* study_parts.c: a text of the table with the long parts of its study in it; NULL: no memory, or a part is missing. */
 char *study_parts_expand(sqlite3 *database, int64_t study, const char *text);
 /* machine_speed.c, between begin and end: what its steps have to do, for when it has run. */
@@ -106,12 +108,6 @@ store_status store_recover(job_store *store);
  * row either. */
 store_status store_remove_unused_folders(job_store *store);
 store_status store_has_job(job_store *store, const char *id); /* STORE_NOT_FOUND: there is none */
-
-/* process_tables.c: the main inputs of a job as columns of its process's table; between begin and end. */
-store_status process_inputs_insert(sqlite3 *writer, int64_t job, const job_spec *spec);
-
-/* result_tables.c: spreads the results document over the tables; between begin and end. */
-store_status result_tables_fill(sqlite3 *writer, int64_t job, const char *document, const json_t *results);
 
 /* query.c: the limits, the authorizer and the functions of users' SQL, on store->query. False: no memory. */
 bool query_connection_restrict(job_store *store);

@@ -1,4 +1,5 @@
 /* Walks over jobs, samples and snapshots. */
+#include <assert.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,27 +9,19 @@
 #include "process_type.h"
 #include "text_buffer.h"
 
-/* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary. */
+/* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary: these two, and what the rows of
+ * inputs and results say is listed. */
 #define RECORD_COLUMNS 14
-#define SELECT_JOBS                                                                                                                \
+#define RECORD                                                                                                                     \
     "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"                 \
-    " job.started, job.finished, job.updated, job.message, job.label, study.id,"                                                   \
-    " i.drum_diameter, i.drum_length, coalesce(i.rotation_rate, gi.rotation_rate) AS rotation_rate, i.fill_fraction,"              \
-    " fi.cylinder_diameter, fi.stream_diameter, fi.rate, fi.impact_speed, hi.tube_diameter, hi.lift_speed, hi.plate_diameter,"     \
-    " coalesce(i.particles, fi.particles, hi.particles) AS particles, coalesce(i.species, fi.species, hi.species) AS species,"     \
-    " coalesce(i.diameter, fi.diameter, hi.diameter) AS diameter, coalesce(i.density, fi.density, hi.density) AS density,"         \
-    " coalesce(i.friction, fi.friction, hi.friction, gi.friction) AS friction,"                                                    \
-    " coalesce(i.restitution, fi.restitution, hi.restitution) AS restitution,"                                                     \
-    " coalesce(i.wall_friction, fi.wall_friction, hi.wall_friction) AS wall_friction,"                                             \
-    " coalesce(i.stiffness, fi.stiffness, hi.stiffness) AS stiffness, coalesce(i.duration, fi.duration, hi.duration) AS duration," \
-    " coalesce(i.seed, fi.seed, hi.seed) AS seed, gi.radius, job.threads, job.estimated_seconds, a.angle_deg,"                     \
-    " a.standard_error_deg, a.steady, a.verdict, g.name AS regime, g.certain, gr.minimum_omega2, gr.minimum_rotation_rate,"        \
-    " r.wall_seconds, r.warnings"                                                                                                  \
-    " FROM job LEFT JOIN drum_input i ON i.job=job.number LEFT JOIN granule_input gi ON gi.job=job.number"                         \
-    " LEFT JOIN fill_input fi ON fi.job=job.number LEFT JOIN heap_input hi ON hi.job=job.number"                                   \
-    " LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                                 \
-    " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"                                 \
-    " LEFT JOIN study ON study.number=job.study"
+    " job.started, job.finished, job.updated, job.message, job.label, study.id, job.threads, job.estimated_seconds"
+enum { MORE_OF_JOB = 2, LONGEST_SELECT = 65536 };
+
+static void write_select(const field_tables *fields, text_buffer *sql)
+{
+    text_buffer_print(sql, RECORD "%s FROM job%s LEFT JOIN study ON study.number=job.study", fields->select_listed,
+                      fields->join_listed);
+}
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
 {
@@ -36,18 +29,23 @@ static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
     snprintf(text, size, "%s", value ? value : "");
 }
 
-static bool is_truth(const char *column) { return strcmp(column, "steady") == 0 || strcmp(column, "certain") == 0; }
+static bool is_truth(const field_tables *fields, int i)
+{
+    const int listed = i - RECORD_COLUMNS - MORE_OF_JOB;
+    return listed >= 0 && field_column_is_truth(fields->listed[listed]);
+}
 
-static json_t *summary_of(sqlite3_stmt *row)
+static json_t *summary_of(const field_tables *fields, sqlite3_stmt *row)
 {
     json_t *summary = json_object();
+    assert(sqlite3_column_count(row) == RECORD_COLUMNS + MORE_OF_JOB + (int)fields->listed_count);
     for (int i = RECORD_COLUMNS; i < sqlite3_column_count(row); i++) {
         const char *name = sqlite3_column_name(row, i);
         switch (sqlite3_column_type(row, i)) {
         case SQLITE_INTEGER:
             json_object_set_new(summary, name,
-                                is_truth(name) ? json_boolean(sqlite3_column_int(row, i))
-                                               : json_integer(sqlite3_column_int64(row, i)));
+                                is_truth(fields, i) ? json_boolean(sqlite3_column_int(row, i))
+                                                    : json_integer(sqlite3_column_int64(row, i)));
             break;
         case SQLITE_FLOAT: json_object_set_new(summary, name, json_real(sqlite3_column_double(row, i))); break;
         case SQLITE_TEXT: json_object_set_new(summary, name, json_string((const char *)sqlite3_column_text(row, i))); break;
@@ -57,7 +55,7 @@ static json_t *summary_of(sqlite3_stmt *row)
     return summary;
 }
 
-static void fill_record(sqlite3_stmt *row, job_record *job)
+static void fill_record(const field_tables *fields, sqlite3_stmt *row, job_record *job)
 {
     *job = (job_record){ .number = sqlite3_column_int64(row, 0),
                          .attempt = sqlite3_column_int(row, 4),
@@ -74,17 +72,22 @@ static void fill_record(sqlite3_stmt *row, job_record *job)
     copy_text(job->message, sizeof job->message, row, 11);
     copy_text(job->study, sizeof job->study, row, 13);
     job->label = json_loads((const char *)sqlite3_column_text(row, 12), 0, NULL);
-    job->summary = summary_of(row);
+    job->summary = summary_of(fields, row);
 }
 
 store_status store_find_job(job_store *store, const char *id, job_record *job)
 {
+    text_buffer sql;
+    text_buffer_init(&sql, LONGEST_SELECT);
+    write_select(&store->fields, &sql);
+    text_buffer_print(&sql, " WHERE job.id=?");
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader, SELECT_JOBS " WHERE job.id=?", "t", id);
+    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "t", id);
+    text_buffer_clear(&sql);
     store_status status = STORE_FAILED;
     if (statement) {
         const int code = sqlite3_step(statement);
-        if (code == SQLITE_ROW) fill_record(statement, job);
+        if (code == SQLITE_ROW) fill_record(&store->fields, statement, job);
         status = sql_finish(statement, code);
         if (status == STORE_OK && code != SQLITE_ROW) status = STORE_NOT_FOUND;
     }
@@ -148,10 +151,10 @@ static sqlite3_stmt *prepare_filtered(sqlite3 *reader, const text_buffer *sql, c
 
 /* One status walks its index in order; for several the + keeps the walk on the jobs themselves, newest first, where an
  * index would need a sort of all it finds. */
-static void write_list_sql(const job_filter *filter, text_buffer *sql)
+static void write_list_sql(const field_tables *fields, const job_filter *filter, text_buffer *sql)
 {
     const bool single = (filter->statuses & (filter->statuses - 1U)) == 0U;
-    text_buffer_print(sql, SELECT_JOBS);
+    write_select(fields, sql);
     write_condition(filter, sql);
     if (filter->statuses) {
         text_buffer_print(sql, single ? " AND job.status IN (" : " AND +job.status IN (");
@@ -164,8 +167,8 @@ static void write_list_sql(const job_filter *filter, text_buffer *sql)
 store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context)
 {
     text_buffer sql;
-    text_buffer_init(&sql, 8192);
-    write_list_sql(filter, &sql);
+    text_buffer_init(&sql, LONGEST_SELECT);
+    write_list_sql(&store->fields, filter, &sql);
     sqlite3 *reader = store_borrow_reader(store);
     sqlite3_stmt *statement = prepare_filtered(reader, &sql, filter, filter->before ? filter->before : INT64_MAX);
     store_status status = STORE_FAILED;
@@ -174,7 +177,7 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
         bool more = true;
         while (more && (code = sqlite3_step(statement)) == SQLITE_ROW) {
             job_record job;
-            fill_record(statement, &job);
+            fill_record(&store->fields, statement, &job);
             more = visit(context, &job);
             job_record_clear(&job);
         }

@@ -189,7 +189,7 @@ store_status store_record_success(job_store *store, const job_claim *claim, cons
     store_status status = store_begin(store);
     if (status == STORE_OK) {
         status = end_job(store, claim, JOB_SUCCESSFUL, message, NULL);
-        if (status == STORE_OK) status = result_tables_fill(store->writer, claim->number, document, results);
+        if (status == STORE_OK) status = field_tables_insert_results(&store->fields, store->writer, claim->number, document, results);
         status = store_end(store, status);
     }
     json_decref(results);

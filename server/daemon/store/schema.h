@@ -1,4 +1,5 @@
-/* The tables, one migration after the other: number n brings a database from user_version n to n + 1. */
+/* All tables but those of inputs and results, one migration after the other: number n brings a database from user_version n
+ * to n + 1. */
 #ifndef SCHEMA_H
 #define SCHEMA_H
 

@@ -25,25 +25,36 @@ struct study_stage {
     store_status status;
 };
 
+typedef store_status table_visitor(study_stage *stage, const char *table, void *context);
+
 /* In the order in which they are copied: what refers to a row comes after it. */
-static const char *const tables[] = { "study_case", "study_part", "job",           "drum_input",
-                                      "fill_input", "heap_input", "granule_input", "job_load" };
-enum { TABLES = sizeof tables / sizeof tables[0] };
+static store_status visit_tables(study_stage *stage, table_visitor *visit, void *context)
+{
+    static const char *const tables[] = { "study_case", "study_part", "job", "job_load" };
+    store_status status = STORE_OK;
+    for (size_t t = 0; status == STORE_OK && t < sizeof tables / sizeof tables[0]; t++) status = visit(stage, tables[t], context);
+    for (size_t p = 0; status == STORE_OK && process_types[p]; p++) {
+        char inputs[40];
+        snprintf(inputs, sizeof inputs, "%s_input", process_types[p]->name);
+        status = visit(stage, inputs, context);
+    }
+    return status;
+}
 
 /* --- a database with the same tables --- */
 
-static bool copy_definition(job_store *store, sqlite3 *database, const char *table)
+static store_status copy_definition(study_stage *stage, const char *table, void *database)
 {
-    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3 *reader = store_borrow_reader(stage->store);
     sqlite3_stmt *row = sql_prepare(reader, "SELECT sql FROM sqlite_schema WHERE type='table' AND name=?", "t", table);
     bool good = row && sqlite3_step(row) == SQLITE_ROW
                 && sqlite3_exec(database, (const char *)sqlite3_column_text(row, 0), NULL, NULL, NULL) == SQLITE_OK;
     sqlite3_finalize(row);
-    store_return_reader(store, reader);
-    return good;
+    store_return_reader(stage->store, reader);
+    return good ? STORE_OK : STORE_FAILED;
 }
 
-static sqlite3 *open_stage(job_store *store)
+static sqlite3 *open_stage(study_stage *stage)
 {
     sqlite3 *database;
     bool good = sqlite3_open_v2("", &database,
@@ -54,8 +65,7 @@ static sqlite3 *open_stage(job_store *store)
                                 "CREATE TABLE start(id TEXT NOT NULL, job TEXT NOT NULL, snapshot REAL);",
                                 NULL, NULL, NULL)
                        == SQLITE_OK;
-    for (size_t t = 0; good && t < TABLES; t++) good = copy_definition(store, database, tables[t]);
-    good = good && sqlite3_exec(database, "BEGIN", NULL, NULL, NULL) == SQLITE_OK;
+    good = good && visit_tables(stage, copy_definition, database) == STORE_OK && sqlite3_exec(database, "BEGIN", NULL, NULL, NULL) == SQLITE_OK;
     if (good) return database;
     log_line("a study's rows can't be kept: %s", sqlite3_errmsg(database));
     sqlite3_close(database);
@@ -67,7 +77,7 @@ study_stage *store_stage_study(job_store *store, const study_spec *study, const 
     study_stage *stage = calloc(1, sizeof *stage);
     if (!stage) return NULL;
     *stage = (study_stage){ .store = store, .study = study, .machine = machine, .second = time(NULL) };
-    if (store_random_bits(&stage->bits)) stage->database = open_stage(store);
+    if (store_random_bits(&stage->bits)) stage->database = open_stage(stage);
     if (!stage->database) {
         free(stage);
         return NULL;
@@ -153,7 +163,7 @@ static bool stage_job(void *context, const job_spec *spec, size_t index, int rep
     char *text = study_parts_write(&stage->parts, spec);
     store_status status = text ? STORE_OK : STORE_FAILED;
     if (repeat == 0) status = stage_case(stage, spec, index);
-    if (status == STORE_OK) status = store_insert_job(stage->database, number, spec, id, text, &place, stage->machine);
+    if (status == STORE_OK) status = store_insert_job(&stage->store->fields, stage->database, number, spec, id, text, &place, stage->machine);
     if (status == STORE_OK) status = stage_start(stage, spec, id);
     free(text);
     stage->status = status;
@@ -241,8 +251,15 @@ static store_status copy_rows(sqlite3_stmt *from, sqlite3_stmt *to, int columns)
     return sql_status(sqlite3_db_handle(from), code);
 }
 
-static store_status copy_table(study_stage *stage, const char *table, int64_t last_job, int64_t study, const char *now)
+/* What the copied rows are given. */
+typedef struct copied_rows {
+    int64_t last_job, study;
+    char now[JOB_TIME_SIZE];
+} copied_rows;
+
+static store_status copy_table(study_stage *stage, const char *table, void *context)
 {
+    const copied_rows *rows = context;
     text_buffer select, insert;
     int columns;
     text_buffer_init(&select, 8192);
@@ -252,9 +269,9 @@ static store_status copy_table(study_stage *stage, const char *table, int64_t la
         sqlite3_stmt *from = sql_prepare(stage->database, select.text, ""),
                      *to = sql_prepare(stage->store->writer, insert.text, "");
         if (from && to) {
-            sqlite3_bind_int64(from, 1, last_job);
-            sqlite3_bind_int64(from, 2, study);
-            sqlite3_bind_text(from, 3, now, -1, SQLITE_STATIC);
+            sqlite3_bind_int64(from, 1, rows->last_job);
+            sqlite3_bind_int64(from, 2, rows->study);
+            sqlite3_bind_text(from, 3, rows->now, -1, SQLITE_STATIC);
             status = copy_rows(from, to, columns);
         }
         sqlite3_finalize(from);
@@ -267,12 +284,10 @@ static store_status copy_table(study_stage *stage, const char *table, int64_t la
 
 store_status study_stage_copy(study_stage *stage, int64_t study)
 {
-    char now[JOB_TIME_SIZE];
-    time_text(now);
+    copied_rows rows = { .study = study };
+    time_text(rows.now);
     sqlite3_stmt *row = sql_prepare(stage->store->writer, "SELECT max(number,coalesce((SELECT max(number) FROM job),0)) FROM last_deleted", "");
-    const int64_t last_job = row && sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int64(row, 0) : -1;
+    rows.last_job = row && sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int64(row, 0) : -1;
     sqlite3_finalize(row);
-    store_status status = last_job < 0 ? STORE_FAILED : STORE_OK;
-    for (size_t t = 0; t < TABLES && status == STORE_OK; t++) status = copy_table(stage, tables[t], last_job, study, now);
-    return status;
+    return rows.last_job < 0 ? STORE_FAILED : visit_tables(stage, copy_table, &rows);
 }

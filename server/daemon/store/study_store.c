@@ -7,6 +7,7 @@
 #include "job_store.h"
 #include "log.h"
 #include "study_stage.h"
+#include "text_buffer.h"
 
 /* --- adding --- */
 
@@ -179,21 +180,8 @@ store_status store_list_study_cases(job_store *store, const char *id, study_case
     return walk(store, reader, statement, take_case, &to);
 }
 
-/* The first RUN_COLUMNS say which job; the rest, by their own names, what it measured. */
-#define RUN_COLUMNS 2
-#define SELECT_RUNS                                                                                                                \
-    "SELECT job.study_case, job.status, a.angle_deg, a.standard_error_deg, a.minimum_deg, a.maximum_deg,"                          \
-    " a.drift_deg_per_revolution, a.interface_fluctuation, a.verdict, a.steady, g.name AS regime, g.certain,"                      \
-    " s.radial_index, s.axial_index,"                                                                                              \
-    " s.lacey_index, p.solid_fraction, p.coordination_number, r.maximum_overlap, d.torque, d.torque_standard_error, d.power,"      \
-    " a.slumps_period, a.slumps_start_deg, a.slumps_stop_deg, gr.minimum_omega2, gr.error,"                                        \
-    " gr.minimum_rotation_rate, gr.slip_per_revolution, a.while_filling_angle_deg, a.while_filling_standard_error_deg,"            \
-    " f.height, f.base_diameter, f.static_cohesive_index, hr.lost, r.warnings"                                                     \
-    " FROM job LEFT JOIN repose_result a ON a.job=job.number LEFT JOIN regime_result g ON g.job=job.number"                        \
-    " LEFT JOIN segregation_result s ON s.job=job.number LEFT JOIN packing_result p ON p.job=job.number"                           \
-    " LEFT JOIN drive_result d ON d.job=job.number LEFT JOIN surface_result f ON f.job=job.number"                                 \
-    " LEFT JOIN heap_result hr ON hr.job=job.number"                                                                               \
-    " LEFT JOIN granule_result gr ON gr.job=job.number LEFT JOIN run_result r ON r.job=job.number"
+/* Of the columns of a run the first say which job; the rest, by their own names, what it measured. */
+enum { RUN_COLUMNS = 2, LONGEST_SELECT = 65536 };
 
 static json_t *measures_of(sqlite3_stmt *row)
 {
@@ -224,10 +212,14 @@ static bool take_run(sqlite3_stmt *row, void *context)
 store_status store_list_study_runs(job_store *store, const char *id, study_run_visitor *visit, void *context)
 {
     study_walk to = { .visit_run = visit, .context = context };
+    text_buffer sql;
+    text_buffer_init(&sql, LONGEST_SELECT);
+    text_buffer_print(&sql,
+                      "SELECT job.study_case, job.status%s FROM job%s WHERE job.study=(SELECT number FROM study WHERE id=?)"
+                      " ORDER BY job.study_case, job.study_repeat",
+                      store->fields.select_study, store->fields.join_study);
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader,
-                                          SELECT_RUNS " WHERE job.study=(SELECT number FROM study WHERE id=?)"
-                                                      " ORDER BY job.study_case, job.study_repeat",
-                                          "t", id);
+    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "t", id);
+    text_buffer_clear(&sql);
     return walk(store, reader, statement, take_run, &to);
 }

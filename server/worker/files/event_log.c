@@ -2,7 +2,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
@@ -78,5 +77,3 @@ bool event_log_add(event_log *log, json_t *event)
 }
 
 bool event_log_sync(event_log *log) { return !log->failed && (fsync(log->fd) == 0 || fail(log, strerror(errno))); }
-
-json_t *json_real_or_null(double number) { return isfinite(number) ? json_real(number) : json_null(); }

@@ -22,6 +22,4 @@ bool event_log_add(event_log *log, json_t *event);
 /* So that a checkpoint never knows of more than the log does. */
 bool event_log_sync(event_log *log);
 
-json_t *json_real_or_null(double number);
-
 #endif

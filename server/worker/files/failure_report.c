@@ -1,4 +1,5 @@
 #include "failure_report.h"
+#include "json_text.h"
 
 #include <stdio.h>
 

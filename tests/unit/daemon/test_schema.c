@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 #include "database.h"
-#include "schema.h"
+#include "older_schema.h"
 
 static void run_sql(sqlite3 *database, const char *sql)
 {
@@ -36,8 +36,8 @@ static void make_database(const char *path, int version)
     sqlite3 *database;
     assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
     for (int m = 0; m < version; m++)
-        for (size_t p = 0; p < sizeof schema_migrations[m].parts / sizeof schema_migrations[m].parts[0]; p++)
-            if (schema_migrations[m].parts[p]) run_sql(database, schema_migrations[m].parts[p]);
+        for (size_t p = 0; p < sizeof older_migrations[m].parts / sizeof older_migrations[m].parts[0]; p++)
+            if (older_migrations[m].parts[p]) run_sql(database, older_migrations[m].parts[p]);
     char text[200];
     snprintf(text, sizeof text, "PRAGMA application_id=%d; PRAGMA user_version=%d", SCHEMA_APPLICATION_ID, version);
     run_sql(database, text);
@@ -58,7 +58,7 @@ static void make_database(const char *path, int version)
 static void every_earlier_version_is_brought_up_to_date_with_what_it_holds(void **state)
 {
     (void)state;
-    for (int version = 1; version <= schema_version; version++) {
+    for (int version = 1; version <= OLDER_VERSIONS; version++) {
         char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
         assert_non_null(mkdtemp(folder));
         snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
@@ -80,13 +80,59 @@ static void every_earlier_version_is_brought_up_to_date_with_what_it_holds(void 
     }
 }
 
+/* What a program of that time finds in a database that it did not make, it must not write into. */
+static void what_an_earlier_program_could_not_fill_in_has_a_number_that_it_does_not_know(void **state)
+{
+    (void)state;
+    assert_true(schema_version > OLDER_VERSIONS);
+}
+
+static char *text_of(sqlite3 *database, const char *sql)
+{
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(database, sql, -1, &statement, NULL) != SQLITE_OK) fail_msg("%s: %s", sqlite3_errmsg(database), sql);
+    assert_int_equal(sqlite3_step(statement), SQLITE_ROW);
+    char *text = strdup((const char *)sqlite3_column_text(statement, 0));
+    sqlite3_finalize(statement);
+    return text;
+}
+
+/* Columns of the tables of inputs and results, and of the view, by name. */
+static const char columns_of_all_tables[] =
+    "SELECT group_concat(line, char(10)) FROM (SELECT s.name||' '||c.name||' '||c.type AS line FROM sqlite_schema s,"
+    " pragma_table_xinfo(s.name) c WHERE s.name LIKE '%_input' OR s.name LIKE '%_result' OR s.name='run_summary' ORDER BY 1)";
+
+static void a_new_database_has_the_columns_of_one_that_was_brought_up_to_date(void **state)
+{
+    (void)state;
+    char *columns[2];
+    for (int is_old = 0; is_old < 2; is_old++) {
+        char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
+        assert_non_null(mkdtemp(folder));
+        snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
+        if (is_old) make_database(path, OLDER_VERSIONS);
+        sqlite3 *database = database_open_writer(path);
+        assert_non_null(database);
+        columns[is_old] = text_of(database, columns_of_all_tables);
+        sqlite3_close(database);
+        snprintf(text, sizeof text, "rm -r %s", folder);
+        assert_int_equal(system(text), 0);
+    }
+    assert_string_equal(columns[0], columns[1]);
+    assert_non_null(strstr(columns[0], "drum_input lining_diameter REAL"));
+    assert_non_null(strstr(columns[0], "repose_result slumps_count INTEGER"));
+    assert_non_null(strstr(columns[0], "run_summary regime TEXT"));
+    free(columns[0]);
+    free(columns[1]);
+}
+
 static void a_database_of_a_newer_program_is_refused(void **state)
 {
     (void)state;
     char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
     assert_non_null(mkdtemp(folder));
     snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
-    make_database(path, schema_version);
+    make_database(path, OLDER_VERSIONS);
     sqlite3 *database;
     assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
     snprintf(text, sizeof text, "PRAGMA user_version=%d", schema_version + 1);
@@ -101,6 +147,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_earlier_version_is_brought_up_to_date_with_what_it_holds),
+        cmocka_unit_test(what_an_earlier_program_could_not_fill_in_has_a_number_that_it_does_not_know),
+        cmocka_unit_test(a_new_database_has_the_columns_of_one_that_was_brought_up_to_date),
         cmocka_unit_test(a_database_of_a_newer_program_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

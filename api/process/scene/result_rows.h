@@ -1,0 +1,55 @@
+/* Words in which rows of results are written, and the rows of the output "run". To be included by a file that defines RUN(member).
+ * simulated, began, meanwhile, ended: words for what the process does: what simulated_seconds counts, "rotation began",
+ * "while rotating", and the ways in which a run ends. */
+#ifndef RESULT_ROWS_H
+#define RESULT_ROWS_H
+
+#include "result_fields.h"
+
+/* Words in which rows are written; a row that says any of them is a column. */
+#define STORED .is_stored = true
+#define LISTED .is_listed = true
+#define IN_VIEW(place) .is_stored = true, .in_view = (place)
+#define IN_STUDY(place) .in_study = (place)
+#define RUN_ERROR(column) .run_error = (column)
+
+/* clang-format off */
+#define FIELDS_OF_RUN(simulated, began, meanwhile, ended) \
+    { "run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", .meaning = "mobile particles, a cluster being one", \
+      IN_VIEW(180) }, \
+    { "run", NULL, "spheres", RESULT_WHOLE, RUN(spheres), "", .meaning = "spheres that these are made of" }, \
+    { "run", NULL, "steps", RESULT_WHOLE, RUN(steps), "", .meaning = "time steps, settling included", \
+      IN_VIEW(800) }, \
+    { "run", NULL, "time_step", RESULT_REAL, RUN(time_step), "s", .meaning = "length of a step", \
+      STORED }, \
+    { "run", NULL, "simulated_seconds", RESULT_REAL, RUN(simulated_seconds), "s", .meaning = simulated, \
+      IN_VIEW(810) }, \
+    { "run", NULL, "settling_seconds", RESULT_REAL, RUN(settling_seconds), "s", .meaning = "simulated before " began }, \
+    { "run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", .meaning = "time spent, all attempts", \
+      IN_VIEW(820), LISTED }, \
+    { "run", NULL, "particle_steps_per_second", RESULT_REAL, RUN(particle_steps_per_second), "1/s", \
+      .meaning = "speed: spheres times steps a second", \
+      IN_VIEW(830) }, \
+    { "run", NULL, "maximum_overlap", RESULT_REAL, RUN(maximum_overlap), "", \
+      .meaning = "largest overlap " meanwhile ", as a share of the smallest diameter", \
+      IN_VIEW(840), IN_STUDY(110) }, \
+    { "run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", \
+      .meaning = "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected" }, \
+    { "run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", .meaning = "frames of measurement" }, \
+    { "run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", .meaning = "snapshot files" }, \
+    { "run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", .meaning = "threads", \
+      IN_VIEW(850) }, \
+    { "run", NULL, "isa", RESULT_TEXT, RUN(isa), "", .meaning = "instruction set of the core: avx512, avx2, plain; results do not depend on it" }, \
+    { "run", NULL, "precision", RESULT_TEXT, RUN(precision), "", .meaning = "of contacts: single or double" }, \
+    { "run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", .meaning = "of the initial positions", \
+      STORED }, \
+    { "run", NULL, "ended_by", RESULT_TEXT, RUN(ended_by), "", .meaning = ended }, \
+    { "run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", .meaning = "the attempt that came to the end" }, \
+    RUN_WARNINGS
+
+#define RUN_WARNINGS \
+    { "run", NULL, "warnings", RESULT_WARNINGS, 0, "", .meaning = "what the run knows of itself and its numbers do not show at a glance", \
+      IN_VIEW(870), LISTED, IN_STUDY(5) }
+/* clang-format on */
+
+#endif

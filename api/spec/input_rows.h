@@ -1,0 +1,17 @@
+/* Words in which rows of tables of inputs are written. */
+#ifndef INPUT_ROWS_H
+#define INPUT_ROWS_H
+
+#include "job_spec.h"
+#include "spec_fields.h"
+
+#define RANGE(low, high) .minimum = (low), .maximum = (high)
+#define USUAL(low, high) .usual_low = (low), .usual_high = (high)
+#define SLIP(unit, factor) .slip_unit = (unit), .slip_factor = (factor)
+#define COLUMN(name, kind, member) \
+    .column = (name), .column_kind = COLUMN_##kind, .column_at = offsetof(job_spec, member)
+#define LISTED .is_listed = true
+#define IN_VIEW(place) .in_view = (place)
+#define OPEN_RANGE(low, high) .minimum = (low), .minimum_open = true, .maximum = (high)
+
+#endif
