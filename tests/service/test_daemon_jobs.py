@@ -120,11 +120,10 @@ def test_what_the_machine_lacks_puts_a_job_off(fake, what, message):
 
 @pytest.mark.torture
 def test_what_the_machine_lacks_fails_no_job_however_often(fake):
-    jobs = [fake.submit(fake="disk") for _ in range(3)]
-    for job in jobs:
-        fake.until(job, lambda _: fake.log().count(f"{job}: attempt 1 started") == 4, 120)  # more often than a job may die
-    assert {fake.job(job)["attempt"] for job in jobs} == {1}
-    assert {fake.job(job)["status"] for job in jobs} <= {"accepted", "running"}
+    job = fake.submit(fake="disk")
+    fake.until(job, lambda _: fake.log().count(f"{job}: attempt 1 started") == 4, 120)  # more often than a job may die
+    info = fake.job(job)
+    assert info["attempt"] == 1 and info["status"] in ("accepted", "running")
 
 
 def test_the_queue_goes_on_by_itself_when_the_machine_is_sound_again(fake):
