@@ -18,7 +18,7 @@ void contact_parts_clear(contact_parts *parts)
     memset(parts, 0, sizeof *parts);
 }
 
-/* ns, to deal by: of a contact, of one with a wall, of a sphere's step (core/NUMERICS.md, "Speed"). */
+/* ns, to deal by: of a contact, of one with a wall, of a sphere's step (core/SPEED.md, "Where a step's time goes"). */
 static const double OF_CONTACT = 5.0, OF_WALL = 6.0, OF_SPHERE = 2.8;
 
 /* What all up to the first contact of a block takes, its sphere's others included. */
