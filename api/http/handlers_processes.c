@@ -9,9 +9,6 @@
 #include "process_type.h"
 #include "status_info.h"
 
-/* JSON numbers are doubles to most clients: a seed beyond 2^53 would not come back as it was. */
-#define SEED_BITS 53
-
 void list_processes(api_service *service, const http_request *request, http_response *response)
 {
     (void)service;
@@ -62,7 +59,7 @@ uint64_t choose_seed(void)
 {
     uint64_t bits = 0;
     while (getrandom(&bits, sizeof bits, 0) != (ssize_t)sizeof bits) continue; /* EINTR is the only failure of 8 bytes */
-    return bits >> (64 - SEED_BITS);
+    return bits >> (64 - WHOLE_NUMBER_BITS);
 }
 
 /* Only where the process has such an input. */

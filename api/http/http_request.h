@@ -52,8 +52,8 @@ typedef struct http_response {
     uint64_t offset, length;
     http_pieces pieces;        /* what comes after the body */
     char base[HTTP_BASE_SIZE]; /* "http://host:port", put before addresses that begin with /; "": they stay as they are */
-    char location[HTTP_BASE_SIZE + 160], etag[80], content_range[80], link[HTTP_BASE_SIZE + 200];
-    const char *cache_control, *allow, *preference_applied, *authenticate, *accept_ranges;
+    char location[HTTP_BASE_SIZE + 160], etag[80], content_range[80], allow[64], link[HTTP_BASE_SIZE + 200];
+    const char *cache_control, *preference_applied, *authenticate, *accept_ranges;
     int retry_after; /* s; 0: no such header */
     bool wants_lane; /* nothing to say yet: it may take long; call the handler again with in_lane */
     double wait;     /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */

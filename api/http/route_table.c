@@ -31,4 +31,5 @@ const http_route route_table[] = {
     { "GET", "/readyz", "", show_readiness, .open = true },
     { "GET", "/metrics", "", show_metrics, .open = false },
 };
+_Static_assert(sizeof route_table / sizeof route_table[0] <= MOST_ROUTES, "what is counted by route has no room for all of them");
 const size_t route_count = sizeof route_table / sizeof route_table[0];

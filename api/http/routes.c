@@ -1,5 +1,6 @@
 #include "routes.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -9,7 +10,8 @@ static bool path_fits(const char *pattern, const char *path, http_request *reque
     while (*pattern && *path) {
         if (pattern[0] == '{') {
             const size_t length = strcspn(path, "/");
-            if (length == 0 || length >= HTTP_SEGMENT_SIZE || filled == HTTP_SEGMENTS) return false;
+            assert(filled < HTTP_SEGMENTS); /* a pattern has no more */
+            if (length == 0 || length >= HTTP_SEGMENT_SIZE) return false;
             memcpy(request->segment[filled], path, length);
             request->segment[filled++][length] = '\0';
             pattern += 2;
@@ -30,7 +32,7 @@ static const char *allowed_methods(const char *method)
 const http_route *routes_match(const http_route *table, size_t count, http_request *request, http_response *response)
 {
     const char *method = strcmp(request->method, "HEAD") == 0 ? "GET" : request->method;
-    char allowed[64] = "";
+    char allowed[sizeof response->allow] = "";
     for (size_t i = 0; i < count; i++) {
         if (!path_fits(table[i].pattern, request->path, request)) continue;
         if (strcmp(table[i].method, method) == 0) return &table[i];
@@ -39,10 +41,7 @@ const http_route *routes_match(const http_route *table, size_t count, http_reque
     }
     if (allowed[0]) {
         http_respond_problem(response, 405, NULL, "Method not allowed", "%s allows %s", request->path, allowed);
-        /* GET comes before the other in the table; then the list is one of these constants. */
-        static const char *const lists[] = { "GET, HEAD", "POST", "GET, HEAD, POST", "GET, HEAD, DELETE" };
-        for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++)
-            if (strcmp(allowed, lists[i]) == 0) response->allow = lists[i];
+        memcpy(response->allow, allowed, sizeof allowed);
     } else {
         http_respond_problem(response, 404, NULL, "Not found", "%.200s is no address of this service; / lists them", request->path);
     }

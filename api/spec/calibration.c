@@ -18,7 +18,8 @@
 
 #define FORMAT 1
 
-static const char *const law_names[CALIBRATION_LAWS] = { "walton-braun", "spring-dashpot", "hertz-mindlin" };
+const char *const contact_law_names[] = { "walton-braun", "spring-dashpot", "hertz-mindlin", NULL };
+_Static_assert(sizeof contact_law_names / sizeof *contact_law_names == CALIBRATION_LAWS + 1, "each law has a name");
 
 /* Asked once: the answer is read from a file of the system. */
 static int cores_here(void)
@@ -96,7 +97,6 @@ double calibration_seconds_a_run(const calibration *machine, const calibration_l
 
 /* --- the file --- */
 
-const char *calibration_law_name(int law) { return law_names[law]; }
 
 static bool read_text(const json_t *document, const char *name, char *text, size_t size)
 {
@@ -119,7 +119,7 @@ static bool read_costs(const json_t *costs, double cost[CALIBRATION_LAWS])
 {
     bool good = true;
     for (size_t law = 0; law < CALIBRATION_LAWS; law++)
-        good = good && read_within(json_object_get(costs, law_names[law]), COST_BOUNDS, &cost[law]);
+        good = good && read_within(json_object_get(costs, contact_law_names[law]), COST_BOUNDS, &cost[law]);
     return good;
 }
 
@@ -153,7 +153,7 @@ bool calibration_from_json(const json_t *document, calibration *machine)
 static json_t *costs_to_json(const double cost[CALIBRATION_LAWS])
 {
     json_t *costs = json_object();
-    for (size_t law = 0; law < CALIBRATION_LAWS; law++) json_object_set_new(costs, law_names[law], json_real(cost[law]));
+    for (size_t law = 0; law < CALIBRATION_LAWS; law++) json_object_set_new(costs, contact_law_names[law], json_real(cost[law]));
     return costs;
 }
 

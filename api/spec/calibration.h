@@ -48,7 +48,7 @@ double calibration_pace(const calibration *machine);
 /* s of wall time for a run of so many steps, with what it costs beside them. */
 double calibration_seconds_a_run(const calibration *machine, const calibration_load *load, double steps);
 
-const char *calibration_law_name(int law); /* as in a specification */
+extern const char *const contact_law_names[]; /* as in a specification, by dem_contact_law; ends with NULL */
 
 /* False: the document is no calibration; *machine is then the built-in one. */
 bool calibration_from_json(const json_t *document, calibration *machine);

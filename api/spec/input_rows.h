@@ -12,6 +12,7 @@
     .column = (name), .column_kind = COLUMN_##kind, .column_at = offsetof(job_spec, member)
 #define LISTED .is_listed = true
 #define IN_VIEW(place) .in_view = (place)
+#define FREE_OF_BED .is_free_of_bed = true
 #define OPEN_RANGE(low, high) .minimum = (low), .minimum_open = true, .maximum = (high)
 
 #endif

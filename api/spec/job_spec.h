@@ -16,6 +16,10 @@
 #include "dem_types.h"
 #include "problem.h"
 
+/* Numbers of JSON are doubles to most clients: whole ones up to 2^53 - 1, a seed say, come back as they were. */
+#define WHOLE_NUMBER_BITS 53
+#define LARGEST_WHOLE_NUMBER ((UINT64_C(1) << WHOLE_NUMBER_BITS) - 1)
+
 /* The inputs as asked for, with defaults. All are doubles so that one table of fields can read, write and
  * describe them; NaN: not given, because its alternative was (or, for the lining, because there is none). */
 typedef struct species_inputs {

@@ -7,7 +7,7 @@ static json_t *group_schema(const spec_table *table, spec_group group);
 
 static json_t *whole_or_real(double number)
 {
-    return number == floor(number) && fabs(number) < 9007199254740992.0 ? json_integer((json_int_t)number) : json_real(number);
+    return number == floor(number) && fabs(number) <= (double)LARGEST_WHOLE_NUMBER ? json_integer((json_int_t)number) : json_real(number);
 }
 
 static json_t *number_schema(const spec_field *field)

@@ -87,6 +87,8 @@ typedef struct spec_field {
     bool column_may_miss; /* where it is NaN, the column is null */
     int in_view;          /* the place among the columns of run_summary; 0: not there */
     bool is_listed;       /* a member of a job's summary */
+
+    bool is_free_of_bed; /* of a drum: may be another than in the run that made the bed which it starts from */
 } spec_field;
 
 typedef struct spec_table {

@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const status_names[JOB_STATUSES] = { "accepted", "running", "successful", "failed", "dismissed" };
+static const char *const status_names[] = { "accepted", "running", "successful", "failed", "dismissed" };
+_Static_assert(sizeof status_names / sizeof *status_names == JOB_STATUSES, "each status has a name");
 
 const char *job_status_name(job_status status) { return status_names[status]; }
 
@@ -34,21 +35,21 @@ static json_t *links_of(const job_record *job)
 {
     static const struct {
         const char *rel, *type, *end;
+        bool is_result;      /* there once the job has ended well */
+        const char *process; /* of this one alone; NULL: of all */
     } links[] = {
-        { "self", "application/json", "" },
-        { "http://www.opengis.net/def/rel/ogc/1.0/results", "application/json", "/results" }, /* once there are results */
-        { "spec", "application/json", "/spec" },
-        { "log", "text/plain", "/log" },
-        { "samples", "application/json", "/samples" },
-        { "snapshots", "application/json", "/snapshots" },
-        { "fields", "application/x-hdf5", "/fields.hdf" }, /* of a drum, likewise */
+        { "self", "application/json", .end = "" },
+        { "http://www.opengis.net/def/rel/ogc/1.0/results", "application/json", .end = "/results", .is_result = true },
+        { "spec", "application/json", .end = "/spec" },
+        { "log", "text/plain", .end = "/log" },
+        { "samples", "application/json", .end = "/samples" },
+        { "snapshots", "application/json", .end = "/snapshots" },
+        { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "drum" },
     };
-    enum { FIELDS = sizeof links / sizeof links[0] - 1 };
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
-        const bool is_result = i == 1 || i == FIELDS;
-        if (is_result && job->status != JOB_SUCCESSFUL) continue;
-        if (i == FIELDS && strcmp(job->process, "drum") != 0) continue;
+        if (links[i].is_result && job->status != JOB_SUCCESSFUL) continue;
+        if (links[i].process && strcmp(job->process, links[i].process) != 0) continue;
         char href[80];
         snprintf(href, sizeof href, "/jobs/%s%s", job->id, links[i].end);
         json_array_append_new(list, link_to(links[i].rel, links[i].type, href));

@@ -10,7 +10,6 @@
 
 enum { LONGEST_DESCRIPTION = 2000, MOST_COLUMNS = 200 };
 #define INPUTS "/inputs"
-#define SEED_MASK ((UINT64_C(1) << 53) - 1)
 
 /* --- reading --- */
 
@@ -81,7 +80,7 @@ static void read_base(study_spec *study, const study_options *options, problem_l
     else if (!inputs) problem_list_add(problems, "/base/inputs", "is missing; must be an object");
     else if (!json_is_object(inputs)) refuse_value(problems, "/base/inputs", inputs, "an object");
     if (json_is_object(inputs) && study->has_seed && !json_object_get(inputs, "seed"))
-        json_object_set_new(inputs, "seed", json_integer((json_int_t)(options->seed_if_missing & SEED_MASK)));
+        json_object_set_new(inputs, "seed", json_integer((json_int_t)(options->seed_if_missing & LARGEST_WHOLE_NUMBER)));
     if (json_is_object(inputs) && type && spec_field_find(type->inputs, SPEC_INPUTS, "threads")
         && !json_object_get(inputs, "threads"))
         json_object_set_new(inputs, "threads", json_integer(options->default_threads));
@@ -317,7 +316,7 @@ json_t *study_job_request(const study_spec *study, size_t index, int repeat)
     json_t *inputs = own_member(request, "inputs");
     const json_t *seed = json_object_get(inputs, "seed");
     /* A seed beyond its range stays as it is, to be refused. */
-    if (repeat > 0 && json_is_integer(seed) && json_integer_value(seed) <= (json_int_t)SEED_MASK)
+    if (repeat > 0 && json_is_integer(seed) && json_integer_value(seed) <= (json_int_t)LARGEST_WHOLE_NUMBER)
         json_object_set_new(inputs, "seed", json_integer(json_integer_value(seed) + repeat));
     return request;
 }

@@ -26,7 +26,7 @@ static const spec_field fields[] = {
     { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .spared_by = "rotation_rate_rpm", .unit = "rad/s",
       RANGE(-500.0, 500.0), .least_size = 0.001, .fallback = NAN, AT(rotation_rate),
       COLUMN("rotation_rate", REAL, inputs.rotation_rate), LISTED, IN_VIEW(150),
-      .meaning = "rate of rotation; below 0: the other way, the mirror image" },
+      FREE_OF_BED, .meaning = "rate of rotation; below 0: the other way, the mirror image" },
     { SPEC_DRUM, "rotation_rate_rpm", FIELD_REAL, .unit = "1/min", RANGE(-4770.0, 4770.0), .least_size = 0.01, .fallback = NAN,
       .excludes_too = "rotation_rate", AT(rotation_rate_rpm), .meaning = "revolutions a minute, instead of rotation_rate" },
 
@@ -73,13 +73,13 @@ static const spec_field fields[] = {
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction),
       USUAL(0.0, 1.5),
       COLUMN("wall_friction", REAL, drum.contact.wall_friction), LISTED, IN_VIEW(240),
-      .meaning = "coefficient of friction between a particle and the wall or its lining" },
+      FREE_OF_BED, .meaning = "coefficient of friction between a particle and the wall or its lining" },
     { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
       COLUMN("wall_rolling_friction", REAL, drum.contact.wall_rolling_friction), IN_VIEW(260),
-      .meaning = "coefficient of rolling friction between a particle and all that is the drum's: wall, ends, lining, lifters. "
+      FREE_OF_BED, .meaning = "coefficient of rolling friction between a particle and all that is the drum's: wall, ends, lining, lifters. "
                  "Default: none" },
     { SPEC_WALL, "end_friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(end_friction),
-      USUAL(0.0, 1.5), .meaning = "coefficient of friction between a particle and the walls at the drum's ends. Default: the wall's" },
+      USUAL(0.0, 1.5), FREE_OF_BED, .meaning = "coefficient of friction between a particle and the walls at the drum's ends. Default: the wall's" },
     { SPEC_WALL, "lining", FIELD_OBJECT_OR_NULL, SPEC_LINING, AT(lining_diameter),
       .meaning = "spheres glued to the wall, turning with it; null: a smooth wall" },
     { SPEC_LINING, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT(lining_diameter),
@@ -95,7 +95,7 @@ static const spec_field fields[] = {
     { SPEC_LIFTERS, "width", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 10.0), .fallback = NAN, AT(lifter_width),
       USUAL(1e-4, 0.5), SLIP("cm", 0.01), .meaning = "of a bar, around the wall" },
     { SPEC_LIFTERS, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(lifter_friction),
-      USUAL(0.0, 1.5), .meaning = "coefficient of friction between a particle and a bar. Default: the wall's" },
+      USUAL(0.0, 1.5), FREE_OF_BED, .meaning = "coefficient of friction between a particle and a bar. Default: the wall's" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION,
       COLUMN("duration", REAL, duration), LISTED, IN_VIEW(310), .unit = "s",

@@ -66,7 +66,7 @@ static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_
     if (isnan(inputs->end_friction) && has_end_walls(inputs)) inputs->end_friction = inputs->wall_friction;
     if (isnan(inputs->lifter_friction) && inputs->lifter_count > 0.0) inputs->lifter_friction = inputs->wall_friction;
     if (isnan(inputs->lining_pitch)) inputs->lining_pitch = inputs->lining_diameter;
-    if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & ((UINT64_C(1) << 53) - 1));
+    if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & LARGEST_WHOLE_NUMBER);
     if (isnan(inputs->sample_interval)) {
         const double revolution = 2.0 * DEM_PI / fabs(inputs->rotation_rate);
         inputs->sample_interval =

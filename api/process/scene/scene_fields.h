@@ -5,15 +5,15 @@
 
 #include <math.h>
 
+#include "dem_cluster.h"
 #include "input_rows.h"
 
 static const char *const shape_choices[] = { "sphere", "dumbbell", "tetrahedron", "cube", NULL }; /* as dem_shape counts them */
-/* in the order of dem_contact_law */
-static const char *const law_choices[] = { "walton-braun", "spring-dashpot", "hertz-mindlin", NULL };
-
 static const char *const unloading_choices[] = { "constant", "variable", NULL };
 static const char *const precision_choices[] = { "single", "double", NULL };
 static const char *const share_choices[] = { "number", "volume", "mass", NULL }; /* in the order of share_basis */
+_Static_assert(sizeof shape_choices / sizeof *shape_choices == DEM_NAMED_SHAPES + 1, "each shape has a name");
+_Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2, "each basis has a name");
 
 #define AT(member) .offset = offsetof(drum_inputs, member)
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
@@ -48,13 +48,13 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
       COLUMN("density", REAL, drum.species[0].density), LISTED, IN_VIEW(210), \
       .meaning = "density of the particle itself, not of the bed" }, \
     { SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share), \
-      .meaning = "share of the particles, by what share_by says; all shares sum to 1. Default: equal shares" }, \
+      FREE_OF_BED, .meaning = "share of the particles, by what share_by says; all shares sum to 1. Default: equal shares" }, \
     { SPEC_INPUTS, "share_by", FIELD_CHOICE, .unit = "", .choices = share_choices, AT(share_by), \
       .meaning = "what a share counts: particles, their own volume (without the pores), or their mass" }
 
 #define FIELDS_OF_CONTACT \
     { SPEC_INPUTS, "contact", FIELD_OBJECT, SPEC_CONTACT, .meaning = "contact between particles" }, \
-    { SPEC_CONTACT, "law", FIELD_CHOICE, .unit = "", .choices = law_choices, AT(contact_law), \
+    { SPEC_CONTACT, "law", FIELD_CHOICE, .unit = "", .choices = contact_law_names, AT(contact_law), \
       .meaning = "walton-braun: latching spring and incremental friction; spring-dashpot: linear springs and dashpots; " \
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
@@ -103,7 +103,7 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
     { SPEC_SAMPLES, "interval", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 0.05), .fallback = NAN, AT(sample_interval), \
       .meaning = "simulated time between measurements. Default: 0.05 s, less for fast drums and short runs" }, \
  \
-    { SPEC_INPUTS, "seed", FIELD_INTEGER, .unit = "", RANGE(0, 9007199254740991.0), .fallback = NAN, AT(seed), \
+    { SPEC_INPUTS, "seed", FIELD_INTEGER, .unit = "", RANGE(0, (double)LARGEST_WHOLE_NUMBER), .fallback = NAN, AT(seed), \
       COLUMN("seed", WHOLE, inputs.seed), LISTED, IN_VIEW(320), \
       .meaning = "of the random initial positions: the same seed gives the same run. Default: chosen at random" }, \
     { SPEC_INPUTS, "threads", FIELD_INTEGER, .unit = "", RANGE(1, 256), .fallback = 1, AT(threads), \

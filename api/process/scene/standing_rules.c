@@ -11,7 +11,7 @@
 
 void standing_derive_scene(drum_inputs *inputs, dem_drum_definition *scene, uint64_t seed_if_missing, problem_list *problems)
 {
-    if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & ((UINT64_C(1) << 53) - 1));
+    if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & LARGEST_WHOLE_NUMBER);
     *scene = (dem_drum_definition){
         .gravity = inputs->gravity,
         .corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes,

@@ -254,13 +254,10 @@ void start_check_particles(const drum_inputs *inputs, const dem_drum_definition 
 
 /* --- against the spec that made the bed --- */
 
-/* What may differ of the container and the particles: how they move and rub, and how their number was said. */
-static bool may_differ(const char *name)
-{
-    return strcmp(name, "rotation_rate") == 0 || strcmp(name, "share") == 0 || strstr(name, "friction");
-}
-
-static void compare_values(const json_t *now, const json_t *then, const char *pointer, problem_list *problems)
+/* Both are members of the group, or lie deeper in it. What may differ of the container and the particles, how they move and
+ * rub and how their number was said, is known by the rows of the table. */
+static void compare_values(const spec_table *table, spec_group group, const json_t *now, const json_t *then, const char *pointer,
+                           problem_list *problems)
 {
     char member[LONGEST_POINTER], seen[60], before[60];
     const char *name;
@@ -269,12 +266,14 @@ static void compare_values(const json_t *now, const json_t *then, const char *po
         json_object_foreach((json_t *)then, name, value)
         {
             pointer_to_member(member, pointer, name);
-            if (!may_differ(name)) compare_values(json_object_get(now, name), value, member, problems);
+            const spec_field *field = spec_field_find(table, group, name);
+            if (field && field->is_free_of_bed) continue;
+            compare_values(table, field ? field->child : group, json_object_get(now, name), value, member, problems);
         }
     } else if (json_is_array(now) && json_is_array(then) && json_array_size(now) == json_array_size(then)) {
         for (size_t k = 0; k < json_array_size(now); k++) {
             snprintf(member, sizeof member, "%.200s/%zu", pointer, k);
-            compare_values(json_array_get(now, k), json_array_get(then, k), member, problems);
+            compare_values(table, group, json_array_get(now, k), json_array_get(then, k), member, problems);
         }
     } else if (json_is_array(now) && json_is_array(then)) {
         problem_list_add(problems, pointer, "has %zu entries; must have %zu, as the bed that it starts from", json_array_size(now),
@@ -309,7 +308,9 @@ void start_compare(const job_spec *spec, const json_t *origin, problem_list *pro
     for (size_t k = 0; now && k < sizeof compared / sizeof compared[0]; k++) {
         char pointer[40];
         snprintf(pointer, sizeof pointer, "/inputs/%s", compared[k]);
-        compare_values(json_object_get(now, compared[k]), json_object_get(then, compared[k]), pointer, problems);
+        const spec_group group = spec_field_find(spec->type->inputs, SPEC_INPUTS, compared[k])->child;
+        compare_values(spec->type->inputs, group, json_object_get(now, compared[k]), json_object_get(then, compared[k]), pointer,
+                       problems);
     }
     json_decref(now);
 }

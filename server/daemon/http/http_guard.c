@@ -185,16 +185,19 @@ static bool token_matches(const char *token, const char *authorization)
     return difference == 0;
 }
 
+/* All methods but these may change something. */
+static bool only_reads(const char *method) { return strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0; }
+
 static bool admits_body(const http_headers *headers, const http_request *request, bool takes_no_body, http_response *response,
                         size_t *length)
 {
     *length = 0;
-    const bool posts = strcmp(request->method, "POST") == 0;
+    const bool sends = !only_reads(request->method) && strcmp(request->method, "DELETE") != 0;
     const bool has_none = headers->encodings == 0 && (!headers->length || strcmp(headers->length, "0") == 0);
     if (has_none && takes_no_body) return true;
-    if (headers->encodings > 0 || (posts && !headers->length))
+    if (headers->encodings > 0 || (sends && !headers->length))
         return refuse(response, 411, "Length required", "send the body with a Content-Length");
-    if (posts && !is_json(request->content_type))
+    if (sends && !is_json(request->content_type))
         return refuse(response, 415, "Not JSON", "send Content-Type: application/json; with curl: curl --json @file");
     *length = headers->length ? (size_t)strtoull(headers->length, NULL, 10) : 0;
     if (*length > HTTP_BODY_LIMIT) {
@@ -208,13 +211,12 @@ static bool admits_body(const http_headers *headers, const http_request *request
 bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
                        http_response *response, size_t *body_length)
 {
-    const bool writes = strcmp(request->method, "POST") == 0 || strcmp(request->method, "DELETE") == 0;
     if (guard->token[0] && !route->open && !token_matches(guard->token, request->authorization)) {
         refuse(response, 401, "Token needed", "send Authorization: Bearer with the token of --token-file");
         response->authenticate = "Bearer";
         return false;
     }
-    if (writes && !origin_is_ours(request))
+    if (!only_reads(request->method) && !origin_is_ours(request))
         return refuse(response, 403, "Foreign page",
                       "writes are taken from this service's own page or from programs, not from other pages");
     return admits_body(headers, request, route->bodiless, response, body_length);

@@ -26,7 +26,7 @@ static void add_headers(struct MHD_Response *reply, const http_response *respons
     add_header(reply, "Content-Range", response->content_range);
     add_header(reply, "Accept-Ranges", response->accept_ranges);
     add_header(reply, "Cache-Control", response->cache_control ? response->cache_control : "no-store");
-    add_header(reply, "Allow", response->allow);
+    add_header(reply, "Allow", response->allow[0] ? response->allow : NULL);
     add_header(reply, "Preference-Applied", response->preference_applied);
     add_header(reply, "WWW-Authenticate", response->authenticate);
     add_header(reply, "Retry-After", retry_after);

@@ -6,11 +6,11 @@
 #include "routes.h"
 #include "text_buffer.h"
 
-enum { METRICS_ROUTES = 40, METRICS_CODES = 20, METRICS_BUCKETS = 7 };
+enum { METRICS_CODES = 20, METRICS_BUCKETS = 7 };
 
 typedef struct http_metrics {
     /* [route_count] counts requests that reached no route; the last code counts all others */
-    _Atomic uint64_t requests[METRICS_ROUTES][METRICS_CODES];
+    _Atomic uint64_t requests[MOST_ROUTES + 1][METRICS_CODES];
     _Atomic uint64_t bucket[METRICS_BUCKETS]; /* by time to answer, without the time asked for by ?wait= */
     _Atomic uint64_t nanoseconds;
     _Atomic int connections;

@@ -35,6 +35,12 @@ static void take_progress(event_batch *batch, const json_t *event)
 
 static bool append(json_t *list, json_t *event) { return json_array_append(list, event) == 0; }
 
+static void keep_failure(event_batch *batch, json_t *event)
+{
+    json_decref(batch->failure);
+    batch->failure = json_incref(event);
+}
+
 /* False: no memory. */
 static bool take_event(event_batch *batch, json_t *event)
 {
@@ -45,10 +51,8 @@ static bool take_event(event_batch *batch, json_t *event)
     else if (strcmp(kind, "sample") == 0) return append(batch->samples, event);
     else if (strcmp(kind, "snapshot") == 0) return append(batch->snapshots, event);
     else if (strcmp(kind, "checkpoint") == 0) return append(batch->checkpoints, event);
-    else if (strcmp(kind, "failure") == 0 || strcmp(kind, "start") == 0) {
-        json_decref(batch->failure);
-        batch->failure = kind[0] == 'f' ? json_incref(event) : NULL; /* a new start forgets an earlier failure */
-    }
+    else if (strcmp(kind, "failure") == 0) keep_failure(batch, event);
+    else if (strcmp(kind, "start") == 0) keep_failure(batch, NULL); /* forgets an earlier one */
     return true;
 }
 

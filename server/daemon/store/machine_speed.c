@@ -17,7 +17,10 @@
 #define LEAST_CORRECTION 0.5
 #define MOST_CORRECTION 3.0
 
-enum { RUNS = 9 };
+/* So many runs are looked at. */
+#define RUNS 9
+#define TEXT_OF(number) #number
+#define AS_TEXT(number) TEXT_OF(number)
 
 static calibration calibration_of_file(const data_folder *data)
 {
@@ -59,7 +62,7 @@ static double correction_of_runs(sqlite3 *reader, const calibration *machine)
         sql_prepare(reader,
                     "SELECT r.seconds, l.spheres, l.of_particle, l.law, l.friction, l.rolling_friction, l.in_double, l.threads,"
                     " l.factor FROM (SELECT job, wall_seconds/steps AS seconds FROM run_result"
-                    "  WHERE steps>0 AND wall_seconds>" LEAST_SECONDS " ORDER BY job DESC LIMIT 9) r"
+                    "  WHERE steps>0 AND wall_seconds>" LEAST_SECONDS " ORDER BY job DESC LIMIT " AS_TEXT(RUNS) ") r"
                     " JOIN job_load l ON l.job=r.job JOIN job ON job.number=r.job WHERE job.finished>?1 AND l.law BETWEEN 0 AND 2",
                     "t", machine->made);
     if (!statement) return 1.0;

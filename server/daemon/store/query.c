@@ -13,7 +13,7 @@
 #include "log.h"
 #include "query_cost.h"
 
-enum { LONGEST_SQL = 20000 };
+enum { LONGEST_SQL = 20000, MOST_COLUMNS = 200 };
 #define QUERY_SECONDS 2.0
 #define STEPS_BETWEEN_LOOKS 200 /* of the virtual machine, some microseconds where each is short */
 
@@ -79,7 +79,7 @@ bool query_connection_restrict(job_store *store)
     static const int limits[][2] = {
         { SQLITE_LIMIT_LENGTH, QUERY_LONGEST_TEXT },
         { SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL + 10 },
-        { SQLITE_LIMIT_COLUMN, 200 },
+        { SQLITE_LIMIT_COLUMN, MOST_COLUMNS },
         { SQLITE_LIMIT_EXPR_DEPTH, 100 },
         { SQLITE_LIMIT_COMPOUND_SELECT, 20 },
         { SQLITE_LIMIT_VDBE_OP, 50000 },
@@ -145,7 +145,7 @@ static query_value value_of(sqlite3_stmt *row, int column)
 
 static int walk(sqlite3_stmt *statement, query_watch *watch, query_visitor *visit, void *context)
 {
-    query_value values[200];
+    query_value values[MOST_COLUMNS];
     const int count = sqlite3_column_count(statement);
     for (int i = 0; i < count; i++) {
         const char *name = sqlite3_column_name(statement, i);

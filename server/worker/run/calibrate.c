@@ -133,9 +133,9 @@ static bool measure_laws(const char *shape, double length, double overlap, int l
 {
     dem_drum_definition drum;
     dem_state state = { .array_count = 0 };
-    bool good = define(DRUM_DIAMETER, length, shape, calibration_law_name(0), overlap, &drum) && make_bed(&drum, &state);
+    bool good = define(DRUM_DIAMETER, length, shape, contact_law_names[0], overlap, &drum) && make_bed(&drum, &state);
     for (int law = 0; good && law < laws; law++) {
-        good = define(DRUM_DIAMETER, length, shape, calibration_law_name(law), overlap, &drum);
+        good = define(DRUM_DIAMETER, length, shape, contact_law_names[law], overlap, &drum);
         if (good) cost[law] = cost_from_bed(&drum, &state);
         good = good && cost[law] > 0.0;
     }
@@ -147,7 +147,7 @@ static double cost_of_growing(double diameter, double length, int64_t steps, dou
 {
     dem_drum_definition drum;
     dem_scene *scene;
-    if (!define(diameter, length, "sphere", calibration_law_name(0), AS_USUAL, &drum)) return 0.0;
+    if (!define(diameter, length, "sphere", contact_law_names[0], AS_USUAL, &drum)) return 0.0;
     if (dem_scene_create(&drum, &scene) != DEM_OK) return 0.0;
     *spheres = (double)dem_scene_sphere_count(scene);
     const double cost = advance_anyway(scene, 200) ? cost_of(scene, steps, advance_anyway) : 0.0;

@@ -98,6 +98,9 @@ static const http_route table[] = {
     { "GET", "/jobs/{}", "", answer_nothing, .open = false },
     { "DELETE", "/jobs/{}", "", answer_nothing, .open = false },
     { "GET", "/jobs/{}/snapshots/{}", "", answer_nothing, .open = false },
+    { "PUT", "/more", "", answer_nothing, .open = false },
+    { "PATCH", "/more", "", answer_nothing, .open = false },
+    { "POST", "/more", "", answer_nothing, .open = false },
 };
 
 static const http_route *match(const char *method, const char *path, http_request *request, int *status)
@@ -105,9 +108,10 @@ static const http_route *match(const char *method, const char *path, http_reques
     *request = (http_request){ .method = method, .path = path };
     http_response response;
     http_response_init(&response);
-    const http_route *route = routes_match(table, 3, request, &response);
+    const http_route *route = routes_match(table, sizeof table / sizeof table[0], request, &response);
     *status = route ? 0 : response.status;
-    if (response.status == 405) assert_string_equal(response.allow, "GET, HEAD, DELETE");
+    if (response.status == 405)
+        assert_string_equal(response.allow, strcmp(path, "/more") == 0 ? "PUT, PATCH, POST" : "GET, HEAD, DELETE");
     http_response_clear(&response);
     return route;
 }
@@ -123,6 +127,8 @@ static void routes_fill_in_segments(void **state)
     assert_ptr_equal(match("HEAD", "/jobs/abc", &request, &status), &table[0]);
     assert_ptr_equal(match("DELETE", "/jobs/abc", &request, &status), &table[1]);
     assert_null(match("PUT", "/jobs/abc", &request, &status));
+    assert_int_equal(status, 405);
+    assert_null(match("GET", "/more", &request, &status));
     assert_int_equal(status, 405);
     static const char *const unknown[] = { "/jobs",
                                            "/jobs/",
