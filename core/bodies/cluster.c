@@ -1,5 +1,6 @@
 #include "cluster.h"
 
+#include "array.h"
 #include "dem_cluster.h"
 
 /* Lattice shapes come out equal to rounding; what the integral over an overlap leaves is 1e-6 and stays. */

@@ -1,5 +1,6 @@
 #include "spheres.h"
 
+#include "array.h"
 #include "dem_rules.h"
 
 /* Of 2,300 all that a step needs is in the second-level cache; of 24,000 it is in the third; of 100,000 it is in none, but

@@ -1,5 +1,7 @@
 #include "cell_grid.h"
 
+#include "array.h"
+
 /* Small spheres may be few in a wide box: larger cells than theirs are right, too, and cost less than many empty ones. */
 enum { MOST_CELLS_A_SIDE = 1024, MOST_CELLS_A_SPHERE = 32 };
 

@@ -1,5 +1,7 @@
 #include "contact_list.h"
 
+#include "array.h"
+
 dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants)
 {
     memset(list, 0, sizeof *list);

@@ -1,5 +1,7 @@
 #include "contact_parts.h"
 
+#include "array.h"
+
 void contact_parts_init(contact_parts *parts, size_t most_spheres)
 {
     memset(parts, 0, sizeof *parts);

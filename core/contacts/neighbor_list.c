@@ -2,6 +2,7 @@
 
 #include <stdbool.h>
 
+#include "array.h"
 #include "contact_constants.h"
 #include "dem_rules.h"
 #include "wall_reach.h"

@@ -1,5 +1,6 @@
 #include "density_grid.h"
 
+#include "array.h"
 #include "dem_rules.h"
 #include "statistics.h"
 
@@ -57,7 +58,8 @@ static void kernel_fill(density_grid *grid, size_t kernel, double diameter, doub
 
 /* One kernel for each diameter that a species' spheres have. Spheres that overlap in a cluster count for less, so that
  * together they have its volume. Returns how many kernels are in use then. */
-static size_t species_kernels(density_grid *grid, const dem_drum_definition *definition, size_t k, size_t used, const disc_points *disc)
+static size_t species_kernels(density_grid *grid, const dem_drum_definition *definition, size_t k, size_t used,
+                              const disc_points *disc)
 {
     const dem_species *species = &definition->species[k];
     const dem_cluster *cluster = &species->cluster;
@@ -73,8 +75,7 @@ static size_t species_kernels(density_grid *grid, const dem_drum_definition *def
         size_t like = 0;
         while (cluster->sphere[like].diameter != cluster->sphere[m].diameter) like++;
         of[m] = like < m ? of[like] : (int32_t)used;
-        if (like == m)
-            kernel_fill(grid, used++, cluster->sphere[m].diameter, definition->length * volume / cluster->volume, disc);
+        if (like == m) kernel_fill(grid, used++, cluster->sphere[m].diameter, definition->length * volume / cluster->volume, disc);
     }
     return used;
 }
@@ -136,12 +137,14 @@ static bool more_tiles(density_grid *grid)
     if (tile) grid->tile = tile;
     int32_t *slot = realloc(grid->slot, 4 * capacity * sizeof *slot);
     if (slot) grid->slot = slot;
-    if (!tile || !slot) return false;
+    if (!tile || !slot) {
+        arrays_refused();
+        return false;
+    }
     grid->tile_capacity = capacity;
     grid->slot_count = 4 * capacity;
     memset(grid->slot, 0xff, grid->slot_count * sizeof *slot);
-    for (size_t k = 0; k < grid->tile_count; k++)
-        grid->slot[slot_of(grid, grid->tile[k].column, grid->tile[k].row)] = (int32_t)k;
+    for (size_t k = 0; k < grid->tile_count; k++) grid->slot[slot_of(grid, grid->tile[k].column, grid->tile[k].row)] = (int32_t)k;
     return true;
 }
 

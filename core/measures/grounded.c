@@ -1,5 +1,7 @@
 #include "grounded.h"
 
+#include "array.h"
+
 static const double GAP = 0.1; /* of the grain */
 
 /* Spheres in linked cells over the box that they take up, and those found whose neighbors are still to be looked at. */

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "array.h"
 #include "dem_rules.h"
 #include "statistics.h"
 
@@ -42,7 +43,7 @@ dem_status height_map_init(height_map *map, const dem_mound *mound, double half_
     map->size = 2 * half_width / all;
     map->cells = (int)(all - 2 * fmax(floor(0.5 * all - kept / map->size), 0.0));
     map->reach = height_map_reach(mound);
-    map->value = calloc((size_t)map->cells * (size_t)map->cells, sizeof *map->value);
+    map->value = array_create((size_t)map->cells * (size_t)map->cells, sizeof *map->value);
     if (!map->value) return DEM_NO_MEMORY;
     for (size_t i = 0; i < mound->count; i++) add_sphere(map, mound->position + 3 * i, mound->radius[i]);
     return DEM_OK;

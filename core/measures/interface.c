@@ -1,5 +1,6 @@
 #include "interface.h"
 
+#include "array.h"
 #include "statistics.h"
 
 typedef struct interface_layout {
@@ -57,8 +58,7 @@ static double height_in_frame(const interface_layout *layout, const double *fram
 /* Of one column in all frames: heights (window->count) m. */
 static void heights_of_column(const interface_layout *layout, const frame_window *window, size_t column, double *heights)
 {
-    for (size_t k = 0; k < window->count; k++)
-        heights[k] = height_in_frame(layout, window->frames + k * window->width, column);
+    for (size_t k = 0; k < window->count; k++) heights[k] = height_in_frame(layout, window->frames + k * window->width, column);
 }
 
 double interface_chord_angle(const dem_scene *scene, const frame_window *window)

@@ -1,5 +1,6 @@
 #include "measure.h"
 
+#include "array.h"
 #include "interface.h"
 #include "statistics.h"
 
@@ -18,7 +19,7 @@ const char *dem_frame_scalar_name(size_t index)
 
 double *frame_window_column(const frame_window *window, size_t column)
 {
-    double *values = malloc((window->count ? window->count : 1) * sizeof *values);
+    double *values = array_create(window->count ? window->count : 1, sizeof *values);
     for (size_t k = 0; values && k < window->count; k++) values[k] = window->frames[k * window->width + column];
     return values;
 }
@@ -58,7 +59,7 @@ static void join_contacts(const spheres *s, int32_t *contacts)
     }
 }
 
-dem_status dem_frame_measure(dem_scene *scene, double *frame)
+static dem_status measure_frame(dem_scene *scene, double *frame)
 {
     const size_t n = scene->spheres.mobile_count;
     int32_t *contacts = array_create(n, sizeof *contacts);
@@ -77,6 +78,12 @@ dem_status dem_frame_measure(dem_scene *scene, double *frame)
     }
     free(contacts);
     return status;
+}
+
+dem_status dem_frame_measure(dem_scene *scene, double *frame)
+{
+    arrays_begin();
+    return arrays_end(measure_frame(scene, frame));
 }
 
 bool measure_comes_in_falls(dem_regime regime) { return regime == DEM_SLUMPING || regime == DEM_AVALANCHING; }
@@ -142,6 +149,7 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
 {
     enum { LEAST_FRAMES = 8 };
     if (count < LEAST_FRAMES) return DEM_TOO_FEW_FRAMES;
+    arrays_begin();
     memset(results, 0, sizeof *results);
     const frame_window all = { frames, count, dem_frame_width(scene) };
     dem_slumps falls;
@@ -159,5 +167,5 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
     results->packing.overlap_99 = frame_window_mean(&window, FRAME_OVERLAP_99);
     measure_drive_results(scene, &window, &results->drive);
     claim_what_a_repeat_would_show(results);
-    return measure_segregation_results(scene, &results->segregation);
+    return arrays_end(measure_segregation_results(scene, &results->segregation));
 }

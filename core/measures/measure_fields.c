@@ -5,6 +5,7 @@
  * that a cell sees lie up to half a diameter around it, where the mean velocity is another: a cell therefore keeps the
  * moments of centres and velocities, and a plane through them gives the velocity at the cell's own centre and, as what is
  * left, the fluctuation about it. A bed that turns rigidly has omega x r, and no fluctuation, to rounding. */
+#include "array.h"
 #include "dem_rules.h"
 #include "density_grid.h"
 #include "measure.h"

@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "array.h"
 #include "dem_rules.h"
 #include "height_map.h"
 #include "statistics.h"
@@ -110,6 +111,7 @@ static void measure_packing(const dem_mound *mound, double radius, dem_fill_resu
 dem_status dem_fill_measure(const dem_mound *mound, double cylinder_radius, dem_fill_results *results)
 {
     height_map map;
+    arrays_begin();
     memset(results, 0, sizeof *results);
     const dem_status status = height_map_init(&map, mound, cylinder_radius, cylinder_radius);
     if (status != DEM_OK) return status;
@@ -129,5 +131,5 @@ dem_status dem_fill_measure(const dem_mound *mound, double cylinder_radius, dem_
     results->angle[DEM_CENTER_TO_WALL].standard_error_deg = results->angle[DEM_AREA_FIT].standard_error_deg = NAN;
     if (mound->count < DEM_LEAST_BED_PARTICLES || results->height < DEM_LEAST_BED_LAYERS * mound->grain)
         for (int m = 0; m < DEM_FILL_METHODS; m++) results->angle[m] = (dem_angle){ NAN, NAN, NAN, NAN };
-    return DEM_OK;
+    return arrays_end(DEM_OK);
 }

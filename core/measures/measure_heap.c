@@ -3,6 +3,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "array.h"
 #include "dem_rules.h"
 #include "height_map.h"
 #include "statistics.h"
@@ -87,7 +88,7 @@ static double silhouette_angle(const height_map *map, double azimuth, double lev
 static dem_status measure_silhouette(const height_map *map, double level, dem_angle *angle)
 {
     const int bins = map->cells; /* of two cells: enough for the diagonal */
-    double *outline = malloc((size_t)bins * sizeof *outline), radians[DEM_AZIMUTHS];
+    double *outline = array_create((size_t)bins, sizeof *outline), radians[DEM_AZIMUTHS];
     if (!outline) return DEM_NO_MEMORY;
     for (int a = 0; a < DEM_AZIMUTHS; a++) radians[a] = silhouette_angle(map, DEM_PI * a / DEM_AZIMUTHS, level, outline, bins);
     free(outline);
@@ -139,6 +140,7 @@ dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, double 
     const double level = fmax(rim_height, 0.5 * mound->grain);
     double rings[DEM_PROFILE_POINTS][DEM_AZIMUTHS];
     height_map map;
+    arrays_begin();
     set_nothing_known(results);
     /* Of a plate too wide for rings of one grain the bare part is left out; no measure looks beyond the ring after the last
      * that a grain is in. */
@@ -158,5 +160,5 @@ dem_status dem_heap_measure(const dem_mound *mound, double plate_radius, double 
     height_map_clear(&map);
     claim_what_a_repeat_would_show(results);
     if (mound->count < DEM_LEAST_BED_PARTICLES) set_no_angles(results);
-    return status;
+    return arrays_end(status);
 }

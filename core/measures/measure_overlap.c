@@ -1,6 +1,8 @@
 /* How soft the bed is: overlaps of the contacts between its spheres. */
 #include "measure.h"
 
+#include "array.h"
+
 /* Share of the touching contacts that the percentile leaves above it. */
 static const double TAIL = 0.01;
 

@@ -1,4 +1,5 @@
 /* The angle of repose under every definition in use. How each is computed: core/NUMERICS.md, "Angles". */
+#include "array.h"
 #include "dem_rules.h"
 #include "density_grid.h"
 #include "interface.h"

@@ -1,4 +1,5 @@
 /* Segregation of the species by size: radial, axial, and Lacey's mixing index. */
+#include "array.h"
 #include "dem_rules.h"
 #include "density_grid.h"
 #include "measure.h"

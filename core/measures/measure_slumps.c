@@ -5,6 +5,7 @@
  * quartiles, whichever is more: a saw-tooth's quartiles are half its height apart, so that teeth above 0.43 of the usual
  * height are seen, and one large fall does not hide the others. A bed that begins at rest climbs to its first fall: the
  * quartiles leave that climb out. */
+#include "array.h"
 #include "measure.h"
 #include "statistics.h"
 

@@ -1,6 +1,7 @@
 /* From a scene to its heap or bed: who belongs to it, frames of measurement, and whether the test is over. */
 #include <math.h>
 
+#include "array.h"
 #include "dem_mound.h"
 #include "dem_rules.h"
 #include "grounded.h"
@@ -261,6 +262,8 @@ static dem_angle angle_while_filling(const double *frames, size_t count, double 
 dem_status dem_fill_scene_measure(const dem_scene *scene, const double *frames, size_t count, dem_fill_results *results,
                                   dem_angle *while_filling, dem_standing *standing)
 {
+    arrays_begin();
     *while_filling = angle_while_filling(frames, count, (double)scene->definition.particle_count);
-    return measure_bed(scene, results, standing);
+    const dem_status status = arrays_end(DEM_OK);
+    return status == DEM_OK ? measure_bed(scene, results, standing) : status;
 }

@@ -1,6 +1,12 @@
 /* Memory for wide loops. */
 #define _DEFAULT_SOURCE /* madvise */
+#include "array.h"
+
 #include <malloc.h>
+#include <stdbool.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/mman.h>
 
 #include "real.h"
@@ -17,13 +23,27 @@ void arrays_prepare(void)
     mallopt(M_TRIM_THRESHOLD, 2 * LARGE);
 }
 
+static _Thread_local bool was_refused;
+
+void arrays_begin(void) { was_refused = false; }
+
+void arrays_refused(void) { was_refused = true; }
+
+dem_status arrays_end(dem_status status) { return status == DEM_OK && was_refused ? DEM_NO_MEMORY : status; }
+
+static void *refuse(void)
+{
+    arrays_refused();
+    return NULL;
+}
+
 void *array_create(size_t count, size_t size)
 {
-    if (size && count > (SIZE_MAX - HUGE_PAGE - FETCHED_AHEAD) / size) return NULL;
+    if (size && count > (SIZE_MAX - HUGE_PAGE - FETCHED_AHEAD) / size) return refuse();
     const size_t alignment = count * size < LARGE ? ALIGNMENT : HUGE_PAGE;
     const size_t bytes = (count * size + FETCHED_AHEAD + alignment - 1) / alignment * alignment;
     void *memory = aligned_alloc(alignment, bytes);
-    if (!memory) return NULL;
+    if (!memory) return refuse();
     /* Thousands of spheres apart from each other are read at once: with small pages their addresses miss. If there are no huge
      * pages, it is as it was. */
     if (alignment == HUGE_PAGE) madvise(memory, bytes, MADV_HUGEPAGE);

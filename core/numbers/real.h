@@ -144,11 +144,4 @@ static inline real inverse_fourth_root(real x)
     return y;
 }
 
-/* Zeroed, aligned to a cache line, large ones in huge pages where there are any; NULL when out of memory; freed with
- * free() (array.c). */
-void *array_create(size_t count, size_t size);
-/* Once, before other threads are at work: what is freed of large arrays goes back to the system. Their sizes vary, and would
- * leave holes. */
-void arrays_prepare(void);
-
 #endif

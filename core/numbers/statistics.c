@@ -1,5 +1,7 @@
 #include "statistics.h"
 
+#include "array.h"
+
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -104,7 +106,7 @@ double statistics_standard_error(const double *x, size_t count)
     size_t n = 0;
     for (size_t k = 0; k < count; k++) n += !isnan(x[k]);
     if (n < LEAST_VALUES) return NAN;
-    double *values = malloc(count * sizeof *values);
+    double *values = array_create(count, sizeof *values);
     if (!values) return NAN;
     memcpy(values, x, count * sizeof *values);
     while (count > MOST_VALUES) count = average_pairs(values, count);
@@ -193,7 +195,7 @@ double statistics_student_95(double freedom)
 double statistics_theil_sen(const double *x, const double *y, size_t count)
 {
     if (count < 2) return NAN;
-    double *slopes = malloc(count * (count - 1) / 2 * sizeof *slopes);
+    double *slopes = array_create(count * (count - 1) / 2, sizeof *slopes);
     if (!slopes) return NAN;
     size_t n = 0;
     for (size_t a = 0; a < count; a++)

@@ -1,5 +1,6 @@
 #include "filling.h"
 
+#include "array.h"
 #include "dem_rules.h"
 
 /* Solid fraction of the region that spheres grow into, and the one at which random placing one after the other

@@ -1,5 +1,7 @@
 #include "lost.h"
 
+#include "array.h"
+
 enum { STEPS_BETWEEN_LOOKS = 50 };
 
 /* Distance between places on the tray: nobody can reach a neighbor. */

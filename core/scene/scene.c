@@ -1,5 +1,6 @@
 #include "scene.h"
 
+#include "array.h"
 #include "dem_rules.h"
 #include "lost.h"
 #include "parameters.h"

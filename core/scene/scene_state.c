@@ -2,6 +2,7 @@
  * no result depends on when they were made (core/contacts/contact_list.h). */
 #include "scene_state.h"
 
+#include "array.h"
 #include "lost.h"
 #include "sorting.h"
 #include "step.h"

@@ -1,5 +1,7 @@
 #include "sorting.h"
 
+#include "array.h"
+
 /* Between two sorts a drum turns by a tenth of a radian or so. Fewer than LEAST fit into the cache in any order. */
 enum { STEPS_BETWEEN_SORTS = 8192, LEAST = 1500, MOST_CELLS_A_SIDE = 512 };
 

@@ -8,6 +8,7 @@
  */
 #include "step.h"
 
+#include "array.h"
 #include "contact_forces.h"
 #include "failure.h"
 #include "filling.h"

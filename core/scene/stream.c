@@ -1,5 +1,6 @@
 #include "stream.h"
 
+#include "array.h"
 #include "dem_stream.h"
 #include "random.h"
 

@@ -1,5 +1,6 @@
 /* Claims about the grid of cells: it finds every pair within reach, once, however few cells the period has and however far
  * sizes are apart. */
+#include "array.h"
 #include "cell_grid.h"
 #include "core_claims.h"
 

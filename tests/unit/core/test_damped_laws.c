@@ -2,6 +2,7 @@
  * scalar law. Impacts are integrated here, by leap-frog with thousands of steps a collision. */
 #include "core_claims.h"
 
+#include "array.h"
 #include "contact_block.h"
 #include "contact_law.h"
 #include "dem_rules.h"

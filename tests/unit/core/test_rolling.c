@@ -1,5 +1,6 @@
 /* Claims about rolling friction: the increment by itself against its closed forms (core/NUMERICS.md), many contacts at
  * once against one, and bodies that roll, spin and rest in the scene's own step. */
+#include "array.h"
 #include "contact_block.h"
 #include "scene_by_hand.h"
 #include "small_drum.h"
