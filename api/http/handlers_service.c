@@ -8,6 +8,7 @@
 
 #include "handlers.h"
 #include "openapi_outline.h"
+#include "openapi_schemas.h"
 #include "status_info.h"
 
 static bool send_page_file(api_service *service, const http_request *request, http_response *response, const char *name,
@@ -72,6 +73,24 @@ static void show_outline(http_response *response)
     response->content_type = "application/vnd.oai.openapi+json;version=3.0";
 }
 
+/* The file, with the schemas of this very program; where it has them already it is sent as it is. */
+static void respond_document(const http_request *request, http_response *response, int file)
+{
+    static const char type[] = "application/vnd.oai.openapi;version=3.1";
+    text_buffer read, whole;
+    text_buffer_init(&whole, 4 << 20);
+    const bool differs = openapi_read(file, &read) && read.text && openapi_write(read.text, read.length, &whole)
+                         && (whole.length != read.length || memcmp(whole.text, read.text, read.length) != 0);
+    text_buffer_clear(&read);
+    if (differs) {
+        close(file);
+        http_respond_text(response, 200, type, whole.text, whole.length);
+        return;
+    }
+    text_buffer_clear(&whole);
+    http_respond_file(request, response, file, type, HTTP_FILE_CHANGING);
+}
+
 void show_api(api_service *service, const http_request *request, http_response *response)
 {
     if (http_request_parameter(request, "f")) {
@@ -82,7 +101,7 @@ void show_api(api_service *service, const http_request *request, http_response *
     if (file < 0)
         http_respond_problem(response, 404, NULL, "No OpenAPI document", "the file of --api-file can't be read: %s",
                              strerror(errno));
-    else http_respond_file(request, response, file, "application/vnd.oai.openapi;version=3.1", HTTP_FILE_CHANGING);
+    else respond_document(request, response, file);
 }
 
 /* The kinds of file a page is made of; anything else in the folder stays inside. NULL: not one of them. */

@@ -96,6 +96,8 @@ static json_t *group_schema(const spec_table *table, spec_group group)
     return schema;
 }
 
+json_t *process_inputs_schema(const process_type *process) { return group_schema(process->inputs, SPEC_INPUTS); }
+
 static json_t *inputs_description(const spec_table *table)
 {
     json_t *inputs = json_object();

@@ -31,6 +31,9 @@ struct process_type {
 extern const process_type *const process_types[];        /* ends with NULL */
 const process_type *process_type_find(const char *name); /* NULL: unknown */
 
+/* JSON Schema of all its inputs. New reference; process_description.c */
+json_t *process_inputs_schema(const process_type *process);
+
 /* "1.5 hours" */
 enum { TIME_IN_WORDS_SIZE = 40 };
 void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE]); /* job_warnings.c */

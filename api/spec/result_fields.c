@@ -12,9 +12,17 @@ static const char *const nullable_types[] = {
 
 static json_t *warnings_schema(const result_field *field)
 {
-    return json_pack("{s:s, s:s, s:{s:s, s:[s, s], s:{s:{s:s, s:s}, s:{s:s}}}}", "type", "array", "description", field->meaning,
+    return json_pack("{s:s, s:s, s:{s:s, s:[s, s], s:{s:{s:s, s:s}, s:{s:s}}, s:b}}", "type", "array", "description", field->meaning,
                      "items", "type", "object", "required", "field", "text", "properties", "field", "type", "string",
-                     "description", "JSON Pointer into the results", "text", "type", "string");
+                     "description", "JSON Pointer into the results", "text", "type", "string", "additionalProperties", 0);
+}
+
+static json_t *words_or_null(const char *const *choices)
+{
+    json_t *words = json_array();
+    for (size_t c = 0; choices[c]; c++) json_array_append_new(words, json_string(choices[c]));
+    json_array_append_new(words, json_null());
+    return words;
 }
 
 static json_t *field_schema(const result_field *field)
@@ -28,6 +36,7 @@ static json_t *field_schema(const result_field *field)
     else type = json_pack("[s, s]", nullable_types[field->kind], "null");
     json_object_set_new(schema, "type", type);
     if (*field->unit) json_object_set_new(schema, "x-unit", json_string(field->unit));
+    if (field->choices) json_object_set_new(schema, "enum", words_or_null(field->choices));
     return schema;
 }
 

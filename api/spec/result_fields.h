@@ -23,6 +23,7 @@ typedef struct result_field {
     result_kind kind;
     size_t offset; /* in the process's struct of results */
     const char *unit, *meaning;
+    const char *const *choices; /* the words that a text may be, ends with NULL; NULL: any */
 
     /* In SQL. Processes that have an output of the same name share its table: what one row says of a column holds for all. */
     bool is_stored;        /* a column of the table <output>_result, named name or group_name */

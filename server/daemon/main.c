@@ -14,6 +14,7 @@
 #include "folder_remover.h"
 #include "http_server.h"
 #include "log.h"
+#include "openapi_schemas.h"
 #include "readiness.h"
 
 #define SECONDS_TO_END 25.0 /* after the signal, whatever hangs */
@@ -146,6 +147,7 @@ static bool open_parts(parts *all)
 int main(int argc, char **argv)
 {
     static parts all;
+    if (argc == 3 && strcmp(argv[1], "openapi") == 0) return openapi_file_update(argv[2]) ? 0 : 1;
     const enum config_outcome outcome = config_read(&all.settings, argc, argv);
     if (outcome != CONFIG_SERVE) return outcome == CONFIG_SHOWN ? 0 : 2;
     keep_memory_small();

@@ -3,13 +3,15 @@ the document says; every address the daemon knows is in the document; the inputs
 description."""
 import json
 import re
+import subprocess
+import textwrap
 from pathlib import Path
 
 import jsonschema
 import pytest
 import requests
 import yaml
-from conftest import SPEC
+from conftest import BUILD, SPEC, run_daemon
 
 ROOT = Path(__file__).resolve().parents[2]
 ENDLESS = SPEC | {"duration": {"seconds": 2000.0}, "snapshots": {"interval": 0}}
@@ -309,3 +311,26 @@ def test_examples_are_valid(contract):
         contract.validate(json.loads(example.read_text()), study)
     with pytest.raises(jsonschema.ValidationError):
         contract.validate({"inputs": SPEC | {"colour": "red"}}, execute)
+
+
+def test_the_program_writes_the_schemas_of_inputs_and_results_into_the_document(contract, tmp_path):
+    """The file is what the program makes of it; what is by hand stays, and what is missing or stale is made anew."""
+    document = ROOT / "api/openapi.yaml"
+    by_hand, line = document.read_text().split("    # From here on", 1)
+    for name, text in (("current", document.read_text()), ("stale", f"{by_hand}    # From here on{line.splitlines()[0]}\n    Old: {{}}\n")):
+        copy = tmp_path / f"{name}.yaml"
+        copy.write_text(text)
+        assert subprocess.run([BUILD / "reposed", "openapi", copy], check=False).returncode == 0
+        assert copy.read_text() == document.read_text(), name
+    (tmp_path / "other.yaml").write_text("openapi: 3.1.0\n")
+    assert subprocess.run([BUILD / "reposed", "openapi", tmp_path / "other.yaml"], stderr=subprocess.DEVNULL, check=False).returncode == 1
+    assert (tmp_path / "other.yaml").read_text() == "openapi: 3.1.0\n"
+    written = set(yaml.safe_load(textwrap.dedent(line.split("\n", 1)[1])))
+    assert {f"{name}{what}" for _, name in PROCESSES for what in ("Inputs", "Results")} | {"Summary", "ProcessId", "Results"} == written
+
+
+def test_a_stale_document_is_served_with_the_schemas_of_the_program(tmp_path, contract):
+    document = (ROOT / "api/openapi.yaml").read_text()
+    (tmp_path / "stale.yaml").write_text(document.split("    ProcessId:")[0])
+    for daemon in run_daemon(tmp_path, options=["--api-file", str(tmp_path / "stale.yaml")]):
+        assert yaml.safe_load(daemon.get("/api").text) == contract.document

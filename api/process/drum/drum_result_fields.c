@@ -17,6 +17,8 @@
 #define TEXT_OF(number) #number
 #define LEAST(number) "; least for a verdict: " TEXT_OF(number)
 
+static const char *const verdicts[] = { "steady", "drifting", "too-short", "too-few", NULL };
+
 static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees", .meaning = "dynamic angle of repose, mean",
       IN_VIEW(400), LISTED, IN_STUDY(10), RUN_ERROR("standard_error_deg") },
@@ -33,7 +35,7 @@ static const result_field fields[] = {
     { "repose", NULL, "verdict", RESULT_TEXT, offsetof(drum_result, verdict), "",
       .meaning = "steady; drifting, which includes slumps and avalanches; too-short or too-few (particles, layers) to tell; null: the bed "
       "has no surface",
-      IN_VIEW(450), LISTED, IN_STUDY(3) },
+      .choices = verdicts, IN_VIEW(450), LISTED, IN_STUDY(3) },
     { "repose", NULL, "drift_deg_per_revolution", RESULT_REAL, REPOSE(drift_deg_per_revolution), "degrees",
       .meaning = "slope of the angle over the window; null: too short to tell",
       IN_VIEW(460), IN_STUDY(40) },

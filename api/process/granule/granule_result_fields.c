@@ -8,6 +8,8 @@
 #define HERE(member) offsetof(granule_result, member)
 #define RUN(member) offsetof(granule_result, run.member)
 
+static const char *const regimes[] = { "slipping", "raining", "sliding", "centrifuging", NULL };
+
 static const result_field fields[] = {
     { "granule", NULL, "minimum_omega2", RESULT_REAL, SOLVED(minimum_omega2), "",
       .meaning = "least omega^2 R/g at which the particle keeps contact round the cylinder",
@@ -32,7 +34,7 @@ static const result_field fields[] = {
     { "granule", "deviations", "sliding_eq36", RESULT_REAL, SOLVED(sliding_deviation_eq36), "", .meaning = "of Eqns 36-37, likewise" },
 
     { "regime", NULL, "name", RESULT_TEXT, HERE(regime), "",
-      .meaning = "slipping: slides back before the horizontal and never goes round; raining: falls off the wall; sliding: goes round, "
+      .choices = regimes, .meaning = "slipping: slides back before the horizontal and never goes round; raining: falls off the wall; sliding: goes round, "
       "slipping; centrifuging: never slips; null: no rotation_rate was given" },
     { "regime", NULL, "omega2_outer", RESULT_REAL, MOTION(omega2), "", .meaning = "omega^2 R/g at the rate given" },
     { "regime", "evidence", "keeps_contact", RESULT_MAYBE, HERE(keeps_contact), "", .meaning = "the wall pushes it at all times" },

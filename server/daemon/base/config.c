@@ -13,6 +13,7 @@
 static const char usage[] = "reposed: virtual rotary-drum tests over HTTP\n"
                             "\n"
                             "  reposed serve [options]     run the service until SIGTERM, SIGINT or the like\n"
+                            "  reposed openapi FILE        write the schemas of inputs and results into an OpenAPI document\n"
                             "  reposed --help | --version\n"
                             "\n"
                             "  --host ADDRESS       where to listen (127.0.0.1); beyond loopback needs --token-file\n"
