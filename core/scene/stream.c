@@ -4,7 +4,7 @@
 #include "dem_stream.h"
 #include "random.h"
 
-enum { TRIES_A_STEP = 50 };
+enum { TRIES_A_STEP = 50, MOST_AT_INLET = 1024 };
 
 void stream_complete_species(dem_drum_definition *definition)
 {
@@ -58,10 +58,29 @@ static void set_inside(dem_scene *scene, size_t particles)
 
 static size_t inside(const dem_scene *scene) { return particles_count(&scene->spheres); }
 
-/* Nothing inside reaches into the sphere about x that holds the particle. */
-static bool is_free(const spheres *s, const double x[3], double reach)
+/* Spheres that may reach into a particle at the inlet's height, for all tries; more than these: all there are are looked at. */
+typedef struct at_inlet {
+    size_t count;
+    int32_t sphere[MOST_AT_INLET];
+} at_inlet;
+
+static void find_at_inlet(at_inlet *near, const spheres *s, double reach, double height)
 {
-    for (size_t i = 0; i < s->mobile_count; i++) {
+    near->count = 0;
+    for (size_t i = 0; i < s->mobile_count && near->count <= MOST_AT_INLET; i++) {
+        if (!(fabs(s->place[i][2] - height) < reach + sphere_radius(s, i))) continue;
+        if (near->count < MOST_AT_INLET) near->sphere[near->count] = (int32_t)i;
+        near->count++;
+    }
+}
+
+/* Nothing inside reaches into the sphere about x that holds the particle. */
+static bool is_free(const spheres *s, const at_inlet *near, const double x[3], double reach)
+{
+    const bool are_listed = near->count <= MOST_AT_INLET;
+    const size_t count = are_listed ? near->count : s->mobile_count;
+    for (size_t k = 0; k < count; k++) {
+        const size_t i = are_listed ? (size_t)near->sphere[k] : k;
         const double *o = sphere_place(s, i), e[3] = { o[0] - x[0], o[1] - x[1], o[2] - x[2] };
         const double apart = reach + sphere_radius(s, i);
         if (e[0] * e[0] + e[1] * e[1] + e[2] * e[2] < apart * apart) return false;
@@ -72,12 +91,14 @@ static bool is_free(const spheres *s, const double x[3], double reach)
 static bool find_place(const dem_scene *scene, double reach, double height, random_stream *random, double x[3])
 {
     const double room = 0.5 * scene->definition.stream.diameter - reach;
+    at_inlet near;
+    find_at_inlet(&near, &scene->spheres, reach, height);
     for (int k = 0; k < TRIES_A_STEP; k++) {
         const double r = room * sqrt(random_uniform(random)), turn = 2 * DEM_PI * random_uniform(random);
         x[0] = r * cos(turn);
         x[1] = r * sin(turn);
         x[2] = height;
-        if (is_free(&scene->spheres, x, reach)) return true;
+        if (is_free(&scene->spheres, &near, x, reach)) return true;
     }
     return false;
 }
