@@ -5,7 +5,7 @@
 
 job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine) { return spec->type->estimate(spec, machine); }
 
-/* The file's structure and the fields over the cross-section; each sphere with its three contacts. */
+/* The file's structure; each sphere with its three contacts. */
 #define CHECKPOINT_FILE_BYTES 100e3
 #define CHECKPOINT_SPHERE_BYTES 350.0
 /* Less than that is not too much for any disk: where it doesn't fit the disk is full, and that is said. */

@@ -14,6 +14,8 @@
 #define FRAME_NUMBERS_PER_DIAMETER 4.0
 /* A cell of the fields: its sums, what is told from them, and both on their way to the disk. */
 #define FIELD_CELL_BYTES 272.0
+/* The sums alone, in a checkpoint. */
+#define CHECKPOINT_CELL_BYTES 136.0
 /* s: it counts where spheres are few. */
 #define FIELD_CELL_SECONDS 2.5e-6
 
@@ -66,7 +68,7 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
                             + calibration_seconds_a_run(machine, &estimate.load, estimate.steps);
     const double frames = frame_bytes * spec->duration / spec->sample_interval;
     estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum)) + FIELD_CELL_BYTES * field_cells + frames;
-    estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames);
+    estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames) + CHECKPOINT_CELL_BYTES * field_cells;
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;
 }
