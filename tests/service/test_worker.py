@@ -448,3 +448,13 @@ def test_too_little_memory_is_said_so(tmp_path):
     code, _, stderr = run(write_spec(tmp_path, spec), tmp_path / "job", preexec_fn=limit)
     assert code == 6, stderr
     assert events(tmp_path / "job", "failure")[0]["status"] == "no-memory"
+
+
+def test_what_a_checkpoint_takes_is_estimated(tmp_path):
+    """Most of this one are the sums of its fields' 120 x 120 cells, since few particles lie in a wide drum."""
+    spec = {"inputs": {"drum": {"diameter": 0.12, "length": 0.006, "rotation_rate": 1}, "particles": [{"diameter": 0.002}],
+                       "fill_fraction": 0.1, "contact": {"maximum_overlap": 0.05}, "duration": {"seconds": 0.1}}}
+    estimated = json.loads(check(json.dumps(spec))[1])["estimate"]["checkpoint_bytes"]
+    code, _, stderr = run(write_spec(tmp_path, spec), tmp_path / "job", "--checkpoint-seconds", 0)
+    assert code == 0, stderr
+    assert (tmp_path / "job" / "checkpoint.hdf").stat().st_size == pytest.approx(estimated, rel=0.2)
