@@ -158,8 +158,7 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
     const frame_window window = measure_window(scene, &all, &falls, results);
     /* A bed that flows all the time has no slumps, however its angle may wander. */
     const bool comes_in_falls = results->regime.is_told && measure_comes_in_falls(results->regime.regime);
-    results->repose.slumps =
-        comes_in_falls ? falls : (dem_slumps){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN, NAN };
+    results->repose.slumps = comes_in_falls ? falls : measure_no_slumps();
     measure_verdict(scene, &window, results);
     results->packing.solid_fraction = frame_window_mean(&window, FRAME_SOLID_FRACTION);
     results->packing.coordination_number = frame_window_mean(&window, FRAME_COORDINATION);

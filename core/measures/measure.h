@@ -74,6 +74,7 @@ dem_status measure_overlap_frame(const dem_scene *scene, double *frame);
 
 /* Slumps or avalanches in a series of the bed's angle: degrees, over time in s, positive for a surface that rises with the
  * drum. NaN where there are too few of them. Errors: DEM_NO_MEMORY. */
+dem_slumps measure_no_slumps(void); /* all NaN */
 dem_status measure_slumps(const double *time, const double *angle, size_t count, dem_slumps *slumps);
 
 double measure_radial_index(const dem_scene *scene);

@@ -93,9 +93,18 @@ static size_t climb_end(const double *angle, size_t count, double *room)
     return k;
 }
 
+dem_slumps measure_no_slumps(void)
+{
+    dem_slumps none;
+    double *number = (double *)&none;
+    _Static_assert(sizeof none % sizeof *number == 0, "slumps are nothing but numbers");
+    for (size_t k = 0; k < sizeof none / sizeof *number; k++) number[k] = NAN;
+    return none;
+}
+
 dem_status measure_slumps(const double *time, const double *angle, size_t count, dem_slumps *slumps)
 {
-    *slumps = (dem_slumps){ NAN, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, { NAN, NAN }, NAN, NAN };
+    *slumps = measure_no_slumps();
     double *room = array_create(5 * (count + 1), sizeof *room);
     if (!room) return DEM_NO_MEMORY;
     double *const seen_time = room + 3 * count, *const seen = room + 4 * count;
