@@ -262,6 +262,7 @@ typedef struct dem_slumps {
     double count;                           /* those seen from their beginning to their end */
     dem_mean period;                        /* s, from one beginning to the next */
     dem_mean start_deg, stop_deg, size_deg; /* direction of the centre of mass before and after; the difference */
+    double hysteresis_deg;                  /* largest less smallest of the angles that they start and stop at */
     double first_start;                     /* s, of the first fall after a rise, be its end seen or not */
     double first_end;                       /* s, of the first fall seen to its end */
 } dem_slumps;

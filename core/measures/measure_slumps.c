@@ -64,10 +64,22 @@ static dem_mean mean_of(const double *x, size_t count)
     return (dem_mean){ statistics_mean(x, count), count > 1 ? statistics_deviation(x, count) / sqrt((double)count) : NAN };
 }
 
+/* Of all angles that slumps start or stop at; NaN: there are none. */
+static double range_of(const slump_list *found)
+{
+    double low = NAN, high = NAN; /* fmin and fmax take the number */
+    for (size_t k = 0; k < found->count; k++) {
+        low = fmin(low, fmin(found->start[k], found->stop[k]));
+        high = fmax(high, fmax(found->start[k], found->stop[k]));
+    }
+    return high - low;
+}
+
 static void sum_up(slump_list *found, dem_slumps *slumps)
 {
     const size_t n = found->count;
     slumps->count = (double)n;
+    slumps->hysteresis_deg = range_of(found);
     slumps->start_deg = mean_of(found->start, n);
     slumps->stop_deg = mean_of(found->stop, n);
     for (size_t k = 0; k < n; k++) found->stop[k] = found->start[k] - found->stop[k];

@@ -58,6 +58,7 @@ def test_a_bed_that_swings_as_a_block_is_never_steady_and_its_period_is_a_pendul
     assert slumps["period_standard_error"] < 0.05 * period
     assert 5 <= slumps["count"] <= (repose["window"]["end"] - repose["window"]["start"]) / slumps["period"]
     assert slumps["stop_deg"] < repose["other_methods"]["center-of-mass"] < slumps["start_deg"]
+    assert slumps["size_deg"] <= repose["hysteresis_deg"] < 2 * slumps["size_deg"]
     error = math.hypot(drive["torque_standard_error"], drive["weight_torque_standard_error"])
     assert abs(drive["torque"] - drive["weight_torque"]) < 3 * error
 

@@ -233,6 +233,6 @@ def test_tables_bear_the_results(fake):
     assert strict == 0
     expected = {"id": job, "process": "drum", "status": "successful", "friction": 0.3, "angle_deg": 23.5, "regime": "rolling",
                 "steady": 1, "verdict": "steady", "certain": 1, "drift_bound_deg_per_revolution": 0.4, "layers": 6.5, "seed": 7, "solid_fraction": 0.59, "steps": 2000, "radial_index": None, "attempt": 1,
-                "slumps_count": 12, "slumps_period": 0.56, "slumps_start_deg": 13.5, "slumps_stop_deg": None, "overlap_99": 0.004,
+                "slumps_count": 12, "slumps_period": 0.56, "slumps_start_deg": 13.5, "slumps_stop_deg": None, "hysteresis_deg": 15.5, "overlap_99": 0.004,
                 "torque": 0.012, "power": 0.019}
     assert {name: row[name] for name in expected} == expected

@@ -98,6 +98,7 @@ def test_means_and_errors_are_those_of_the_jobs(fake):
     info = ended(fake, study)
     assert info["status"] == "failed" and info["counts"]["failed"] == 5 and info["progress"] == 100
     rows = {row["case"]: row for row in fake.get(f"/studies/{study}/results").json()["cases"]}
+    assert rows["five"]["results"]["hysteresis_deg"]["mean"] == 15.5
     assert list(rows) == ["five", "fails", "constant"]
     angles = [fake.get(f"/jobs/{job['jobID']}/results").json()["repose"]["angle_deg"]
               for job in jobs_of(fake, study) if job["label"]["case"] == "five"]

@@ -76,6 +76,9 @@ static const result_field fields[] = {
     { "repose", "slumps", "size_deg", RESULT_REAL, REPOSE(slumps.size_deg.mean), "degrees", .meaning = "start less stop, mean",
       STORED },
     { "repose", "slumps", "size_standard_error_deg", RESULT_REAL, REPOSE(slumps.size_deg.standard_error), "degrees", .meaning = "its error" },
+    { "repose", NULL, "hysteresis_deg", RESULT_REAL, REPOSE(slumps.hysteresis_deg), "degrees",
+      .meaning = "largest less smallest of the angles that slumps start and stop at; null: none was seen from beginning to end",
+      IN_VIEW(880), IN_STUDY(250) },
     { "repose", NULL, "method", RESULT_WORD, offsetof(drum_result, method), "", .meaning = "how angle_deg was measured", STORED },
 
     { "regime", NULL, "certain", RESULT_MAYBE, offsetof(drum_result, certain), "",

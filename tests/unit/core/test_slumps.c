@@ -175,7 +175,29 @@ static void missing_frames_are_left_out_and_too_few_have_no_slumps(void **unused
     CHECK_NEAR(slumps_of(time, angle, COUNT).period.mean, 1.2, 0.01);
     const double none[] = { NAN, NAN, 3, NAN, 4 }, when[] = { 0, 1, 2, 3, 4 };
     const dem_slumps s = slumps_of(when, none, 5);
-    assert_true(isnan(s.count) && isnan(s.period.mean) && isnan(s.size_deg.mean));
+    assert_true(isnan(s.count) && isnan(s.period.mean) && isnan(s.size_deg.mean) && isnan(s.hysteresis_deg));
+}
+
+/* Teeth of three heights: between the highest start and the lowest stop, which are not of one slump. The last fall has no end. */
+static void hysteresis_reaches_from_the_highest_start_to_the_lowest_stop(void **unused)
+{
+    (void)unused;
+    enum { A_SIDE = 20, SIDES = 8 };
+    static const double turn[SIDES + 1] = { 5, 10, 4, 14, 6, 12, 2, 20, 1 };
+    double time[SIDES * A_SIDE + 1], angle[SIDES * A_SIDE + 1];
+    for (int k = 0; k <= SIDES * A_SIDE; k++) {
+        const int side = k / A_SIDE;
+        const double share = (double)(k % A_SIDE) / A_SIDE;
+        time[k] = INTERVAL * k;
+        angle[k] = share > 0 ? turn[side] + (turn[side + 1] - turn[side]) * share : turn[side];
+    }
+    const dem_slumps s = slumps_of(time, angle, SIDES * A_SIDE + 1);
+    CHECK_NEAR(s.count, 3, 0);
+    CHECK_NEAR(s.start_deg.mean, 12, 1e-12); /* 10, 14, 12 */
+    CHECK_NEAR(s.stop_deg.mean, 4, 1e-12);   /* 4, 6, 2 */
+    CHECK_NEAR(s.hysteresis_deg, 14 - 2, 1e-12);
+    /* the sides up to the top of the first tooth: a rise, and no fall that is seen to its end */
+    assert_true(isnan(slumps_of(time, angle, A_SIDE + A_SIDE / 2).hysteresis_deg));
 }
 
 int main(void)
@@ -186,6 +208,7 @@ int main(void)
         cmocka_unit_test(swings_of_few_frames_are_no_noise),
         cmocka_unit_test(noise_alone_has_no_slumps),
         cmocka_unit_test(uneven_slumps_are_all_seen),
+        cmocka_unit_test(hysteresis_reaches_from_the_highest_start_to_the_lowest_stop),
         cmocka_unit_test(falls_well_below_the_usual_are_left_out_and_nothing_else_is),
         cmocka_unit_test(missing_frames_are_left_out_and_too_few_have_no_slumps),
     };
