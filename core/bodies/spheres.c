@@ -22,6 +22,54 @@ size_t species_particles(const dem_drum_definition *definition, size_t species)
     return particles_before(definition, species + 1) - particles_before(definition, species);
 }
 
+#define ARRAY(member) .offset = offsetof(spheres, member), .size = sizeof *((spheres *)NULL)->member
+const sphere_array sphere_arrays[] = {
+    { ARRAY(row), OF_ROWS, .is_sorted = true },
+    { ARRAY(rest), OF_ROWS, .is_sorted = true },
+    { ARRAY(place), OF_PLACES, .is_sorted = true, .saved = "position", .columns = 3 },
+    { ARRAY(fallen_time), OF_MOBILE, .is_sorted = true, .saved = "fallen_time", .columns = 1, .is_float = true },
+    { ARRAY(id), OF_MOBILE, .is_sorted = true },
+    { ARRAY(species), OF_MOBILE, .is_sorted = true },
+    { ARRAY(full_radius), OF_MOBILE_AND_LINING, .is_sorted = true },
+    { ARRAY(load), OF_LOADS },
+    { ARRAY(velocity), OF_MOBILE, .is_sorted = true, .saved = "velocity", .columns = 3 },
+    { ARRAY(angular_velocity), OF_MOBILE, .is_sorted = true, .saved = "angular_velocity", .columns = 3 },
+    { ARRAY(inverse_mass), OF_SPECIES },
+    { ARRAY(inverse_inertia), OF_SPECIES },
+    { ARRAY(surface_track), OF_MOBILE, .is_sorted = true, .saved = "surface_track", .columns = 2, .is_float = true,
+      .is_optional = true },
+    { ARRAY(lining_place), OF_LINING },
+};
+_Static_assert(sizeof(surface_track) == 2 * sizeof(float), "saved as so many floats");
+
+/* Through memcpy: pointers of several types. */
+void *sphere_array_of(const spheres *s, const sphere_array *array)
+{
+    void *memory;
+    memcpy(&memory, (const char *)s + array->offset, sizeof memory);
+    return memory;
+}
+
+static void set_array(spheres *s, const sphere_array *array, void *memory)
+{
+    memcpy((char *)s + array->offset, &memory, sizeof memory);
+}
+
+static size_t length_of(const spheres *s, sphere_array_length length)
+{
+    const size_t all = spheres_count(s);
+    const size_t lengths[] = {
+        [OF_MOBILE] = s->mobile_count, [OF_MOBILE_AND_LINING] = all,    [OF_PLACES] = all + 2,      [OF_ROWS] = s->row_count,
+        [OF_LINING] = s->lining_count, [OF_SPECIES] = s->species_count, [OF_LOADS] = s->load_count,
+    };
+    return lengths[length];
+}
+
+void spheres_forget_surface(spheres *s)
+{
+    for (size_t i = 0; i < s->mobile_count; i++) s->surface_track[i] = (surface_track){ 0, NAN };
+}
+
 dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_t lining_count)
 {
     size_t singles = 0, bodies = 0, joined = 0;
@@ -40,34 +88,24 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
     s->are_many = n >= MANY;
     s->exceed_caches = n >= VERY_MANY;
     s->in_waves = n >= FOR_WAVES;
-    const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->row_count = s->first_copy = all + 2;
-    s->row = array_create(s->row_count, sizeof *s->row);
-    s->rest = array_create(s->row_count, sizeof *s->rest);
-    s->place = array_create(all + 2, sizeof *s->place);
-    s->id = array_create(n, sizeof *s->id);
-    s->species = array_create(n, sizeof *s->species);
-    s->full_radius = array_create(all, sizeof *s->full_radius);
+    const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
     s->load_count = n + n % 2 + LOADS_OF_NOBODY; /* two to a line */
-    s->load = array_create(s->load_count, sizeof *s->load);
-    s->velocity = array_create(n, sizeof *s->velocity);
-    s->angular_velocity = array_create(n, sizeof *s->angular_velocity);
-    s->inverse_mass = array_create(definition->species_count, sizeof *s->inverse_mass);
-    s->inverse_inertia = array_create(definition->species_count, sizeof *s->inverse_inertia);
-    s->fallen_time = array_create(n, sizeof *s->fallen_time);
-    s->surface_track = array_create(n, sizeof *s->surface_track);
-    s->lining_place = array_create(lining_count, sizeof *s->lining_place);
-    if (status != DEM_OK || !s->row || !s->rest || !s->place || !s->id || !s->species || !s->full_radius || !s->velocity
-        || !s->angular_velocity || !s->load || !s->inverse_mass || !s->inverse_inertia || !s->fallen_time || !s->surface_track
-        || !s->lining_place) {
+    bool enough = status == DEM_OK;
+    for (int k = 0; k < SPHERE_ARRAYS; k++) {
+        void *memory = array_create(length_of(s, sphere_arrays[k].length), sphere_arrays[k].size);
+        set_array(s, &sphere_arrays[k], memory);
+        enough = enough && memory;
+    }
+    if (!enough) {
         spheres_clear(s);
         return DEM_NO_MEMORY;
     }
     for (size_t i = 0; i < n; i++) {
         s->fallen_time[i] = -1e30f;
-        s->surface_track[i].way = NAN;
         s->id[i] = (int32_t)i;
     }
+    spheres_forget_surface(s);
     for (size_t b = 0; b < bodies; b++) s->clusters.body[b].id = (int32_t)(singles + b);
     return DEM_OK;
 }
@@ -75,20 +113,7 @@ dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_
 void spheres_clear(spheres *s)
 {
     clusters_clear(&s->clusters);
-    free(s->row);
-    free(s->rest);
-    free(s->place);
-    free(s->id);
-    free(s->species);
-    free(s->full_radius);
-    free(s->velocity);
-    free(s->angular_velocity);
-    free(s->load);
-    free(s->inverse_mass);
-    free(s->inverse_inertia);
-    free(s->fallen_time);
-    free(s->surface_track);
-    free(s->lining_place);
+    for (int k = 0; k < SPHERE_ARRAYS; k++) free(sphere_array_of(s, &sphere_arrays[k]));
     memset(s, 0, sizeof *s);
 }
 

@@ -41,9 +41,9 @@ typedef struct spheres {
     size_t mobile_count, lining_count;
     size_t single_count; /* of the mobile: particles by themselves */
     size_t species_count;
-    clusters clusters;   /* the bodies that the other mobile spheres make up */
-    sphere_row *row;     /* (row_count) of mobile and lining and two; from first_copy on, of some again (contact_parts.h) */
-    sphere_rest *rest;   /* (row_count) */
+    clusters clusters; /* the bodies that the other mobile spheres make up */
+    sphere_row *row;   /* (row_count) of mobile and lining and two; from first_copy on, of some again (contact_parts.h) */
+    sphere_rest *rest; /* (row_count) */
     size_t row_count, first_copy;
     vector4 *place;            /* (mobile + lining + 2) m, z within one period */
     double ring_units;         /* 1/m: of a row's place */
@@ -72,6 +72,29 @@ typedef struct spheres {
     _Alignas(ALIGNMENT) int copies_turn; /* 0, 1: which of the two copies of a row is read next */
     bool copies_hold;                    /* it is that of the rows of now */
 } spheres;
+
+/* An array of the spheres: everything that is done with each of them alike follows from its row in this table. */
+typedef enum sphere_array_length {
+    OF_MOBILE,
+    OF_MOBILE_AND_LINING,
+    OF_PLACES,
+    OF_ROWS,
+    OF_LINING,
+    OF_SPECIES,
+    OF_LOADS
+} sphere_array_length;
+typedef struct sphere_array {
+    size_t offset, size; /* of the pointer to it, in spheres; of an element */
+    sphere_array_length length;
+    bool is_sorted;    /* goes where its sphere goes in memory */
+    const char *saved; /* name in a saved state; NULL: it is made again */
+    int columns;       /* of what is saved */
+    bool is_float;     /* the elements are so many floats, else as many doubles or more */
+    bool is_optional;  /* a state may be without it */
+} sphere_array;
+enum { SPHERE_ARRAYS = 14 };
+extern const sphere_array sphere_arrays[SPHERE_ARRAYS];
+void *sphere_array_of(const spheres *spheres, const sphere_array *array);
 
 dem_status spheres_init(spheres *spheres, const dem_drum_definition *definition, size_t lining_count);
 void spheres_clear(spheres *spheres);
@@ -140,7 +163,8 @@ enum { LOADS_A_PART = 8, LOADS_OF_NOBODY = LOADS_A_PART * (MOST_PARTS + 1) };
 static inline size_t loads_of_nobody(const spheres *s, int part) { return s->load_count - LOADS_A_PART * (size_t)(part + 1); }
 /* Room for as many rows behind the others. */
 dem_status spheres_reserve_copies(spheres *spheres, size_t count);
-void spheres_pad(spheres *spheres); /* the last two rows, also after a change of the counts */
+void spheres_forget_surface(spheres *spheres); /* no sphere was seen at the bed's inner surface */
+void spheres_pad(spheres *spheres);            /* the last two rows, also after a change of the counts */
 /* Radii of the mobile spheres at `scale` of their full size, in the rows. */
 void spheres_set_scale(spheres *spheres, double scale);
 double spheres_kinetic_energy(const spheres *spheres); /* J */

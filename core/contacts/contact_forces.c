@@ -312,11 +312,11 @@ void part_turn_rest_of_block(part_turn *turn, size_t done)
     const size_t b = turn->next++;
     int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
     int32_t ends[2][BLOCK];
-    real *memory[CONTACT_NUMBERS], kept[CONTACT_NUMBERS][BLOCK];
-    const int numbers = contact_list_memory(pairs, memory);
+    real kept[CONTACT_NUMBERS][BLOCK];
+    const int numbers = contact_list_numbers(pairs);
     memcpy(ends[0], first, sizeof ends[0]);
     memcpy(ends[1], second, sizeof ends[1]);
-    for (int m = 0; m < numbers; m++) memcpy(kept[m], memory[m] + b * BLOCK, done * sizeof(real));
+    for (int m = 0; m < numbers; m++) memcpy(kept[m], pairs->memory[m] + b * BLOCK, done * sizeof(real));
     for (size_t k = 0; k < done; k++) {
         first[k] = sphere_of_zeros(s);
         second[k] = sphere_far_away(s);
@@ -327,7 +327,7 @@ void part_turn_rest_of_block(part_turn *turn, size_t done)
     block_forces_aside(turn, pairs, b, &rows);
     memcpy(first, ends[0], sizeof ends[0]);
     memcpy(second, ends[1], sizeof ends[1]);
-    for (int m = 0; m < numbers; m++) memcpy(memory[m] + b * BLOCK, kept[m], done * sizeof(real));
+    for (int m = 0; m < numbers; m++) memcpy(pairs->memory[m] + b * BLOCK, kept[m], done * sizeof(real));
     block_done(turn, b);
 }
 

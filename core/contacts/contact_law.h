@@ -6,15 +6,26 @@
 #ifndef CONTACT_LAW_H
 #define CONTACT_LAW_H
 
+#include <stddef.h>
+
 #include "real.h"
 
-/* What a contact remembers. All zero for a contact that has just begun. */
-typedef struct contact_history {
-    real t[3];    /* T, N: friction force on the first body; damped laws: m, stretch of its spring */
-    real t_star;  /* T at the last turning point over mu N, signed along T */
-    real alpha_0; /* m: overlap at which the unloading branch reaches zero */
-    real roll[3]; /* N: rolling moment on the first body over R* */
+/* What a contact remembers, in the order of the arrays of contact_list.h: those of rolling friction are last, since without it
+ * there are none. To add one: here, and the array there. */
+enum { CONTACT_NUMBERS = 8, NUMBERS_OF_ROLLING = 3 };
+
+/* All zero for a contact that has just begun. */
+typedef union contact_history {
+    real number[CONTACT_NUMBERS];
+    struct {
+        real t[3];    /* T, N: friction force on the first body; damped laws: m, stretch of its spring */
+        real t_star;  /* T at the last turning point over mu N, signed along T */
+        real alpha_0; /* m: overlap at which the unloading branch reaches zero */
+        real roll[3]; /* N: rolling moment on the first body over R* */
+    };
 } contact_history;
+_Static_assert(sizeof(contact_history) == CONTACT_NUMBERS * sizeof(real), "every number that a contact remembers is counted");
+_Static_assert(offsetof(contact_history, roll) == (CONTACT_NUMBERS - NUMBERS_OF_ROLLING) * sizeof(real), "rolling is last");
 
 /* N2: a stored friction force below its root has no direction; elsewhere: a square whose root counts as none. */
 #define TINY_SQUARE ((real)1e-30)

@@ -14,19 +14,12 @@ static void memory_free(contact_list *list)
 {
     free(list->first);
     free(list->second);
-    for (int c = 0; c < 3; c++) free(list->t[c]);
-    free(list->t_star);
-    free(list->alpha_0);
-    for (int c = 0; c < 3; c++) free(list->roll[c]);
+    for (int m = 0; m < CONTACT_NUMBERS; m++) free(list->memory[m]);
 }
 
 static void constants_free(contact_list *list)
 {
-    free(list->friction);
-    free(list->first_radius);
-    free(list->root_mass);
-    free(list->radius);
-    free(list->rolling_friction);
+    for (int c = 0; c < CONTACT_CONSTANTS; c++) free(list->constant[c]);
 }
 
 void contact_list_clear(contact_list *list)
@@ -44,24 +37,23 @@ static bool memory_create(contact_list *list, size_t n)
     list->capacity = n;
     list->first = array_create(n, sizeof *list->first);
     list->second = array_create(n, sizeof *list->second);
-    for (int c = 0; c < 3; c++) list->t[c] = array_create(n, sizeof *list->t[c]);
-    list->t_star = array_create(n, sizeof *list->t_star);
-    list->alpha_0 = array_create(n, sizeof *list->alpha_0);
-    for (int c = 0; list->has_rolling && c < 3; c++) list->roll[c] = array_create(n, sizeof *list->roll[c]);
-    return list->first && list->second && list->t[0] && list->t[1] && list->t[2] && list->t_star && list->alpha_0
-           && (!list->has_rolling || (list->roll[0] && list->roll[1] && list->roll[2]));
+    bool enough = list->first && list->second;
+    for (int m = 0; m < contact_list_numbers(list); m++) {
+        list->memory[m] = array_create(n, sizeof *list->memory[m]);
+        enough = enough && list->memory[m];
+    }
+    return enough;
 }
 
 static bool constants_create(contact_list *list, size_t n)
 {
     list->constant_capacity = n;
-    list->friction = array_create(n, sizeof *list->friction);
-    list->first_radius = array_create(n, sizeof *list->first_radius);
-    list->root_mass = array_create(n, sizeof *list->root_mass);
-    list->radius = array_create(n, sizeof *list->radius);
-    if (list->has_rolling) list->rolling_friction = array_create(n, sizeof *list->rolling_friction);
-    return list->friction && list->first_radius && list->root_mass && list->radius
-           && (!list->has_rolling || list->rolling_friction);
+    bool enough = true;
+    for (int c = 0; c < contact_list_constants(list); c++) {
+        list->constant[c] = array_create(n, sizeof *list->constant[c]);
+        enough = enough && list->constant[c];
+    }
+    return enough;
 }
 
 dem_status contact_list_reserve(contact_list *list, size_t count)
@@ -89,69 +81,45 @@ dem_status contact_list_reserve(contact_list *list, size_t count)
 
 void contact_list_forget(contact_list *list, size_t slot)
 {
-    const contact_history nothing = { .t = { 0 } };
-    contact_list_set_history(list, slot, &nothing);
+    for (int m = 0; m < contact_list_numbers(list); m++) list->memory[m][slot] = 0;
 }
 
 void contact_list_pad(contact_list *list, int32_t first, int32_t second)
 {
-    const bool of_each = list->constants == CONSTANTS_OF_EACH;
+    const int constants = list->constants == CONSTANTS_OF_EACH ? contact_list_constants(list) : 0;
     for (size_t k = list->count; k < round_up_to_block(list->count); k++) {
         list->first[k] = first;
         list->second[k] = second;
-        if (of_each) list->friction[k] = list->first_radius[k] = list->root_mass[k] = list->radius[k] = 0;
-        if (of_each && list->has_rolling) list->rolling_friction[k] = 0;
+        for (int c = 0; c < constants; c++) list->constant[c][k] = 0;
         contact_list_forget(list, k);
     }
 }
 
 contact_history contact_list_history(const contact_list *list, size_t k)
 {
-    contact_history history = { .t = { list->t[0][k], list->t[1][k], list->t[2][k] },
-                                .t_star = list->t_star[k],
-                                .alpha_0 = list->alpha_0[k] };
-    for (int c = 0; list->has_rolling && c < 3; c++) history.roll[c] = list->roll[c][k];
+    contact_history history = { .number = { 0 } };
+    for (int m = 0; m < contact_list_numbers(list); m++) history.number[m] = list->memory[m][k];
     return history;
 }
 
 void contact_list_set_history(contact_list *list, size_t k, const contact_history *history)
 {
-    for (int c = 0; c < 3; c++) list->t[c][k] = history->t[c];
-    list->t_star[k] = history->t_star;
-    list->alpha_0[k] = history->alpha_0;
-    for (int c = 0; list->has_rolling && c < 3; c++) list->roll[c][k] = history->roll[c];
+    for (int m = 0; m < contact_list_numbers(list); m++) list->memory[m][k] = history->number[m];
 }
 
 void contact_list_copy(contact_list *to, size_t slot, const contact_list *from, size_t k)
 {
-    const contact_history history = contact_list_history(from, k);
-    contact_list_set_history(to, slot, &history);
+    for (int m = 0; m < contact_list_numbers(from); m++) to->memory[m][slot] = from->memory[m][k];
     to->first[slot] = from->first[k];
     to->second[slot] = from->second[k];
     if (from->constants != CONSTANTS_OF_EACH) return;
-    to->friction[slot] = from->friction[k];
-    to->first_radius[slot] = from->first_radius[k];
-    to->root_mass[slot] = from->root_mass[k];
-    to->radius[slot] = from->radius[k];
-    if (from->has_rolling) to->rolling_friction[slot] = from->rolling_friction[k];
+    for (int c = 0; c < contact_list_constants(from); c++) to->constant[c][slot] = from->constant[c][k];
 }
 
 void contact_list_copy_constants(contact_list *to, const contact_list *from)
 {
     if (from->constants != CONSTANTS_OF_ALL) return;
-    memcpy(to->friction, from->friction, BLOCK * sizeof *to->friction);
-    memcpy(to->first_radius, from->first_radius, BLOCK * sizeof *to->first_radius);
-    memcpy(to->root_mass, from->root_mass, BLOCK * sizeof *to->root_mass);
-    memcpy(to->radius, from->radius, BLOCK * sizeof *to->radius);
-    if (from->has_rolling) memcpy(to->rolling_friction, from->rolling_friction, BLOCK * sizeof *to->rolling_friction);
-}
-
-int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS])
-{
-    real *const all[CONTACT_NUMBERS] = { list->t[0],    list->t[1],    list->t[2],    list->t_star,
-                                         list->alpha_0, list->roll[0], list->roll[1], list->roll[2] };
-    memcpy(memory, all, sizeof all);
-    return list->has_rolling ? CONTACT_NUMBERS : CONTACT_NUMBERS - 3;
+    for (int c = 0; c < contact_list_constants(from); c++) memcpy(to->constant[c], from->constant[c], BLOCK * sizeof(real));
 }
 
 static void take_memory(contact_list *to, const contact_list *from)
@@ -160,10 +128,7 @@ static void take_memory(contact_list *to, const contact_list *from)
     to->capacity = from->capacity;
     to->first = from->first;
     to->second = from->second;
-    to->t_star = from->t_star;
-    to->alpha_0 = from->alpha_0;
-    memcpy(to->t, from->t, sizeof to->t);
-    memcpy(to->roll, from->roll, sizeof to->roll);
+    memcpy(to->memory, from->memory, sizeof to->memory);
 }
 
 void contact_list_swap(contact_list *a, contact_list *b)

@@ -19,6 +19,8 @@ typedef row8 contact_row;
  * contacts together since they are alike, or each. */
 typedef enum contact_constants { CONSTANTS_OF_NONE, CONSTANTS_OF_ALL, CONSTANTS_OF_EACH } contact_constants;
 
+enum { CONTACT_CONSTANTS = 5, CONSTANTS_OF_ROLLING = 1 };
+
 typedef struct contact_list {
     bool has_rolling; /* else there are none of what is for it alone */
     contact_constants constants;
@@ -26,23 +28,51 @@ typedef struct contact_list {
     size_t count, capacity;
     int32_t *first;  /* sphere index */
     int32_t *second; /* sphere index, or that of the wall */
-    real *t[3];      /* N   contact_history, by component */
-    real *t_star;
-    real *alpha_0; /* m */
-    real *roll[3]; /* N   contact_history, by component */
-    /* (constant_capacity) of all: one block, which serves every other */
+    /* contact_history, an array for each number of it */
+    union {
+        real *memory[CONTACT_NUMBERS];
+        struct {
+            real *t[3];
+            real *t_star;
+            real *alpha_0;
+            real *roll[3];
+        };
+    };
+    /* What does not change in a step; last what is for rolling friction alone. (constant_capacity) of all: one block, which
+     * serves every other. To add one: here; contact_constants.c and wall_reach.c set them. */
     size_t constant_capacity;
-    real *friction;         /* mu */
-    real *first_radius;     /* m, at full size */
-    real *root_mass;        /* kg^(1/2), root of the effective mass m_i m_j/(m_i + m_j); of the first's where the other is fixed */
-    real *radius;           /* m, effective: R_i R_j/(R_i + R_j), of the first alone to a wall */
-    real *rolling_friction; /* mu_r */
-    bool ends_differ;       /* in their moments */
-    damped_law damped;      /* of the list's materials, where contacts have a damped law */
-    real latch_damping;     /* likewise, where Walton & Braun's: latch_damping_of */
-    contact_row *row;       /* of walls alone: what each contact gave at the last step */
+    union {
+        real *constant[CONTACT_CONSTANTS];
+        struct {
+            real *friction;     /* mu */
+            real *first_radius; /* m, at full size */
+            real *root_mass; /* kg^(1/2), root of the effective mass m_i m_j/(m_i + m_j); of the first's where the other is fixed */
+            real *radius;    /* m, effective: R_i R_j/(R_i + R_j), of the first alone to a wall */
+            real *rolling_friction; /* mu_r */
+        };
+    };
+    bool ends_differ;   /* in their moments */
+    damped_law damped;  /* of the list's materials, where contacts have a damped law */
+    real latch_damping; /* likewise, where Walton & Braun's: latch_damping_of */
+    contact_row *row;   /* of walls alone: what each contact gave at the last step */
 } contact_list;
 
+_Static_assert(offsetof(contact_list, roll) - offsetof(contact_list, memory)
+                   == (CONTACT_NUMBERS - NUMBERS_OF_ROLLING) * sizeof(real *),
+               "arrays stand in the order of contact_history");
+_Static_assert(offsetof(contact_list, rolling_friction) - offsetof(contact_list, constant)
+                   == (CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING) * sizeof(real *),
+               "every constant is counted");
+
+/* How many of the arrays the list has. */
+static inline int contact_list_numbers(const contact_list *list)
+{
+    return list->has_rolling ? CONTACT_NUMBERS : CONTACT_NUMBERS - NUMBERS_OF_ROLLING;
+}
+static inline int contact_list_constants(const contact_list *list)
+{
+    return list->has_rolling ? CONTACT_CONSTANTS : CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING;
+}
 /* Where the constants of the block at `start` are in their arrays. */
 static inline size_t constants_of(const contact_list *list, size_t start)
 {
@@ -71,9 +101,6 @@ void contact_list_set_history(contact_list *list, size_t slot, const contact_his
 /* Who, what they remember and the constants of each; of all: the latter once for the whole list. Both have room for it. */
 void contact_list_copy(contact_list *to, size_t slot, const contact_list *from, size_t k);
 void contact_list_copy_constants(contact_list *to, const contact_list *from);
-/* The arrays of what slots remember; returns how many they are. */
-enum { CONTACT_NUMBERS = 8 };
-int contact_list_memory(const contact_list *list, real *memory[CONTACT_NUMBERS]);
 /* Exchanges who and what they remember. */
 void contact_list_swap(contact_list *a, contact_list *b);
 /* Copy the histories of the contacts from..to-1 from the list before (same first, same second). */

@@ -7,20 +7,12 @@
 #ifndef NEIGHBOR_LIST_H
 #define NEIGHBOR_LIST_H
 
-#include "cell_grid.h"
-#include "contact_parts.h"
-#include "container.h"
+#include "neighbor_outer.h"
 
 enum {
     HORIZON = 8,             /* steps between two picks of the inner list, at most */
     PICKS_BETWEEN_LOOKS = 2, /* at each place and velocity as it is, at most */
-    STRETCH = 256,           /* spheres in a row in memory */
 };
-
-typedef struct pair_part {
-    size_t count, capacity;
-    int32_t *second;
-} pair_part;
 
 /* Bounds of all spheres. */
 typedef struct outlook {
@@ -29,25 +21,13 @@ typedef struct outlook {
 } outlook;
 
 typedef struct neighbor_list {
-    /* outer */
-    double skin; /* m: pairs with a smaller gap are listed */
-    size_t pair_count, pair_capacity, second_capacity;
-    uint32_t *start;         /* (mobile + 1) */
-    int32_t *first, *second; /* (pair_capacity, second_capacity) by first, then by second; padded with a pair far apart */
-    uint32_t *farthest;     /* (mobile / STRETCH + 1) for waves: of each stretch, the last sphere that it or one of its pairs has */
-    uint16_t *in_reach;     /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
-    uint16_t *was_in_reach; /* likewise, at the pick before */
-    pair_part part[MOST_PARTS];
-    ring_row *built_at; /* (mobile) places when the outer list was made */
-    cell_grid grid;
-    bool outer_valid;
+    outer_list outer;
     /* inner */
     double margin; /* m: how far a sphere may stray from its straight path before the next pick */
     double least_margin, most_margin;
     int steps_apart; /* by which the places of spheres may be apart in time: zero but where waves end early (wave.h) */
     int safe_steps;
-    outlook at_pick;        /* as looked at then, or before and bounded from there */
-    double turned_at_build; /* rad: the drum's angle when the outer list was made */
+    outlook at_pick; /* as looked at then, or before and bounded from there */
     bool inner_valid;
     half_row *picked_velocity; /* (mobile) m/s at the pick, and a fourth number that nobody reads */
     contact_list pairs, pairs_before;
@@ -57,8 +37,8 @@ typedef struct neighbor_list {
     double *wall_torques;             /* N m about the axis, of each on its sphere (contact_forces_with_walls) */
     size_t wall_row_capacity;
     contact_parts parts; /* of the pairs */
-    int64_t outer_builds, inner_picks;
-    int64_t picked_of; /* outer_builds at the last pick */
+    int64_t inner_picks;
+    int64_t picked_of; /* outer.builds at the last pick */
     /* written in each step, apart from what all threads read */
     _Alignas(ALIGNMENT) double strayed; /* m: bound on how far any sphere has, since the pick */
     double deviation;                   /* m/s: largest |v - v at the pick| after the last step */

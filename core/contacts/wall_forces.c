@@ -86,7 +86,7 @@ static void block_of_walls(contact_list *walls, size_t start, const spheres *s, 
 /* A list of one block, with some contacts of another at its front. */
 typedef struct contacts_aside {
     int32_t first[BLOCK], second[BLOCK];
-    real memory[CONTACT_NUMBERS][BLOCK], constant[5][BLOCK];
+    real memory[CONTACT_NUMBERS][BLOCK], constant[CONTACT_CONSTANTS][BLOCK];
     contact_row row[BLOCK];
     contact_list list;
 } __attribute__((aligned(ALIGNMENT))) contacts_aside;
@@ -102,26 +102,17 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
                             .capacity = BLOCK,
                             .first = aside->first,
                             .second = aside->second,
-                            .t = { aside->memory[0], aside->memory[1], aside->memory[2] },
-                            .t_star = aside->memory[3],
-                            .alpha_0 = aside->memory[4],
-                            .roll = { aside->memory[5], aside->memory[6], aside->memory[7] },
                             .constant_capacity = BLOCK,
-                            .friction = aside->constant[0],
-                            .first_radius = aside->constant[1],
-                            .root_mass = aside->constant[2],
-                            .radius = aside->constant[3],
-                            .rolling_friction = aside->constant[4],
                             .ends_differ = walls->ends_differ,
                             .damped = walls->damped,
                             .latch_damping = walls->latch_damping,
                             .row = aside->row };
-    const real *const constant[] = { walls->friction, walls->first_radius, walls->root_mass, walls->radius,
-                                     walls->rolling_friction };
-    real *memory[CONTACT_NUMBERS];
-    const int numbers = contact_list_memory(walls, memory), constants = walls->has_rolling ? 5 : 4;
-    for (int m = 0; m < numbers; m++) memcpy(aside->memory[m], memory[m] + from, (to - from) * sizeof(real));
-    for (int m = 0; m < constants; m++) memcpy(aside->constant[m], constant[m] + from, (to - from) * sizeof(real));
+    for (int m = 0; m < CONTACT_NUMBERS; m++) list->memory[m] = aside->memory[m];
+    for (int c = 0; c < CONTACT_CONSTANTS; c++) list->constant[c] = aside->constant[c];
+    for (int m = 0; m < contact_list_numbers(walls); m++)
+        memcpy(aside->memory[m], walls->memory[m] + from, (to - from) * sizeof(real));
+    for (int c = 0; c < contact_list_constants(walls); c++)
+        memcpy(aside->constant[c], walls->constant[c] + from, (to - from) * sizeof(real));
     for (size_t k = 0; k < BLOCK; k++) { /* behind its own nobody's, at a place that there is */
         aside->first[k] = walls->first[k < to - from ? from + k : from];
         aside->second[k] = walls->second[k < to - from ? from + k : from];
@@ -131,10 +122,8 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
 /* What they remember now, and their rows. */
 static void take_back(const contacts_aside *aside, contact_list *walls, size_t from)
 {
-    real *memory[CONTACT_NUMBERS];
-    const int numbers = contact_list_memory(walls, memory);
     const size_t count = aside->list.count;
-    for (int m = 0; m < numbers; m++) memcpy(memory[m] + from, aside->memory[m], count * sizeof(real));
+    for (int m = 0; m < contact_list_numbers(walls); m++) memcpy(walls->memory[m] + from, aside->memory[m], count * sizeof(real));
     memcpy(walls->row + from, aside->row, count * sizeof *aside->row);
 }
 

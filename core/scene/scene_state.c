@@ -2,17 +2,18 @@
  * no result depends on when they were made (core/contacts/contact_list.h). */
 #include "scene_state.h"
 
+#include <assert.h>
+
 #include "array.h"
 #include "lost.h"
 #include "sorting.h"
 #include "step.h"
 #include "stream.h"
 
-enum { HISTORY_NUMBERS = 8 };
-
 static void *state_add(dem_state *state, const char *name, dem_element element, size_t rows, size_t columns)
 {
     static const size_t size[] = { [DEM_FLOAT64] = 8, [DEM_INT64] = 8, [DEM_INT32] = 4 };
+    assert(state->array_count < DEM_STATE_ARRAYS);
     void *data = array_create(rows * columns, size[element]);
     if (data) state->array[state->array_count++] = (dem_state_array){ name, element, rows, columns, data };
     return data;
@@ -29,8 +30,9 @@ const dem_state_array *state_find(const dem_state *state, const char *name, dem_
 
 static bool is_remembered(const contact_history *h)
 {
-    return h->t[0] != 0 || h->t[1] != 0 || h->t[2] != 0 || h->t_star != 0 || h->alpha_0 != 0 || h->roll[0] != 0 || h->roll[1] != 0
-           || h->roll[2] != 0;
+    for (int m = 0; m < CONTACT_NUMBERS; m++)
+        if (h->number[m] != 0) return true;
+    return false;
 }
 
 /* Two arrays: the spheres of each contact that remembers something, and what it remembers. */
@@ -42,26 +44,31 @@ static bool save_contacts(dem_state *state, const contact_list *list, const char
         n += is_remembered(&h);
     }
     int32_t *id = state_add(state, ids, DEM_INT32, n, 2);
-    double *numbers = state_add(state, history, DEM_FLOAT64, n, HISTORY_NUMBERS);
+    double *numbers = state_add(state, history, DEM_FLOAT64, n, CONTACT_NUMBERS);
     if (!id || !numbers) return false;
     for (size_t k = 0; k < list->count; k++) {
         const contact_history h = contact_list_history(list, k);
         if (!is_remembered(&h)) continue;
         *id++ = list->first[k];
         *id++ = list->second[k];
-        for (int c = 0; c < 3; c++) *numbers++ = (double)h.t[c];
-        *numbers++ = (double)h.t_star;
-        *numbers++ = (double)h.alpha_0;
-        for (int c = 0; c < 3; c++) *numbers++ = (double)h.roll[c];
+        for (int m = 0; m < CONTACT_NUMBERS; m++) *numbers++ = (double)h.number[m];
     }
     return true;
 }
 
-static bool save_vectors(dem_state *state, const char *name, const vector4 *from, size_t n)
+/* What is saved of each mobile sphere, as the table of their arrays says: first what every state has. */
+static bool save_spheres(dem_state *state, const spheres *s, bool optional)
 {
-    double *to = state_add(state, name, DEM_FLOAT64, n, 3);
-    for (size_t i = 0; to && i < n; i++) memcpy(to + 3 * i, &from[i], 3 * sizeof *to);
-    return to != NULL;
+    for (int k = 0; k < SPHERE_ARRAYS; k++) {
+        const sphere_array *a = &sphere_arrays[k];
+        if (!a->saved || a->is_optional != optional) continue;
+        const char *from = sphere_array_of(s, a);
+        double *to = state_add(state, a->saved, DEM_FLOAT64, s->mobile_count, (size_t)a->columns);
+        if (!to) return false;
+        for (size_t i = 0; i < s->mobile_count; i++, from += a->size)
+            for (int c = 0; c < a->columns; c++) *to++ = a->is_float ? (double)((const float *)from)[c] : ((const double *)from)[c];
+    }
+    return true;
 }
 
 /* A scene of spheres alone has no such array. */
@@ -81,45 +88,33 @@ static bool save_clusters(dem_state *state, const clusters *c)
     return c->count == 0 || numbers != NULL;
 }
 
-static bool save_surface(dem_state *state, const surface_meter *meter, const spheres *s)
+static bool save_surface(dem_state *state, const surface_meter *meter)
 {
-    double *last = state_add(state, "surface", DEM_FLOAT64, 1, 2),
-           *track = state_add(state, "surface_track", DEM_FLOAT64, s->mobile_count, 2);
-    if (!last || !track) return false;
-    memcpy(last, (double[]){ meter->since, meter->lag }, 2 * sizeof *last);
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        track[2 * i] = (double)s->surface_track[i].angle;
-        track[2 * i + 1] = (double)s->surface_track[i].way;
-    }
-    return true;
+    double *last = state_add(state, "surface", DEM_FLOAT64, 1, 2);
+    if (last) memcpy(last, (double[]){ meter->since, meter->lag }, 2 * sizeof *last);
+    return last != NULL;
 }
 
 /* A state without it has not looked at the surface yet. */
 static void restore_surface(dem_scene *scene, const dem_state *state)
 {
-    spheres *s = &scene->spheres;
     const dem_state_array *last = state_find(state, "surface", DEM_FLOAT64, 2);
-    const dem_state_array *track = state_find(state, "surface_track", DEM_FLOAT64, 2);
-    const bool is_there = last && track && last->rows == 1 && track->rows == s->mobile_count;
-    const double *meter = is_there ? last->data : (double[]){ NAN, NAN }, *of = is_there ? track->data : NULL;
+    const bool is_there = last && last->rows == 1 && state_find(state, "surface_track", DEM_FLOAT64, 2);
+    const double *meter = is_there ? last->data : (double[]){ NAN, NAN };
     scene->surface = (surface_meter){ meter[0], meter[1] };
-    for (size_t i = 0; i < s->mobile_count; i++)
-        s->surface_track[i] = of ? (surface_track){ (float)of[2 * i], (float)of[2 * i + 1] } : (surface_track){ 0, NAN };
+    if (!is_there) spheres_forget_surface(&scene->spheres);
 }
 
 dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
 {
     const spheres *s = &scene->spheres;
-    const size_t n = s->mobile_count;
     memset(state, 0, sizeof *state);
     int64_t *integers = state_add(state, "counters", DEM_INT64, 1, STATE_INTEGERS);
     double *numbers = state_add(state, "numbers", DEM_FLOAT64, 1, STATE_NUMBERS);
     int32_t *id = state_add(state, "particle", DEM_INT32, particles_count(s), 1);
-    double *position = state_add(state, "position", DEM_FLOAT64, n, 3),
-           *fallen = state_add(state, "fallen_time", DEM_FLOAT64, n, 1);
-    if (!integers || !numbers || !id || !position || !fallen || !save_vectors(state, "velocity", s->velocity, n)
-        || !save_vectors(state, "angular_velocity", s->angular_velocity, n) || !save_clusters(state, &s->clusters)
-        || !save_surface(state, &scene->surface, s) || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
+    if (!integers || !numbers || !id || !save_spheres(state, s, false) || !save_clusters(state, &s->clusters)
+        || !save_surface(state, &scene->surface) || !save_spheres(state, s, true)
+        || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
         || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
         dem_state_clear(state);
         return DEM_NO_MEMORY;
@@ -137,8 +132,6 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     numbers[STATE_RATE] = scene->definition.rotation_rate;
     numbers[STATE_TIME_STEP] = scene->definition.time_step;
     for (size_t p = 0; p < particles_count(s); p++) id[p] = particle_id(s, p);
-    for (size_t i = 0; i < n; i++) memcpy(position + 3 * i, sphere_place(s, i), 3 * sizeof *position);
-    for (size_t i = 0; i < n; i++) fallen[i] = (double)s->fallen_time[i];
     return DEM_OK;
 }
 
@@ -152,7 +145,7 @@ void dem_state_clear(dem_state *state)
 static bool contacts_fit(const dem_state *state, const char *ids, const char *history, size_t n, size_t all)
 {
     const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
-    const dem_state_array *numbers = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS);
+    const dem_state_array *numbers = state_find(state, history, DEM_FLOAT64, CONTACT_NUMBERS);
     if (!id || !numbers || id->rows != numbers->rows) return false;
     const int32_t *pair = id->data;
     for (size_t k = 0; k < id->rows; k++, pair += 2) {
@@ -162,35 +155,46 @@ static bool contacts_fit(const dem_state *state, const char *ids, const char *hi
     return true;
 }
 
+/* What is saved of n spheres. */
+static bool array_fits(const dem_state *state, const sphere_array *a, size_t n)
+{
+    const dem_state_array *saved = a->saved ? state_find(state, a->saved, DEM_FLOAT64, (size_t)a->columns) : NULL;
+    return !a->saved || (saved ? saved->rows == n : a->is_optional);
+}
+
 /* The list from which the next one carries its histories over. */
 static void restore_contacts(const dem_state *state, contact_list *list, const char *ids, const char *history)
 {
     const dem_state_array *id = state_find(state, ids, DEM_INT32, 2);
     const int32_t *pair = id->data;
-    const double *h = state_find(state, history, DEM_FLOAT64, HISTORY_NUMBERS)->data;
+    const double *h = state_find(state, history, DEM_FLOAT64, CONTACT_NUMBERS)->data;
     list->count = id->rows;
-    for (size_t k = 0; k < id->rows; k++, pair += 2, h += HISTORY_NUMBERS) {
+    for (size_t k = 0; k < id->rows; k++, pair += 2, h += CONTACT_NUMBERS) {
         list->first[k] = pair[0];
         list->second[k] = pair[1];
-        contact_list_set_history(list, k,
-                                 &(contact_history){ .t = { (real)h[0], (real)h[1], (real)h[2] },
-                                                     .t_star = (real)h[3],
-                                                     .alpha_0 = (real)h[4],
-                                                     .roll = { (real)h[5], (real)h[6], (real)h[7] } });
+        contact_history remembered;
+        for (int m = 0; m < CONTACT_NUMBERS; m++) remembered.number[m] = (real)h[m];
+        contact_list_set_history(list, k, &remembered);
     }
 }
 
-static void restore_spheres(dem_scene *scene, const double *position, const double *velocity, const double *spin,
-                            const double *fallen)
+/* Rows are made of places, velocities and spins together; the rest stands for itself. */
+static void restore_spheres(dem_scene *scene, const dem_state *state)
 {
     spheres *s = &scene->spheres;
     const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
     spheres_set_period(s, &scene->definition, scene->drum.period);
     spheres_set_scale(s, filling_scale(&scene->filling, grown));
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *x = position + 3 * i, *v = velocity + 3 * i, *w = spin + 3 * i;
+    const double *x = state_find(state, "position", DEM_FLOAT64, 3)->data, *v = state_find(state, "velocity", DEM_FLOAT64, 3)->data,
+                 *w = state_find(state, "angular_velocity", DEM_FLOAT64, 3)->data;
+    for (size_t i = 0; i < s->mobile_count; i++, x += 3, v += 3, w += 3)
         sphere_set(s, i, (vector4){ x[0], x[1], x[2] }, (vector4){ v[0], v[1], v[2] }, (vector4){ w[0], w[1], w[2] });
-        s->fallen_time[i] = (float)fallen[i];
+    for (int k = 0; k < SPHERE_ARRAYS; k++) {
+        const sphere_array *a = &sphere_arrays[k];
+        const dem_state_array *saved =
+            a->saved && a->is_float ? state_find(state, a->saved, DEM_FLOAT64, (size_t)a->columns) : NULL;
+        float *to = saved ? sphere_array_of(s, a) : NULL;
+        for (size_t i = 0; to && i < s->mobile_count * (size_t)a->columns; i++) to[i] = (float)((const double *)saved->data)[i];
     }
     memset(s->load, 0, s->load_count * sizeof *s->load);
 }
@@ -242,12 +246,8 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     const size_t n = scene->spheres.mobile_count;
     const dem_state_array *integers = state_find(state, "counters", DEM_INT64, STATE_INTEGERS);
     const dem_state_array *numbers = state_find(state, "numbers", DEM_FLOAT64, STATE_NUMBERS);
-    const dem_state_array *vectors[4];
-    static const char *const name[4] = { "position", "velocity", "angular_velocity", "fallen_time" };
-    for (int k = 0; k < 4; k++) {
-        vectors[k] = state_find(state, name[k], DEM_FLOAT64, k < 3 ? 3 : 1);
-        if (!vectors[k] || vectors[k]->rows != n) return DEM_STATE_MISMATCH;
-    }
+    for (int k = 0; k < SPHERE_ARRAYS; k++)
+        if (!array_fits(state, &sphere_arrays[k], n)) return DEM_STATE_MISMATCH;
     const size_t bodies = scene->spheres.clusters.count;
     const dem_state_array *of_clusters = state_find(state, "cluster", DEM_FLOAT64, CLUSTER_NUMBERS);
     if (!integers || !numbers || (bodies > 0 && !of_clusters) || (of_clusters && of_clusters->rows != bodies))
@@ -281,7 +281,7 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     scene->phase = (dem_phase)counter[STATE_PHASE];
     scene_enter_phase(scene, scene->phase);
     if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);
-    restore_spheres(scene, vectors[0]->data, vectors[1]->data, vectors[2]->data, vectors[3]->data);
+    restore_spheres(scene, state);
     restore_surface(scene, state);
     lost_recognize(scene);
     return scene_update_neighbors(scene);

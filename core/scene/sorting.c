@@ -108,16 +108,9 @@ dem_status sorting_apply(spheres *s, const int32_t *order, int32_t *sphere_order
     memcpy(sphere_order, order, singles * sizeof *order);
     for (size_t b = 0; b < s->clusters.count; b++) body_order[b] = order[singles + b] - (int32_t)singles;
     rearrange_clusters(s, body_order, sphere_order, scratch);
-    rearrange(s->row, sizeof *s->row, sphere_order, n, scratch);
-    rearrange(s->rest, sizeof *s->rest, sphere_order, n, scratch);
-    rearrange(s->place, sizeof *s->place, sphere_order, n, scratch);
-    rearrange(s->id, sizeof *s->id, sphere_order, n, scratch);
-    rearrange(s->species, sizeof *s->species, sphere_order, n, scratch);
-    rearrange(s->full_radius, sizeof *s->full_radius, sphere_order, n, scratch);
-    rearrange(s->velocity, sizeof *s->velocity, sphere_order, n, scratch);
-    rearrange(s->angular_velocity, sizeof *s->angular_velocity, sphere_order, n, scratch);
-    rearrange(s->fallen_time, sizeof *s->fallen_time, sphere_order, n, scratch);
-    rearrange(s->surface_track, sizeof *s->surface_track, sphere_order, n, scratch);
+    for (int k = 0; k < SPHERE_ARRAYS; k++)
+        if (sphere_arrays[k].is_sorted)
+            rearrange(sphere_array_of(s, &sphere_arrays[k]), sphere_arrays[k].size, sphere_order, n, scratch);
     free(scratch);
     free(body_order);
     return DEM_OK;

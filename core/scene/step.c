@@ -31,9 +31,9 @@ dem_status scene_update_neighbors(dem_scene *scene)
 
 static dem_status step_neighbors(dem_scene *scene)
 {
-    const int64_t outer_builds = scene->neighbors.outer_builds;
+    const int64_t outer_builds = scene->neighbors.outer.builds;
     const dem_status status = scene_update_neighbors(scene);
-    step_profile_lap(scene->profile, scene->neighbors.outer_builds > outer_builds ? DEM_PART_OUTER_LIST : DEM_PART_INNER_LIST);
+    step_profile_lap(scene->profile, scene->neighbors.outer.builds > outer_builds ? DEM_PART_OUTER_LIST : DEM_PART_INNER_LIST);
     return status;
 }
 

@@ -63,7 +63,7 @@ static void look_ahead(wave *w, int k)
     const neighbor_list *const list = w->list;
     wave_stage *const stage = &w->stage[k];
     const size_t n = w->spheres->mobile_count, complete = w->stage[k - 1].turn.complete;
-    while (stage->ready < n && list->farthest[stage->ready / STRETCH] < complete) stage->ready += STRETCH;
+    while (stage->ready < n && list->outer.farthest[stage->ready / STRETCH] < complete) stage->ready += STRETCH;
     if (complete == n) stage->ready = n + 1;
     stage->turn.walls_end = list->wall_start[complete];
 }
