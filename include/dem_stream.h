@@ -9,21 +9,6 @@
  * particles that bounce back want room too. */
 #define DEM_STREAM_MOST_SOLID 0.15
 
-/* Solid fraction that the level of the bed is counted by. Clusters pack looser than spheres. */
-static inline double dem_stream_bed_fraction(const dem_drum_definition *d)
-{
-    bool has_clusters = false;
-    for (size_t s = 0; s < d->species_count; s++) has_clusters = has_clusters || d->species[s].cluster.sphere_count > 1;
-    return has_clusters ? 0.5 : DEM_BED_SOLID_FRACTION;
-}
-
-/* m above the floor: level of a bed of so many particles, were it flat. */
-static inline double dem_stream_level(const dem_drum_definition *d, double particles)
-{
-    const double area = DEM_PI / 4.0 * d->diameter * d->diameter;
-    return particles * dem_mean_volume(d->species, d->species_count) / (dem_stream_bed_fraction(d) * area);
-}
-
 static inline double dem_stream_widest(const dem_drum_definition *d)
 {
     double reach = 0.0;
@@ -33,6 +18,30 @@ static inline double dem_stream_widest(const dem_drum_definition *d)
 
 /* m from the level of the bed up to the inlet: a mound as steep as 37 degrees below it, and three particles more. */
 static inline double dem_stream_clearance(const dem_drum_definition *d) { return 0.25 * d->diameter + 3.0 * dem_stream_widest(d); }
+
+/* m, of a flat bed of so many particles at a solid fraction. */
+static inline double dem_stream_height(const dem_drum_definition *d, double particles, double solid_fraction)
+{
+    const double area = DEM_PI / 4.0 * d->diameter * d->diameter;
+    return particles * dem_mean_volume(d->species, d->species_count) / (solid_fraction * area);
+}
+
+/* Solid fraction that the level of the bed is counted by. Clusters pack looser than spheres. A bed that is so high that it would
+ * come half the way up to the inlet, were it as loose as its particles lie in a cylinder as narrow as this, is counted by that. */
+static inline double dem_stream_bed_fraction(const dem_drum_definition *d)
+{
+    bool has_clusters = false;
+    for (size_t s = 0; s < d->species_count; s++) has_clusters = has_clusters || d->species[s].cluster.sphere_count > 1;
+    const double usual = has_clusters ? 0.5 : DEM_BED_SOLID_FRACTION, poured = dem_poured_solid(d);
+    const double all = (double)d->particle_count, over = dem_stream_height(d, all, poured) - dem_stream_height(d, all, usual);
+    return over > 0.5 * dem_stream_clearance(d) ? poured : usual;
+}
+
+/* m above the floor: level of a bed of so many particles, were it flat. */
+static inline double dem_stream_level(const dem_drum_definition *d, double particles)
+{
+    return dem_stream_height(d, particles, dem_stream_bed_fraction(d));
+}
 
 /* m above the floor, of the centre of a particle that enters after so many others. */
 static inline double dem_stream_inlet_height(const dem_drum_definition *d, double particles)

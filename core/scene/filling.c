@@ -302,12 +302,10 @@ static region region_of_share(const container *c, const spheres *s, double share
 
 dem_status filling_place(filling *f, spheres *s, const container *drum, const dem_drum_definition *definition)
 {
-    /* An open top would let growing particles out of a fuller container. */
-    const double most = drum->kind == DEM_DRUM ? DEM_MOST_PLACED : REGION_FRACTION;
     assign_species(s, definition);
     double held;
     const double volume = total_volume(s, definition, &held), fraction = volume / free_volume(drum, definition);
-    if (drum->bars_from < 3 * s->largest_reach || drum->inner_radius < 3 * s->largest_reach || fraction > most)
+    if (drum->bars_from < 3 * s->largest_reach || drum->inner_radius < 3 * s->largest_reach || fraction > dem_most_placed(definition))
         return DEM_DOES_NOT_FIT;
     const double share = fmin(1.0, fraction / REGION_FRACTION), region_fraction = fmax(REGION_FRACTION, fraction);
     const region region_of_centres = region_of_share(drum, s, share);

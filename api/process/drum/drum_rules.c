@@ -12,11 +12,8 @@
 
 #define SAMPLES_PER_REVOLUTION 40.0
 #define LEAST_DRUM_DIAMETERS 8.0 /* a bed a few particles deep has no surface to speak of */
-/* From runs at fills from 0.5 to 0.95: of spheres, dumbbells and tetrahedra 0.95 can be packed; of cubes 0.85, but not 0.9;
- * of spheres within a lining of their own size 0.65, but not 0.7, a tenth of the drum's diameter each. */
+/* Of spheres within a lining of their own size 0.65 can be packed, but not 0.7, a tenth of the drum's diameter each. */
 #define MOST_FILL 0.95
-#define MOST_FILL_OF_BLOCKS 0.87
-#define BLOCK_SPHERES 8
 #define LINING_DEPTH 0.85          /* of its diameter, that it takes off the radius */
 #define LEAST_PARTICLES 8.0        /* fewer make no bed; they may be placed one by one */
 #define LEAST_LENGTH_DIAMETERS 3.0 /* below, a particle would feel its own periodic image */
@@ -169,26 +166,19 @@ static double most_placed(const dem_drum_definition *drum)
 {
     const double within = 1.0 - drum->lining.diameter / (0.5 * drum->diameter);
     const double room = within * within - share_of_lifters(drum);
-    return DEM_MOST_PLACED / DEM_BED_SOLID_FRACTION * room * (1.0 - 1.0 / fmax(2.0, (double)drum->particle_count));
+    return dem_most_placed(drum) / DEM_BED_SOLID_FRACTION * room * (1.0 - 1.0 / fmax(2.0, (double)drum->particle_count));
 }
 
-/* By volume: blocks of eight spheres and more leave more pores between them than the solid fraction that fills are counted by. */
 static double most_fill(const dem_drum_definition *drum)
 {
-    double volume = 0.0, filled = 0.0;
-    for (size_t s = 0; s < drum->species_count; s++) {
-        const dem_species *species = &drum->species[s];
-        const double share = species->share * dem_species_volume(species);
-        volume += share;
-        filled += share * (species->cluster.sphere_count >= BLOCK_SPHERES ? MOST_FILL_OF_BLOCKS : MOST_FILL);
-    }
-    return fmin(filled / volume * (1.0 - share_of_lifters(drum)) * share_within_lining(drum), most_placed(drum));
+    const double filled = dem_most_solid(drum->species, drum->species_count) / DEM_BED_SOLID_FRACTION;
+    return fmin(filled * (1.0 - share_of_lifters(drum)) * share_within_lining(drum), most_placed(drum));
 }
 
 static void check_room(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
 {
     const double fill = drum->fill_fraction, most = most_fill(drum);
-    if (fill <= MOST_FILL && fill > most)
+    if (fill <= MOST_FILL && fill > most * (1.0 + 1e-9))
         problem_list_add(problems, isnan(inputs->particle_count) ? "/inputs/fill_fraction" : "/inputs/particle_count",
                          "makes a fill of %g; must be at most %.3g, what particles of these shapes can be packed to%s%s", fill,
                          most, drum->lifters.count ? " beside these lifters" : "",

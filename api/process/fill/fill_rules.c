@@ -60,14 +60,16 @@ static void derive_rate(drum_inputs *inputs, dem_drum_definition *scene, problem
                          fill->rate, most);
 }
 
+/* As loose as particles of these shapes lie in a cylinder of this width. */
 static void check_bed(const drum_inputs *inputs, const dem_drum_definition *scene, problem_list *problems)
 {
-    const double level = dem_stream_level(scene, (double)scene->particle_count);
-    const double a_particle = dem_stream_level(scene, 1.0), height = inputs->fill.cylinder_height;
-    if (level > height)
+    const double solid = fmin(dem_stream_bed_fraction(scene), dem_poured_solid(scene)), height = inputs->fill.cylinder_height;
+    const double needed = dem_stream_height(scene, (double)scene->particle_count, solid);
+    if (needed > height)
         problem_list_add(problems, "/inputs/cylinder/height",
-                         "is %g m, but the particles need %.4g m; must be at least that, or the particles at most %.0f", height,
-                         level, floor(height / a_particle));
+                         "is %g m, but the particles need %.4g m, for they fill %.2g of it; must be at least that, or the "
+                         "particles at most %.0f",
+                         height, needed, solid, floor(height / dem_stream_height(scene, 1.0, solid)));
 }
 
 static void derive_cylinder(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)

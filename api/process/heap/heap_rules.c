@@ -14,7 +14,7 @@
 #define USUAL_LIFT_SHARE 0.02 /* of sqrt(g D) */
 #define FAST_LIFT_SHARE 0.3   /* of it, too */
 #define USUAL_RIM_SHARE 0.5   /* of the largest particle */
-/* Room over the bed for the random start, which is looser. */
+/* Room over the bed for the random start, which is looser; more where the particles make a looser bed. */
 #define TUBE_OVER_BED 1.3
 #define SECONDS_AFTER_LIFTING 3.0
 /* Over that of a drum as wide as the bed is high; from overlaps at frictions from 0 to 1. */
@@ -40,12 +40,13 @@ static void derive_tube(drum_inputs *inputs, dem_drum_definition *scene, problem
         problem_list_add(problems, "/inputs/tube/diameter", "is %g m; must be at least %g m, %g of the largest particle diameter",
                          scene->diameter, LEAST_TUBE_DIAMETERS * widest, LEAST_TUBE_DIAMETERS);
     standing_derive_count(inputs, scene, USUAL_FILL_DIAMETERS * scene->diameter, LEAST_PARTICLES, problems);
-    const double needed = TUBE_OVER_BED * standing_bed_height(scene) + 2.0 * widest;
+    const double over_bed = fmax(TUBE_OVER_BED, DEM_BED_SOLID_FRACTION / dem_most_placed(scene));
+    const double needed = over_bed * standing_bed_height(scene) + 2.0 * widest;
     if (isnan(heap->tube_height)) heap->tube_height = needed;
     if (heap->tube_height < needed * (1.0 - 1e-9))
         problem_list_add(problems, "/inputs/tube/height",
                          "is %g m, in which the particles don't fit; must be at least %.4g m, or the bed at most %.4g m high",
-                         heap->tube_height, needed, fmax(0.0, (heap->tube_height - 2.0 * widest) / TUBE_OVER_BED));
+                         heap->tube_height, needed, fmax(0.0, (heap->tube_height - 2.0 * widest) / over_bed));
     scene->length = heap->tube_height;
     if (isnan(heap->lift_speed)) heap->lift_speed = USUAL_LIFT_SHARE * sqrt(scene->gravity * scene->diameter);
     scene->lift = (dem_lift){ .speed = heap->lift_speed };
