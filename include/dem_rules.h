@@ -243,28 +243,35 @@ static inline double dem_bed_layers(double drum_diameter, double share, double m
     return (1.0 + dem_circle_level(share)) * 0.5 * drum_diameter / mean_diameter;
 }
 
-/* Time to make a bed of many particles in any container of that size, s of simulated time. */
-static inline double dem_settling_time_estimate(double size, double gravity) { return 1.8 * sqrt(size / gravity); }
-
-/* Time to make a drum's bed, s of simulated time. Growing takes what core/scene/filling.c says. Settling ends when little kinetic
- * energy is left for each particle: grains that lie side by side on the wall roll down to its lowest line, held back by the
- * drag, and do so the longer the fewer they are beside the row that the random start has room for, 2 sqrt(D/d) of them in a
- * cross-section; where they lie on each other they stop at once. Friction and restitution matter less than the seed: its
- * scatter is 0.3 of the time for less than such a row, 0.2 above. From beds of 8 to 4000 particles, D/d from 9 to 100. */
-static inline double dem_drum_settling_time(const dem_drum_definition *d)
+/* Time to make the bed of a drum or tube, s of simulated time. Growing takes what the core's filling.c says. Settling ends when
+ * little kinetic energy is left for each particle: in a drum, grains that lie side by side on the wall roll down to its lowest
+ * line, held back by the drag, and do so the longer the fewer they are beside the row that the random start has room for,
+ * 2 sqrt(D/d) of them in a cross-section, and the less friction holds them; where they lie on each other they stop at once.
+ * Clusters interlock, and stop sooner than the spheres that hold them would. Seeds scatter by 0.3 of the time for less than such
+ * a row, by 0.1 to 0.2 above. From beds of 8 to 2700 particles, D/d from 8.5 to 100: core/NUMERICS.md, "The bed". */
+static inline double dem_settling_time(const dem_drum_definition *d)
 {
-    double reach = 0.0, held = 0.0, volume = 0.0;
+    if (d->is_placed || d->stream.rate > 0) return 0.0;
+    double reach = 0.0, held = 0.0;
+    bool has_clusters = false;
     for (size_t s = 0; s < d->species_count; s++) {
         const double r = dem_species_reach(&d->species[s]);
         reach = fmax(reach, r);
         held += d->species[s].share * 4.0 / 3.0 * DEM_PI * r * r * r;
+        has_clusters = has_clusters || d->species[s].cluster.sphere_count > 1;
     }
-    volume = dem_mean_volume(d->species, d->species_count);
-    const double fall = sqrt(d->diameter / d->gravity), across = cbrt(6.0 / DEM_PI * held) / d->diameter;
+    const double volume = dem_mean_volume(d->species, d->species_count), particles = (double)d->particle_count;
     const double start_scale = fmin(1.0, cbrt(0.28 / (0.5 * held / volume)));
+    if (d->container != DEM_DRUM) {
+        const double size = fmax(d->diameter, particles * volume / (0.5 * DEM_PI / 4.0 * d->diameter * d->diameter));
+        return sqrt(size / d->gravity) * (80.0 * (1.001 - start_scale) * reach / size + 1.7);
+    }
+    const double across = cbrt(6.0 / DEM_PI * held) / d->diameter;
+    const double rows = particles * across * d->diameter / d->length / (2.0 / sqrt(across));
     const double growing = 80.0 * (1.001 - start_scale) * reach / d->diameter;
-    const double rows = (double)d->particle_count * across * d->diameter / d->length / (2.0 / sqrt(across));
-    return fall * (growing + 0.75 + 14.0 * across + 6.0 * exp(-rows / 0.45));
+    const double settling =
+        (0.5 + 17.0 * across + 6.9 * exp(-rows / 0.33)) * (1.0 + 0.85 * exp(-d->contact.friction / 0.1));
+    return (has_clusters ? 0.7 : 1.0) * sqrt(d->diameter / d->gravity) * (growing + settling);
 }
 
 /* Resident memory of a run, bytes, without its tables of results: from drums of 1 to 20,000 spheres. */

@@ -225,6 +225,13 @@ def test_every_problem_of_a_fill_is_named_at_once(daemon):
     assert "steps of" in slow["/inputs/stream/rate"] and "/inputs/duration/settling_seconds" not in slow
 
 
+def test_neither_takes_a_bed_to_start_from(daemon):
+    for process in ("heap", "fill"):
+        for bed in ({"job": "20260101-000000-00000000"}, {"particles": [{"position": [0, 0, 0.01]}]}):
+            errors = errors_of(daemon, process, changed(SPECS[process], start=bed))
+            assert list(errors) == ["/inputs/start"] and errors["/inputs/start"].startswith("is not an input; available here: ")
+
+
 def test_the_examples_are_complete_specifications(daemon):
     for process in ("heap", "fill"):
         example = json.loads((ROOT / f"api/examples/{process}.json").read_text())

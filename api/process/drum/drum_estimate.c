@@ -33,14 +33,6 @@ static double lining_spheres(const dem_drum_definition *drum)
     return DEM_PI * drum->diameter * drum->length / (drum->lining.pitch * drum->lining.pitch);
 }
 
-/* Clusters interlock, and stop sooner than the spheres that hold them would: from 10 to 315 tetrahedra. */
-static double settling_seconds(const dem_drum_definition *drum)
-{
-    static const double OF_CLUSTERS = 0.7;
-    if (drum->is_placed) return 0.0;
-    return (scene_spheres_a_particle(drum) > 1.0 ? OF_CLUSTERS : 1.0) * dem_drum_settling_time(drum);
-}
-
 job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
 {
     const dem_drum_definition *drum = &spec->drum;
@@ -53,7 +45,7 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
         .particles = particles,
         .time_step = drum->time_step,
         .stiffness = drum->contact.stiffness,
-        .simulated_seconds = spec->duration + settling_seconds(drum),
+        .simulated_seconds = spec->duration + dem_settling_time(drum),
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);

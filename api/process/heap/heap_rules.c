@@ -19,11 +19,9 @@
 #define SECONDS_AFTER_LIFTING 3.0
 /* Over that of a drum as wide as the bed is high; from overlaps at frictions from 0 to 1. */
 #define FALL_IN_TUBE 1.2
-/* For the estimate: slope of the heap, how long the bed takes in the tube beside a drum's, and how long (s) the heap takes to
- * come to rest and what a sphere-step costs beside one in a drum, where neighbors change less: from heaps of 200 to 4000
- * particles. */
+/* For the estimate: slope of the heap, how long (s) the heap takes to come to rest, and what a sphere-step costs beside one in a
+ * drum, where neighbors change less: from heaps of 200 to 4000 particles. */
 #define SLOPE_EXPECTED 0.45
-#define SETTLING_IN_TUBE 1.4
 static const struct {
     double rest, cost;
 } OF_SPHERES = { 0.5, 1.75 }, OF_SPHERES_THAT_ROLL_HARD = { 0.3, 1.4 }, OF_CLUSTERS = { 0.7, 1.3 };
@@ -104,8 +102,7 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     const double bare = has_clusters ? 0.0 : fmax(0.5 * scene->plate.diameter - cone / SLOPE_EXPECTED, 0.0);
     const double rolling = bare / (ROLLING_SPEED_SHARE * sqrt(2.0 * scene->gravity * height));
     const double seconds = fmin(height / scene->lift.speed + rest + rolling, spec->duration);
-    const double settling = SETTLING_IN_TUBE * dem_settling_time_estimate(fmax(scene->diameter, bed), scene->gravity);
-    job_estimate heap = standing_estimate(spec, machine, seconds, settling, 1.0);
+    job_estimate heap = standing_estimate(spec, machine, seconds, dem_settling_time(scene), 1.0);
     heap.wall_seconds *= has_clusters ? OF_CLUSTERS.cost : rolls ? OF_SPHERES.cost : OF_SPHERES_THAT_ROLL_HARD.cost;
     return heap;
 }

@@ -22,26 +22,37 @@ double monotonic_seconds(void)
 
 void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *scene, double earlier_seconds)
 {
-    const dem_drum_definition *drum = &spec->drum;
-    const double now = monotonic_seconds();
+    const job_estimate estimate = job_spec_estimate(spec, NULL);
+    const double now = monotonic_seconds(), settling = dem_settling_time(&spec->drum) / spec->drum.time_step;
+    const bool may_end_early = spec->drum.container != DEM_DRUM;
     *run = (progress){
         .started = now,
         .last_report = now,
         .earlier_seconds = earlier_seconds,
         .spheres = (double)dem_scene_sphere_count(scene),
-        .settling_steps_expected = dem_settling_time_estimate(drum->diameter, drum->gravity) / drum->time_step,
-        .rotation_steps = (double)plan->rotation_steps,
+        .may_end_early = may_end_early,
+        .settling_steps = settling,
+        .rotation_steps = may_end_early ? fmax(1.0, estimate.steps - settling) : (double)plan->rotation_steps,
         .last_step = dem_scene_step_count(scene),
     };
 }
 
-/* Steps of the whole run: once rotation has begun they are known, before that they are a guess that grows when
- * the bed takes longer to settle. */
-static double total_steps(const progress *run, const dem_scene *scene)
+/* Share of a part of the run of which so many of the steps expected are done: nine tenths as the estimate has it, and
+ * what takes longer comes ever nearer to the end of its part. */
+static double share_of_expected(double done)
 {
-    const int64_t rotation_start = dem_scene_rotation_start(scene);
-    if (rotation_start >= 0) return (double)rotation_start + run->rotation_steps;
-    return fmax(run->settling_steps_expected, (double)dem_scene_step_count(scene)) + run->rotation_steps;
+    return done < 0.9 ? done : 1.0 - 0.1 * exp(-(done - 0.9) / 0.1);
+}
+
+/* A number between 0 and 1 that follows from the scene's phase and step alone and grows with them, whatever the bed really
+ * took: making the bed and the rest of the run have the shares of the whole that they are estimated to have. */
+static double share_done(const progress *run, const dem_scene *scene)
+{
+    const double whole = run->settling_steps + run->rotation_steps, of_settling = run->settling_steps / whole;
+    const double step = (double)dem_scene_step_count(scene), start = (double)dem_scene_rotation_start(scene);
+    if (start < 0) return run->settling_steps > 0 ? of_settling * share_of_expected(step / run->settling_steps) : 0.0;
+    const double done = (step - start) / run->rotation_steps;
+    return of_settling + (1.0 - of_settling) * (run->may_end_early ? share_of_expected(done) : fmin(done, 1.0));
 }
 
 bool progress_is_due(progress *run, const dem_scene *scene, progress_report *report)
@@ -55,11 +66,10 @@ bool progress_is_due(progress *run, const dem_scene *scene, progress_report *rep
     run->last_step = step;
     run->last_report = now;
 
-    const double total = total_steps(run, scene);
-    run->last_percent = fmax(run->last_percent, 100.0 * (double)step / total);
+    const double share = share_done(run, scene);
     *report = (progress_report){
-        .percent = run->last_percent,
-        .eta_seconds = (total - (double)step) / run->steps_per_second,
+        .percent = 100.0 * share,
+        .eta_seconds = (1.0 - share) * (run->settling_steps + run->rotation_steps) / run->steps_per_second,
         .particle_steps_per_second = run->spheres * run->steps_per_second,
     };
     return true;

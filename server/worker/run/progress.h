@@ -12,10 +12,11 @@
 typedef struct progress {
     double started, last_report; /* s, monotonic clock */
     double earlier_seconds;      /* spent by earlier attempts on the way to where this one started */
-    double spheres, settling_steps_expected, rotation_steps;
+    double spheres;
+    double settling_steps, rotation_steps; /* expected; the latter of a drum are known */
+    bool may_end_early;                    /* as soon as all is at rest */
     double steps_per_second; /* of late; 0: not known yet */
     int64_t last_step;
-    double last_percent; /* never goes back */
 } progress;
 
 typedef struct progress_report {
