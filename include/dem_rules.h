@@ -111,21 +111,32 @@ static inline double dem_species_compactness(const dem_species *s)
     return c->volume / (4.0 / 3.0 * DEM_PI * sqrt(axes2 * pow(5.0 / c->volume, 3.0)));
 }
 
-/* Most of a container's volume that particles of these shapes can be packed into, and how much of it a bed takes up that was
- * poured into an upright container, which is loose along the wall: means by volume. What bulges in stays empty. From beds of
- * nine shapes: core/NUMERICS.md, "The bed". */
+/* Solid fraction that particles of one shape can be packed to. What bulges in stays empty, and particles of many small spheres
+ * reach less far into each other's pores. From beds of eight shapes: core/NUMERICS.md, "How full a container can be". */
 #define DEM_MOST_SOLID 0.57 /* of spheres */
+#define DEM_MOST_SOLID_OF_BLOCKS 0.522
+#define DEM_BLOCK_SPHERES 8
+static inline double dem_species_most_solid(const dem_species *s)
+{
+    if (s->cluster.sphere_count < 2) return DEM_MOST_SOLID;
+    const double grain = dem_species_largest_sphere(s) / cbrt(6.0 / DEM_PI * s->cluster.volume);
+    const double most = s->cluster.sphere_count < DEM_BLOCK_SPHERES ? DEM_MOST_SOLID : DEM_MOST_SOLID_OF_BLOCKS;
+    return fmin(most, 0.75 * dem_species_compactness(s) + 0.5 * fmax(grain, 0.3) - 0.13);
+}
+
+/* The mean of that by volume. */
 static inline double dem_most_solid(const dem_species *species, size_t count)
 {
     double volume = 0.0, solid = 0.0;
     for (size_t s = 0; s < count; s++) {
         const double share = species[s].share * dem_species_volume(&species[s]);
         volume += share;
-        solid += share * fmin(DEM_MOST_SOLID, 0.114 + 0.75 * dem_species_compactness(&species[s]));
+        solid += share * dem_species_most_solid(&species[s]);
     }
     return solid / volume;
 }
 
+/* How much a bed fills of an upright container that it was poured into with much friction: it is loose along the wall. */
 static inline double dem_poured_solid(const dem_drum_definition *d)
 {
     double volume = 0.0, solid = 0.0, reach = 0.0;
@@ -139,12 +150,11 @@ static inline double dem_poured_solid(const dem_drum_definition *d)
 }
 
 /* Share of a container's free volume, without the layer of a lining and without bars, that particles may have the volume of for
- * all of them to find a place at the start and to grow there: in a drum a little more than they can be packed to; in one that is
- * open at the top what they take up at rest, and no more than half, since growing particles would leave it. */
+ * all of them to find a place at the start and to grow there: in a drum a little more than they can be packed to; half of one
+ * that is open at the top, which growing particles would leave. */
 static inline double dem_most_placed(const dem_drum_definition *d)
 {
-    if (d->container == DEM_DRUM) return 0.62 / DEM_MOST_SOLID * dem_most_solid(d->species, d->species_count);
-    return fmin(0.5, dem_poured_solid(d));
+    return d->container == DEM_DRUM ? 0.62 / DEM_MOST_SOLID * dem_most_solid(d->species, d->species_count) : 0.5;
 }
 
 /* How many particles fill `fill_fraction` of a drum's cross-section. */
@@ -248,7 +258,7 @@ static inline double dem_bed_layers(double drum_diameter, double share, double m
  * line, held back by the drag, and do so the longer the fewer they are beside the row that the random start has room for,
  * 2 sqrt(D/d) of them in a cross-section, and the less friction holds them; where they lie on each other they stop at once.
  * Clusters interlock, and stop sooner than the spheres that hold them would. Seeds scatter by 0.3 of the time for less than such
- * a row, by 0.1 to 0.2 above. From beds of 8 to 2700 particles, D/d from 8.5 to 100: core/NUMERICS.md, "The bed". */
+ * a row, by 0.1 to 0.2 above. From beds of 8 to 2700 particles, D/d from 8.5 to 100: core/NUMERICS.md, "How long a bed takes". */
 static inline double dem_settling_time(const dem_drum_definition *d)
 {
     if (d->is_placed || d->stream.rate > 0) return 0.0;
@@ -269,8 +279,7 @@ static inline double dem_settling_time(const dem_drum_definition *d)
     const double across = cbrt(6.0 / DEM_PI * held) / d->diameter;
     const double rows = particles * across * d->diameter / d->length / (2.0 / sqrt(across));
     const double growing = 80.0 * (1.001 - start_scale) * reach / d->diameter;
-    const double settling =
-        (0.5 + 17.0 * across + 6.9 * exp(-rows / 0.33)) * (1.0 + 0.85 * exp(-d->contact.friction / 0.1));
+    const double settling = (0.5 + 17.0 * across + 6.9 * exp(-rows / 0.33)) * (1.0 + 0.85 * exp(-d->contact.friction / 0.1));
     return (has_clusters ? 0.7 : 1.0) * sqrt(d->diameter / d->gravity) * (growing + settling);
 }
 

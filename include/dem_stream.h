@@ -26,13 +26,19 @@ static inline double dem_stream_height(const dem_drum_definition *d, double part
     return particles * dem_mean_volume(d->species, d->species_count) / (solid_fraction * area);
 }
 
-/* Solid fraction that the level of the bed is counted by. Clusters pack looser than spheres. A bed that is so high that it would
- * come half the way up to the inlet, were it as loose as its particles lie in a cylinder as narrow as this, is counted by that. */
-static inline double dem_stream_bed_fraction(const dem_drum_definition *d)
+/* Clusters pack looser than spheres. */
+static inline double dem_stream_usual_fraction(const dem_drum_definition *d)
 {
     bool has_clusters = false;
     for (size_t s = 0; s < d->species_count; s++) has_clusters = has_clusters || d->species[s].cluster.sphere_count > 1;
-    const double usual = has_clusters ? 0.5 : DEM_BED_SOLID_FRACTION, poured = dem_poured_solid(d);
+    return has_clusters ? 0.5 : DEM_BED_SOLID_FRACTION;
+}
+
+/* Solid fraction that the level of the bed is counted by. A bed that is so high that it would come half the way up to the inlet,
+ * were it as loose as its particles lie in a cylinder as narrow as this, is counted by that. */
+static inline double dem_stream_bed_fraction(const dem_drum_definition *d)
+{
+    const double usual = dem_stream_usual_fraction(d), poured = dem_poured_solid(d);
     const double all = (double)d->particle_count, over = dem_stream_height(d, all, poured) - dem_stream_height(d, all, usual);
     return over > 0.5 * dem_stream_clearance(d) ? poured : usual;
 }

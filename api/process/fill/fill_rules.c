@@ -60,16 +60,28 @@ static void derive_rate(drum_inputs *inputs, dem_drum_definition *scene, problem
                          fill->rate, most);
 }
 
-/* As loose as particles of these shapes lie in a cylinder of this width. */
+/* As dense as beds in a wide cylinder are, at the least. */
 static void check_bed(const drum_inputs *inputs, const dem_drum_definition *scene, problem_list *problems)
 {
-    const double solid = fmin(dem_stream_bed_fraction(scene), dem_poured_solid(scene)), height = inputs->fill.cylinder_height;
+    const double solid = dem_stream_usual_fraction(scene), height = inputs->fill.cylinder_height;
     const double needed = dem_stream_height(scene, (double)scene->particle_count, solid);
     if (needed > height)
         problem_list_add(problems, "/inputs/cylinder/height",
-                         "is %g m, but the particles need %.4g m, for they fill %.2g of it; must be at least that, or the "
-                         "particles at most %.0f",
-                         height, needed, solid, floor(height / dem_stream_height(scene, 1.0, solid)));
+                         "is %g m, but the particles need %.4g m; must be at least that, or the particles at most %.0f", height,
+                         needed, floor(height / dem_stream_height(scene, 1.0, solid)));
+}
+
+/* A bed of much friction is looser, and its top may stand over the cylinder's. */
+static void warn(const job_spec *spec, problem_list *warnings)
+{
+    const dem_drum_definition *scene = &spec->drum;
+    const double solid = dem_poured_solid(scene), needed = dem_stream_height(scene, (double)scene->particle_count, solid);
+    if (needed > spec->inputs.fill.cylinder_height)
+        problem_list_add(warnings, "/inputs/cylinder/height",
+                         "is %g m, above which the bed may end: particles of these shapes with much friction fill %.2g of so "
+                         "narrow a cylinder, and need %.3g m",
+                         spec->inputs.fill.cylinder_height, solid, needed);
+    scene_warn(spec, warnings);
 }
 
 static void derive_cylinder(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
@@ -137,7 +149,7 @@ const process_type fill_process = {
     .inputs_at = offsetof(job_spec, inputs),
     .apply_rules = apply_rules,
     .estimate = estimate,
-    .warn = scene_warn,
+    .warn = warn,
     .understand = understand,
     .results = &fill_result_fields,
 };

@@ -28,6 +28,17 @@ static const struct {
 /* The last spheres roll to the edge of the plate, at so much of the speed of falling from the top. */
 #define ROLLING_SPEED_SHARE 0.06
 
+/* m, of a tube with room for the bed at a share of the height that it has at DEM_BED_SOLID_FRACTION, and for two particles. */
+static double height_of_tube(const dem_drum_definition *scene, double over_bed)
+{
+    return over_bed * standing_bed_height(scene) + 2.0 * scene_of_species(scene, scene_species_width, true);
+}
+
+static double height_of_loose_tube(const dem_drum_definition *scene)
+{
+    return height_of_tube(scene, fmax(TUBE_OVER_BED, DEM_BED_SOLID_FRACTION / dem_poured_solid(scene)));
+}
+
 static void derive_tube(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
 {
     heap_inputs *heap = &inputs->heap;
@@ -38,13 +49,12 @@ static void derive_tube(drum_inputs *inputs, dem_drum_definition *scene, problem
         problem_list_add(problems, "/inputs/tube/diameter", "is %g m; must be at least %g m, %g of the largest particle diameter",
                          scene->diameter, LEAST_TUBE_DIAMETERS * widest, LEAST_TUBE_DIAMETERS);
     standing_derive_count(inputs, scene, USUAL_FILL_DIAMETERS * scene->diameter, LEAST_PARTICLES, problems);
-    const double over_bed = fmax(TUBE_OVER_BED, DEM_BED_SOLID_FRACTION / dem_most_placed(scene));
-    const double needed = over_bed * standing_bed_height(scene) + 2.0 * widest;
-    if (isnan(heap->tube_height)) heap->tube_height = needed;
+    const double needed = height_of_tube(scene, TUBE_OVER_BED);
+    if (isnan(heap->tube_height)) heap->tube_height = height_of_loose_tube(scene);
     if (heap->tube_height < needed * (1.0 - 1e-9))
         problem_list_add(problems, "/inputs/tube/height",
                          "is %g m, in which the particles don't fit; must be at least %.4g m, or the bed at most %.4g m high",
-                         heap->tube_height, needed, fmax(0.0, (heap->tube_height - 2.0 * widest) / over_bed));
+                         heap->tube_height, needed, fmax(0.0, (heap->tube_height - 2.0 * widest) / TUBE_OVER_BED));
     scene->length = heap->tube_height;
     if (isnan(heap->lift_speed)) heap->lift_speed = USUAL_LIFT_SHARE * sqrt(scene->gravity * scene->diameter);
     scene->lift = (dem_lift){ .speed = heap->lift_speed };
@@ -107,9 +117,15 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     return heap;
 }
 
-/* A tube that is pulled away lets its particles fall. */
+/* Particles that stand over a tube's top fall down its outside; a tube that is pulled away lets its particles fall. */
 static void warn(const job_spec *spec, problem_list *warnings)
 {
+    const double loose = height_of_loose_tube(&spec->drum);
+    if (spec->drum.length < loose * (1.0 - 1e-9))
+        problem_list_add(warnings, "/inputs/tube/height",
+                         "is %g m, over which the bed may stand and spill: particles of these shapes with much friction make "
+                         "a loose bed, which needs %.4g m",
+                         spec->drum.length, loose);
     const double fast = FAST_LIFT_SHARE * sqrt(spec->drum.gravity * spec->drum.diameter);
     if (spec->drum.lift.speed > fast)
         problem_list_add(

@@ -49,13 +49,13 @@ static json_t *minimal_with(const char *path, const char *value)
 }
 
 /* Parses and frees the request; the pointers and details of all problems, one a line. */
-static char *problems_of_process(const char *process, json_t *request)
+static char *problems_of(json_t *request)
 {
     job_spec spec;
     problem_list problems;
     assert_true(problem_list_init(&problems));
     char *text = calloc(1, 100000);
-    if (job_spec_parse(process, request, 1, &spec, &problems)) {
+    if (job_spec_parse("drum", request, 1, &spec, &problems)) {
         assert_true(problem_list_is_empty(&problems));
         job_spec_clear(&spec);
     }
@@ -72,8 +72,6 @@ static char *problems_of_process(const char *process, json_t *request)
     json_decref(request);
     return text;
 }
-
-static char *problems_of(json_t *request) { return problems_of_process("drum", request); }
 
 static void expect_problem(const char *path, const char *value, const char *expected)
 {
@@ -939,63 +937,6 @@ static void what_can_not_be_packed_is_refused(void **state)
     }
 }
 
-#define CROSS                                                                                                                      \
-    "{\"shape\": {\"spheres\": [{\"position\": [0, 0, 0], \"diameter\": 0.002}, {\"position\": [0.002, 0, 0], \"diameter\": 0.002}, "         \
-    "{\"position\": [-0.002, 0, 0], \"diameter\": 0.002}, {\"position\": [0, 0.002, 0], \"diameter\": 0.002}, "                    \
-    "{\"position\": [0, -0.002, 0], \"diameter\": 0.002}, {\"position\": [0, 0, 0.002], \"diameter\": 0.002}, "                    \
-    "{\"position\": [0, 0, -0.002], \"diameter\": 0.002}]}}"
-
-/* Solid fractions that beds were grown to in drums, and those at which an overlap went beyond what fails. */
-static void shapes_are_refused_where_they_failed_and_accepted_where_they_were_grown(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *particle;
-        double grown, failed;
-    } beds[] = { { "{\"diameter\": 0.002}", 0.57, 1 },
-                 { "{\"shape\": \"dumbbell\", \"diameter\": 0.002}", 0.57, 1 },
-                 { "{\"shape\": \"tetrahedron\", \"diameter\": 0.002}", 0.57, 1 },
-                 { "{\"shape\": \"cube\", \"diameter\": 0.002}", 0.51, 0.54 },
-                 { CROSS, 0.4, 0.5 } };
-    for (size_t k = 0; k < sizeof beds / sizeof beds[0]; k++)
-        for (int failed = 0; failed < 2; failed++) {
-            const double solid = failed ? beds[k].failed : beds[k].grown;
-            if (solid == 1) continue;
-            char text[1200];
-            snprintf(text, sizeof text, "{\"inputs\": {\"drum\": {\"diameter\": 0.06, \"length\": 0.03, \"rotation_rate\": 6}, "
-                                        "\"particles\": [%s], \"duration\": {\"seconds\": 0.05}, \"fill_fraction\": %.4f}}",
-                     beds[k].particle, solid / 0.6);
-            char *problems = problems_of(load(text));
-            if (failed ? !strstr(problems, "/inputs/fill_fraction: makes a fill of") : *problems != '\0')
-                fail_msg("%s at %g: %s", beds[k].particle, solid, problems);
-            free(problems);
-        }
-}
-
-/* Poured between walls five of their widths apart, spheres fill 0.506, tetrahedra 0.433 and cubes 0.365: a tube in which the
- * particles would be more than that lets them stand over its top. */
-static void a_tube_is_as_high_as_a_loose_bed_of_its_particles(void **state)
-{
-    (void)state;
-    static const struct {
-        const char *particle;
-        double widths, poured; /* m; solid fraction */
-    } beds[] = { { "{\"diameter\": 0.002}", 0.002, 0.506 },
-                 { "{\"shape\": \"tetrahedron\", \"diameter\": 0.002}", 0.00445, 0.433 },
-                 { "{\"shape\": \"cube\", \"diameter\": 0.002}", 0.00547, 0.365 } };
-    for (size_t k = 0; k < sizeof beds / sizeof beds[0]; k++)
-        for (int process = 0; process < 2; process++) {
-            const double width = (process ? 6.05 : 5.05) * beds[k].widths, height = 12 * width;
-            char text[600];
-            snprintf(text, sizeof text, "{\"process\": \"%s\", \"inputs\": {\"%s\": {\"diameter\": %g, \"height\": %g}, \"particles\": "
-                                        "[%s], \"fill_height\": %g}}", process ? "fill" : "heap", process ? "cylinder" : "tube", width,
-                     height, beds[k].particle, 1.1 * height * beds[k].poured / 0.6);
-            char *problems = problems_of_process(process ? "fill" : "heap", load(text));
-            if (!strstr(problems, process ? "/inputs/cylinder/height: is" : "/inputs/tube/height: is")) fail_msg("%s: %s", text, problems);
-            free(problems);
-        }
-}
-
 static void a_start_within_a_bar_or_the_lining_is_refused(void **state)
 {
     (void)state;
@@ -1043,8 +984,6 @@ int main(void)
         cmocka_unit_test(a_rate_may_be_given_in_revolutions_a_minute),
         cmocka_unit_test(shares_of_four_digits_sum_to_one),
         cmocka_unit_test(what_can_not_be_packed_is_refused),
-        cmocka_unit_test(shapes_are_refused_where_they_failed_and_accepted_where_they_were_grown),
-        cmocka_unit_test(a_tube_is_as_high_as_a_loose_bed_of_its_particles),
         cmocka_unit_test(a_start_within_a_bar_or_the_lining_is_refused),
         cmocka_unit_test(the_estimate_is_near_what_runs_of_few_and_of_many_took),
         cmocka_unit_test(the_estimate_of_settling_follows_how_few_grains_there_are),
