@@ -10,6 +10,7 @@
 #include "openapi_outline.h"
 #include "openapi_schemas.h"
 #include "status_info.h"
+#include "yaml_read.h"
 
 static bool send_page_file(api_service *service, const http_request *request, http_response *response, const char *name,
                            const char *type)
@@ -30,6 +31,7 @@ static json_t *landing_links(void)
         /* The types that clients in use know; JSON is YAML, too. */
         { "service-desc", "application/vnd.oai.openapi+json;version=3.0", "/api?f=json" },
         { "service-desc", "application/vnd.oai.openapi;version=3.0", "/api?f=json" },
+        { "service-desc", "application/vnd.oai.openapi+json;version=3.1", "/api" },
         { "http://www.opengis.net/def/rel/ogc/1.0/conformance", "application/json", "/conformance" },
         { "http://www.opengis.net/def/rel/ogc/1.0/processes", "application/json", "/processes" },
         { "http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json", "/jobs" },
@@ -73,6 +75,18 @@ static void show_outline(http_response *response)
     response->content_type = "application/vnd.oai.openapi+json;version=3.0";
 }
 
+static void respond_json_document(http_response *response, const char *text)
+{
+    int line = 0;
+    json_t *document = text ? yaml_read(text, &line) : NULL;
+    if (!document) {
+        http_respond_problem(response, 500, NULL, "No OpenAPI document", "line %d of the file of --api-file can't be read as YAML", line);
+        return;
+    }
+    http_respond_json(response, 200, document);
+    response->content_type = "application/vnd.oai.openapi+json;version=3.1";
+}
+
 /* The file, with the schemas of this very program; where it has them already it is sent as it is. */
 static void respond_document(const http_request *request, http_response *response, int file)
 {
@@ -81,7 +95,16 @@ static void respond_document(const http_request *request, http_response *respons
     text_buffer_init(&whole, 4 << 20);
     const bool differs = openapi_read(file, &read) && read.text && openapi_write(read.text, read.length, &whole)
                          && (whole.length != read.length || memcmp(whole.text, read.text, read.length) != 0);
+    const bool as_json = !http_request_accepts(request, "application/vnd.oai.openapi")
+                         && (http_request_accepts(request, "application/vnd.oai.openapi+json")
+                             || http_request_accepts(request, "application/json"));
+    if (as_json) respond_json_document(response, differs ? whole.text : read.text);
     text_buffer_clear(&read);
+    if (as_json) {
+        close(file);
+        text_buffer_clear(&whole);
+        return;
+    }
     if (differs) {
         close(file);
         http_respond_text(response, 200, type, whole.text, whole.length);

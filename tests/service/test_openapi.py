@@ -334,3 +334,57 @@ def test_a_stale_document_is_served_with_the_schemas_of_the_program(tmp_path, co
     (tmp_path / "stale.yaml").write_text(document.split("    ProcessId:")[0])
     for daemon in run_daemon(tmp_path, options=["--api-file", str(tmp_path / "stale.yaml")]):
         assert yaml.safe_load(daemon.get("/api").text) == contract.document
+
+
+def test_the_whole_document_is_served_as_json_too(daemon, contract):
+    for accept in ("application/json", "application/vnd.oai.openapi+json;version=3.1", "application/vnd.oai.openapi+json"):
+        answer = requests.get(f"{daemon.url}/api", headers={"Accept": accept})
+        assert answer.status_code == 200 and answer.headers["Content-Type"] == "application/vnd.oai.openapi+json;version=3.1"
+        assert answer.json() == contract.document
+        contract.check(answer, "/api")
+    assert answer.json()["paths"].keys() == requests.get(f"{daemon.url}/api?f=json", headers={"Accept": accept}).json()["paths"].keys()
+    assert yaml.safe_load(requests.get(f"{daemon.url}/api", headers={"Accept": "*/*"}).text) == contract.document
+
+
+YAML = r"""# a comment
+plain: two words   # and another
+'200': {a: 1, 'b c': [x, -2, 3.5, 1.0e-05, '7', null, true], empty: {}, none: []}
+url: http://127.0.0.1:8080/a#b
+folded: >-
+  one line
+  and on,
+
+  another
+literal: |
+  first
+    further in
+  last
+quoted: 'it''s: {not} a # mapping,
+  over two lines'
+double: "a \"word\" \\"
+long: a plain text
+  that goes on
+list:
+- first
+- name: second
+  of: [a,
+    b]   # over two lines
+-
+  - nested
+  - {deep: {er: yes or no}}
+  - - twice
+nothing:
+last: /jobs/{id}
+"""
+
+
+def test_yaml_of_every_kind_that_documents_use_is_read_as_others_read_it(tmp_path):
+    """PyYAML is the other."""
+    (tmp_path / "any.yaml").write_text(YAML)
+    for daemon in run_daemon(tmp_path, options=["--api-file", str(tmp_path / "any.yaml")]):
+        accept = {"Accept": "application/json"}
+        assert daemon.get("/api", headers=accept).json() == yaml.safe_load(YAML)
+        for number, bad in enumerate(("a: {b: [1, 2}\n", "a: 1\n b: 2\n", "a: 1\na: 2\n", "a: 'open\n", "[" * 500, "- a\nb: 1\n")):
+            (tmp_path / "any.yaml").write_text(bad)
+            answer = daemon.get("/api", headers=accept)
+            assert answer.status_code == 500 and "line" in answer.json()["detail"], (number, answer.text)
