@@ -31,9 +31,10 @@ function fitTable({ minimum_omega2, fits, deviations }) {
       h('td', null, significant(fits[name], 4)), h('td', null, percent(deviations[name]))))));
 }
 
-export function granuleInWords({ granule, regime, run }) {
+export function granuleInWords({ granule, regime, run }, schemas) {
+  const told = schemas.regime?.properties ?? {}, given = { properties: { ...told.evidence?.properties, ...told } };
   return h('div', { class: 'results' },
-    section('Least rate', granule, fitTable(granule)),
-    regime?.name ? section('At the rate given', { regime: regime.name, omega2_outer: regime.omega2_outer, ...regime.evidence }) : null,
-    section('Run', run));
+    section('Least rate', granule, schemas.granule, fitTable(granule)),
+    regime?.name ? section('At the rate given', { name: regime.name, omega2_outer: regime.omega2_outer, ...regime.evidence }, given) : null,
+    section('Run', run, schemas.run));
 }

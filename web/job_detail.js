@@ -7,6 +7,7 @@ import { anglePlot } from './angle_plot.js';
 import { viewOf } from './process_views.js';
 import { warningsOf } from './results.js';
 import { fileLink } from './file_link.js';
+import { schemasOf } from './words.js';
 
 const SNAPSHOTS_SHOWN = 200;
 
@@ -30,7 +31,7 @@ export function createDetail() {
       const results = job.status === 'successful' ? await json(`${jobPath(job.jobID)}/results`) : null;
       const hasSeries = viewOf(job.processID).series;
       if (hasSeries) await fetchNewSamples(job.jobID, series);
-      if (results) showResults(parts, results, job);
+      if (results) showResults(parts, results, await schemasOf(job.processID), job);
       if (hasSeries) showPlot(parts.plot, series.points, results, job.status);
       if (job.status !== 'running') finalShown = job.status;
     } catch (error) {
@@ -61,10 +62,10 @@ function showReason(box, job) {
     : job.status !== 'failed' ? null : h('div', { class: 'reason' }, h('h3', null, 'Why it failed'), h('p', null, job.message || 'No reason was given.')));
 }
 
-function showResults(parts, results, job) {
+function showResults(parts, results, schemas, job) {
   const view = viewOf(job.processID);
   parts.answer.replaceChildren(...[warningsOf(results), view.answer(results, job.summary ?? {})].filter(Boolean));
-  parts.results.replaceChildren(view.results(results));
+  parts.results.replaceChildren(view.results(results, schemas));
 }
 
 function showPlot(box, points, results, status) {

@@ -4,9 +4,10 @@ import { count, degrees, NO_ANGLE, regimeInWords, verdictInWords } from './forma
 import { drumPicture } from './drum_picture.js';
 import { inWords, METHODS } from './words.js';
 
-function facts(object) {
+// schema: of the object; undefined where nothing describes it.
+function facts(object, schema) {
   const rows = Object.entries(object).map(([name, value]) => {
-    const [label, text] = inWords(name, value);
+    const [label, text] = inWords(name, value, schema?.properties?.[name]);
     return h('div', null, h('dt', null, label), h('dd', null, text));
   });
   return h('dl', { class: 'facts' }, rows);
@@ -22,9 +23,9 @@ export function warningsOf(results) {
     warnings.map(({ field, text }) => h('p', null, h('code', null, field), ` ${text}`)));
 }
 
-export function section(title, object, ...extra) {
+export function section(title, object, schema, ...extra) {
   const plain = Object.fromEntries(Object.entries(object ?? {}).filter(([name, value]) => !isRecord(value) && name !== 'warnings'));
-  return h('section', null, h('h3', null, title), ...extra, facts(plain));
+  return h('section', null, h('h3', null, title), ...extra, facts(plain, schema));
 }
 
 export function angleTable(repose) {
@@ -57,20 +58,21 @@ export function answer(repose, regime, summary) {
       h('span', null, [regime?.name && regimeInWords(regime.name, regime.certain), verdictInWords(repose)].filter(Boolean).join(', '))));
 }
 
-export function resultsInWords(results) {
+export function resultsInWords(results, schemas) {
   const { repose = {}, regime = {}, segregation, packing, drive, run, ...others } = results;
   const hidden = ['angle_deg', 'standard_error_deg', 'minimum_deg', 'maximum_deg', 'method'];
   const rest = Object.fromEntries(Object.entries(repose).filter(([name]) => !hidden.includes(name)));
-  const window = Object.fromEntries(Object.entries(repose.window ?? {}).map(([name, value]) => [`window_${name}`, value]));
+  const of = (output, group) => group ? schemas[output]?.properties?.[group] : schemas[output];
   return h('div', { class: 'results' },
-    section('Angle of repose', { ...rest, ...window }, angleTable(repose)),
-    repose.slumps?.count ? section('Slumps', repose.slumps) : null,
-    section('Regime', { name: regime.name, ...regime }),
-    isRecord(regime.predicted) ? section('Predicted boundaries of ω²R/g', regime.predicted) : null,
-    isRecord(regime.evidence) ? section('Evidence for the regime', regime.evidence) : null,
-    section('Segregation', segregation),
-    section('Packing', packing),
-    drive ? section('Drive', drive) : null,
-    section('Run', run),
-    Object.entries(others).map(([name, value]) => section(name.replaceAll('_', ' '), isRecord(value) ? value : { [name]: value })));
+    section('Angle of repose', { ...rest, ...repose.window },
+      { properties: { ...of('repose')?.properties, ...of('repose', 'window')?.properties } }, angleTable(repose)),
+    repose.slumps?.count ? section('Slumps', repose.slumps, of('repose', 'slumps')) : null,
+    section('Regime', { name: regime.name, ...regime }, of('regime')),
+    isRecord(regime.predicted) ? section('Predicted boundaries of ω²R/g', regime.predicted, of('regime', 'predicted')) : null,
+    isRecord(regime.evidence) ? section('Evidence for the regime', regime.evidence, of('regime', 'evidence')) : null,
+    section('Segregation', segregation, of('segregation')),
+    section('Packing', packing, of('packing')),
+    drive ? section('Drive', drive, of('drive')) : null,
+    section('Run', run, of('run')),
+    Object.entries(others).map(([name, value]) => section(name.replaceAll('_', ' '), isRecord(value) ? value : { [name]: value }, of(name))));
 }

@@ -26,9 +26,9 @@ export function fillAnswer({ repose = {}, packing = {}, fill = {} }) {
 
 const OUTPUTS = { surface: 'Surface', packing: 'Packing', heap: 'Particles', fill: 'Particles', run: 'Run' };
 
-export function standingInWords({ repose = {}, ...others }) {
+export function standingInWords({ repose = {}, ...others }, schemas) {
   return h('div', { class: 'results' },
-    section('Angle', { azimuths: repose.azimuths }, angleTable(repose)),
-    repose.while_filling ? section('While the stream ran', repose.while_filling) : null,
-    Object.entries(others).map(([name, value]) => section(OUTPUTS[name] ?? name, value)));
+    section('Angle', { azimuths: repose.azimuths }, schemas.repose, angleTable(repose)),
+    repose.while_filling ? section('While the stream ran', repose.while_filling, schemas.repose?.properties?.while_filling) : null,
+    Object.entries(others).map(([name, value]) => section(OUTPUTS[name] ?? name, value, schemas[name])));
 }

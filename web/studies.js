@@ -5,6 +5,7 @@ import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeTo
 import { clock, count, duration, secondsBetween } from './format.js';
 import { startPolling } from './polling.js';
 import { caseTable, ROWS_SHOWN } from './study_table.js';
+import { schemasOf } from './words.js';
 import { fileLink } from './file_link.js';
 
 const PAGE = 50; // studies a page
@@ -98,6 +99,7 @@ async function askForStudy(id) {
   const isNew = shown?.id !== id || shown.updated !== study.updated;
   const isDue = shown?.id !== id || hasEnded(study) || Date.now() - shown.asked >= PAUSE_A_CASE * Math.min(study.cases, ROWS_SHOWN);
   const results = isNew && isDue ? await json(`${studyPath(id)}/results?limit=${ROWS_SHOWN}`) : null;
+  const schemas = results ? await schemasOf(study.processID) : null;
   if (wanted() !== id) return true;
   showConnected();
   announceChange(study);
@@ -107,7 +109,7 @@ async function askForStudy(id) {
   if (shown?.id !== id) byId('study').replaceChildren(h('div', { id: 'head' }), h('div', { id: 'links' }), h('div', { id: 'cases', class: 'wide', tabindex: '0' }));
   replaceIfChanged(byId('head'), study, () => head(study));
   replaceIfChanged(byId('links'), id, () => links(id));
-  if (results) byId('cases').replaceChildren(...caseTable(results.cases, study.cases));
+  if (results) byId('cases').replaceChildren(...caseTable(results.cases, study.cases, schemas));
   const { updated, asked } = results || !shown || shown.id !== id ? { updated: study.updated, asked: Date.now() } : shown;
   shown = { id, updated, asked, status: study.status };
   return !hasEnded(study);

@@ -4,19 +4,6 @@ import { count, degrees, percent, regimeInWords, significant, superscript, verdi
 
 export const ROWS_SHOWN = 500;
 
-// Name in the results, heading, and how a number is written.
-const MEASURES = [
-  ['angle_deg', 'angle of repose', angle],
-  ['maximum_deg', 'highest angle', angle],
-  ['minimum_omega2', 'least ω²R/g', plain],
-  ['radial_index', 'radial segregation', plain],
-  ['lacey_index', 'Lacey index', plain],
-  ['solid_fraction', 'solid fraction', plain],
-  ['torque', 'torque, N m', plain],
-  ['slumps_period', 'period of slumps, s', plain],
-  ['maximum_overlap', 'largest overlap', share],
-];
-
 // What is thought of the runs: name in the table, which is the heading, too, and how it is written.
 const WORDS = [
   ['regime', (regime, { certain }) => regimeInWords(regime, certain)],
@@ -44,11 +31,22 @@ function share(mean, error) {
   return text.startsWith('(') ? `${text} %` : `(${text}) %`;
 }
 
-// cases: the first of the study's, of which there are `all`.
-export function caseTable(cases, all) {
+// The measures that the process's description puts into such a table: [name in the results, heading, how a number is written].
+function measuresOf(schemas) {
+  const members = Object.values(schemas).flatMap(({ properties = {} }) => Object.entries(properties).flatMap(([name, schema]) =>
+    [[name, schema], ...Object.entries(schema.properties ?? {}).map(([inner, its]) => [`${name}_${inner}`, its])]));
+  return members.filter(([, schema]) => schema['x-study-order'])
+    .sort(([, a], [, b]) => a['x-study-order'] - b['x-study-order'])
+    .map(([name, schema]) => [name, headingOf(schema), schema['x-unit'] === 'degrees' ? angle : schema['x-shown']?.factor === 100 ? share : plain]);
+}
+
+const headingOf = schema => !schema['x-unit'] || schema['x-unit'] === 'degrees' ? schema.title : `${schema.title}, ${schema['x-unit']}`;
+
+// cases: the first of the study's, of which there are `all`; schemas: of the process's results.
+export function caseTable(cases, all, schemas) {
   const named = member => [...new Set(cases.flatMap(one => Object.keys(one[member])))];
   const inputs = named('inputs'), labels = named('label');
-  const measures = MEASURES.filter(([name]) => cases.some(one => one.results[name] || (name === 'angle_deg' && one.verdict)));
+  const measures = measuresOf(schemas).filter(([name], i) => cases.some(one => one.results[name] || (i === 0 && one.verdict)));
   const words = WORDS.filter(([name]) => cases.some(one => one[name]));
   const table = h('table', { class: 'grid cases' },
     h('caption', { class: 'unseen' }, 'Cases, with means over their repeats and standard errors'),

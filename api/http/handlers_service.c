@@ -80,7 +80,8 @@ static void respond_json_document(http_response *response, const char *text)
     int line = 0;
     json_t *document = text ? yaml_read(text, &line) : NULL;
     if (!document) {
-        http_respond_problem(response, 500, NULL, "No OpenAPI document", "line %d of the file of --api-file can't be read as YAML", line);
+        http_respond_problem(response, 500, NULL, "No OpenAPI document", "line %d of the file of --api-file can't be read as YAML",
+                             line);
         return;
     }
     http_respond_json(response, 200, document);
@@ -95,9 +96,9 @@ static void respond_document(const http_request *request, http_response *respons
     text_buffer_init(&whole, 4 << 20);
     const bool differs = openapi_read(file, &read) && read.text && openapi_write(read.text, read.length, &whole)
                          && (whole.length != read.length || memcmp(whole.text, read.text, read.length) != 0);
-    const bool as_json = !http_request_accepts(request, "application/vnd.oai.openapi")
-                         && (http_request_accepts(request, "application/vnd.oai.openapi+json")
-                             || http_request_accepts(request, "application/json"));
+    const bool as_json =
+        !http_request_accepts(request, "application/vnd.oai.openapi")
+        && (http_request_accepts(request, "application/vnd.oai.openapi+json") || http_request_accepts(request, "application/json"));
     if (as_json) respond_json_document(response, differs ? whole.text : read.text);
     text_buffer_clear(&read);
     if (as_json) {

@@ -12,9 +12,9 @@ static const char *const nullable_types[] = {
 
 static json_t *warnings_schema(const result_field *field)
 {
-    return json_pack("{s:s, s:s, s:{s:s, s:[s, s], s:{s:{s:s, s:s}, s:{s:s}}, s:b}}", "type", "array", "description", field->meaning,
-                     "items", "type", "object", "required", "field", "text", "properties", "field", "type", "string",
-                     "description", "JSON Pointer into the results", "text", "type", "string", "additionalProperties", 0);
+    return json_pack("{s:s, s:s, s:{s:s, s:[s, s], s:{s:{s:s, s:s}, s:{s:s}}, s:b}}", "type", "array", "description",
+                     field->meaning, "items", "type", "object", "required", "field", "text", "properties", "field", "type",
+                     "string", "description", "JSON Pointer into the results", "text", "type", "string", "additionalProperties", 0);
 }
 
 static json_t *words_or_null(const char *const *choices)
@@ -36,6 +36,12 @@ static json_t *field_schema(const result_field *field)
     else type = json_pack("[s, s]", nullable_types[field->kind], "null");
     json_object_set_new(schema, "type", type);
     if (*field->unit) json_object_set_new(schema, "x-unit", json_string(field->unit));
+    if (field->label) json_object_set_new(schema, "title", json_string(field->label));
+    if (field->suffix)
+        json_object_set_new(
+            schema, "x-shown",
+            json_pack("{s:f, s:i, s:s}", "factor", field->factor, "digits", field->digits, "suffix", field->suffix));
+    if (field->is_main) json_object_set_new(schema, "x-study-order", json_integer(field->in_study));
     if (field->choices) json_object_set_new(schema, "enum", words_or_null(field->choices));
     return schema;
 }

@@ -9,12 +9,12 @@
 
 typedef enum result_kind {
     RESULT_REAL,
-    RESULT_WHOLE, /* a whole number kept in a double */
-    RESULT_SIZE,  /* a size_t */
-    RESULT_TRUTH, /* a bool */
-    RESULT_MAYBE, /* true or false kept in a double; NaN: not known */
-    RESULT_TEXT,  /* a const char *; NULL: not known */
-    RESULT_WORD,  /* a const char * that is always known */
+    RESULT_WHOLE,   /* a whole number kept in a double */
+    RESULT_SIZE,    /* a size_t */
+    RESULT_TRUTH,   /* a bool */
+    RESULT_MAYBE,   /* true or false kept in a double; NaN: not known */
+    RESULT_TEXT,    /* a const char *; NULL: not known */
+    RESULT_WORD,    /* a const char * that is always known */
     RESULT_WARNINGS /* a list that result_warnings_add writes; in SQL how many it holds */
 } result_kind;
 
@@ -23,6 +23,11 @@ typedef struct result_field {
     result_kind kind;
     size_t offset; /* in the process's struct of results */
     const char *unit, *meaning;
+    /* For people: its name; a number's as the value times the factor, in so many digits (0: all), and the suffix. */
+    const char *label, *suffix; /* suffix NULL: as is usual for the unit */
+    double factor;
+    int digits;
+    bool is_main;               /* among a study's measures: one that a table for people shows */
     const char *const *choices; /* the words that a text may be, ends with NULL; NULL: any */
 
     /* In SQL. Processes that have an output of the same name share its table: what one row says of a column holds for all. */

@@ -7,6 +7,9 @@
 #include "result_fields.h"
 
 /* Words in which rows are written; a row that says any of them is a column. */
+#define LABEL(text) .label = (text)
+#define SHOWN(by, suffix_, digits_) .factor = (by), .suffix = (suffix_), .digits = (digits_)
+#define MAIN .is_main = true
 #define STORED .is_stored = true
 #define LISTED .is_listed = true
 #define IN_VIEW(place) .is_stored = true, .in_view = (place)
@@ -15,36 +18,51 @@
 
 /* clang-format off */
 #define FIELDS_OF_RUN(simulated, began, meanwhile, ended) \
-    { "run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", .meaning = "mobile particles, a cluster being one", \
+    { "run", NULL, "particles", RESULT_WHOLE, RUN(particles), "", \
+      LABEL("particles"), .meaning = "mobile particles, a cluster being one", \
       IN_VIEW(180) }, \
-    { "run", NULL, "spheres", RESULT_WHOLE, RUN(spheres), "", .meaning = "spheres that these are made of" }, \
-    { "run", NULL, "steps", RESULT_WHOLE, RUN(steps), "", .meaning = "time steps, settling included", \
+    { "run", NULL, "spheres", RESULT_WHOLE, RUN(spheres), "", \
+      LABEL("spheres"), .meaning = "spheres that these are made of" }, \
+    { "run", NULL, "steps", RESULT_WHOLE, RUN(steps), "", \
+      LABEL("steps"), .meaning = "time steps, settling included", \
       IN_VIEW(800) }, \
-    { "run", NULL, "time_step", RESULT_REAL, RUN(time_step), "s", .meaning = "length of a step", \
+    { "run", NULL, "time_step", RESULT_REAL, RUN(time_step), "s", \
+      LABEL("time step"), SHOWN(1e6, " µs", 3), .meaning = "length of a step", \
       STORED }, \
-    { "run", NULL, "simulated_seconds", RESULT_REAL, RUN(simulated_seconds), "s", .meaning = simulated, \
+    { "run", NULL, "simulated_seconds", RESULT_REAL, RUN(simulated_seconds), "s", \
+      LABEL("simulated"), .meaning = simulated, \
       IN_VIEW(810) }, \
-    { "run", NULL, "settling_seconds", RESULT_REAL, RUN(settling_seconds), "s", .meaning = "simulated before " began }, \
-    { "run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", .meaning = "time spent, all attempts", \
+    { "run", NULL, "settling_seconds", RESULT_REAL, RUN(settling_seconds), "s", \
+      LABEL("settling"), .meaning = "simulated before " began }, \
+    { "run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", \
+      LABEL("wall clock"), .meaning = "time spent, all attempts", \
       IN_VIEW(820), LISTED }, \
     { "run", NULL, "particle_steps_per_second", RESULT_REAL, RUN(particle_steps_per_second), "1/s", \
-      .meaning = "speed: spheres times steps a second", \
+      LABEL("particle steps a second"), SHOWN(1, "", 3), .meaning = "speed: spheres times steps a second", \
       IN_VIEW(830) }, \
     { "run", NULL, "maximum_overlap", RESULT_REAL, RUN(maximum_overlap), "", \
-      .meaning = "largest overlap " meanwhile ", as a share of the smallest diameter", \
-      IN_VIEW(840), IN_STUDY(110) }, \
+      LABEL("largest overlap"), SHOWN(100, " % of the smallest diameter", 3), .meaning = "largest overlap " meanwhile ", as a share of the smallest diameter", \
+      IN_VIEW(840), MAIN, IN_STUDY(110) }, \
     { "run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", \
-      .meaning = "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected" }, \
-    { "run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", .meaning = "frames of measurement" }, \
-    { "run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", .meaning = "snapshot files" }, \
-    { "run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", .meaning = "threads", \
+      LABEL("stiffness"), SHOWN(1, " N/m", 4), .meaning = "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected" }, \
+    { "run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", \
+      LABEL("samples"), .meaning = "frames of measurement" }, \
+    { "run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", \
+      LABEL("snapshots"), .meaning = "snapshot files" }, \
+    { "run", NULL, "threads", RESULT_WHOLE, RUN(threads), "", \
+      LABEL("threads"), .meaning = "threads", \
       IN_VIEW(850) }, \
-    { "run", NULL, "isa", RESULT_TEXT, RUN(isa), "", .meaning = "instruction set of the core: avx512, avx2, plain; results do not depend on it" }, \
-    { "run", NULL, "precision", RESULT_TEXT, RUN(precision), "", .meaning = "of contacts: single or double" }, \
-    { "run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", .meaning = "of the initial positions", \
+    { "run", NULL, "isa", RESULT_TEXT, RUN(isa), "", \
+      LABEL("instruction set"), .meaning = "instruction set of the core: avx512, avx2, plain; results do not depend on it" }, \
+    { "run", NULL, "precision", RESULT_TEXT, RUN(precision), "", \
+      LABEL("precision of contacts"), .meaning = "of contacts: single or double" }, \
+    { "run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", \
+      LABEL("seed"), SHOWN(1, "", 0), .meaning = "of the initial positions", \
       STORED }, \
-    { "run", NULL, "ended_by", RESULT_TEXT, RUN(ended_by), "", .meaning = ended }, \
-    { "run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", .meaning = "the attempt that came to the end" }, \
+    { "run", NULL, "ended_by", RESULT_TEXT, RUN(ended_by), "", \
+      LABEL("ended"), .meaning = ended }, \
+    { "run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", \
+      LABEL("attempt"), .meaning = "the attempt that came to the end" }, \
     RUN_WARNINGS
 
 #define RUN_WARNINGS \
