@@ -44,10 +44,10 @@ static void drum_walls(container *c, const dem_drum_definition *definition)
     }
 }
 
-/* A tube first, then the plate, then its rim. */
+/* A tube first, then the plate, then its rim. The tube has no upper edge, which would carry what lies across it up for ever. */
 static void tube_walls(container *c, const dem_drum_definition *definition)
 {
-    add_shell(c, c->radius, c->length);
+    add_shell(c, c->radius, INFINITY);
     container_wall *plate = add_wall(c, WALL_DISC, 0);
     plate->radius = 0.5 * definition->plate.diameter;
     if (definition->plate.rim_height > 0) add_shell(c, 0.5 * definition->plate.diameter, definition->plate.rim_height);
@@ -138,7 +138,6 @@ static bool raise_tube(container *c, const dem_lift *lift, bool has_begun, doubl
     const bool changes = rises != (tube->rise != 0) && lift->speed != 0;
     tube->rise = rises ? lift->speed : 0.0;
     tube->low = rises ? lift->speed * (time - lift->start) : 0.0;
-    tube->high = tube->low + c->length;
     return changes;
 }
 

@@ -154,6 +154,41 @@ static void a_rising_tube_lets_particles_out_beneath_it_alone(void **unused)
     dem_scene_free(scene);
 }
 
+/* Dumbbells thrown above the tube's height and toward its wall: over an edge there they would fall outside, or lie across it
+ * and ride up with the tube. */
+static void no_dumbbell_goes_over_the_wall_of_a_tube(void **unused)
+{
+    (void)unused;
+    enum { THROWN = 8 };
+    dem_drum_definition d = bed_in(4);
+    d.particle_count = THROWN;
+    d.plate.diameter = 0.05;
+    d.species[0].cluster =
+        (dem_cluster){ .sphere_count = 2, .sphere = { { { -0.001 }, .diameter = 0.002 }, { { 0.001 }, .diameter = 0.002 } } };
+    d.time_step /= 4;
+    dem_scene *scene = drum_scene(&d);
+    dem_placed_particle thrown[THROWN] = { 0 };
+    for (int k = 0; k < THROWN; k++) {
+        const double e[2] = { cos(2 * M_PI * k / THROWN), sin(2 * M_PI * k / THROWN) };
+        thrown[k] = (dem_placed_particle){ .position = { 0.006 * e[0], 0.006 * e[1], 0.05 },
+                                           .velocity = { 0.1 * e[0], 0.1 * e[1], 0.8 + 0.05 * k },
+                                           .orientation = { 1, 0, 0, 0 } };
+    }
+    assert_int_equal(dem_scene_place(scene, thrown, THROWN, 0), DEM_OK);
+    double highest = 0;
+    while (dem_scene_time(scene) < 0.15) {
+        run(scene, 50);
+        for (size_t p = 0; p < THROWN; p++) {
+            const double *x = particle_place(&scene->spheres, p);
+            if (x[2] > scene->drum.wall[0].low) CHECK_BETWEEN(hypot(x[0], x[1]), 0, scene->drum.wall[0].radius);
+            highest = fmax(highest, x[2]);
+        }
+    }
+    CHECK_BETWEEN(highest, d.length + 0.2 * 0.1 + 0.005, 1); /* they were above the part that it was made with */
+    assert_int_equal(dem_scene_lost_count(scene), 0);
+    dem_scene_free(scene);
+}
+
 /* ---- lost ---- */
 
 static void what_falls_off_a_plate_is_lost_and_counted(void **unused)
@@ -284,6 +319,7 @@ int main(void)
         cmocka_unit_test(more_than_a_container_holds_does_not_fit),
         cmocka_unit_test(no_contact_with_a_wall_is_missed_at_any_step),
         cmocka_unit_test(a_rising_tube_lets_particles_out_beneath_it_alone),
+        cmocka_unit_test(no_dumbbell_goes_over_the_wall_of_a_tube),
         cmocka_unit_test(what_falls_off_a_plate_is_lost_and_counted),
         cmocka_unit_test(clusters_that_tip_over_the_edge_of_a_plate_are_lost),
         cmocka_unit_test(every_container_gives_the_same_bits_however_it_is_run),
