@@ -26,7 +26,6 @@ def test_friction_0_1_gives_the_papers_23_degrees(record, drums):
     record_center_of_mass(record, case, result, 22.5, 0.6)
     record.same(f"{case}: regime", result["regime"]["name"], "rolling", "the paper")
     record.same(f"{case}: steady", repose["steady"], True, "the paper gives one angle")
-    record.between(f"{case}: standard error", repose["standard_error_deg"], 0.02, 0.5, "frames a fifth of a second apart are new, 0.6 of spread", "degrees")
     record.between(f"{case}: largest overlap", result["run"]["maximum_overlap"], 0, 0.01, "the paper: below one percent of a diameter", "d")
     record.between(f"{case}: solid fraction", result["packing"]["solid_fraction"], 0.55, 0.64, "between loose and close random packing")
 
@@ -91,9 +90,8 @@ def test_clusters_of_little_friction_are_as_steep_as_spheres_of_much(record, dru
     fit, fit_spread = TETRAHEDRA["theil-sen"]
     record(f"{case}: theil-sen", repose["other_methods"]["theil-sen"], fit,
            fit_spread + 3 * repose["other_methods_standard_error_deg"]["theil-sen"], OTHER_CODE, "degrees")
+    record.between("mu 0.1, cubes: angle", results["cube"]["repose"]["angle_deg"], 34.5, 39.5, "the paper: 35 to 39, whole degrees", "degrees")
     for shape, spheres in SPHERES_OF.items():
         case, result = f"mu 0.1, {shape}s", results[shape]
-        record.between(f"{case}: angle", result["repose"]["angle_deg"], 27, 42,
-                       "the paper: 28 for tetrahedra, 35 to 39 for cubes; steeper by far than spheres of that friction, 23", "degrees")
         record.same(f"{case}: spheres a particle", result["run"]["spheres"] // result["run"]["particles"], spheres, "the shape")
         record.between(f"{case}: largest overlap", result["run"]["maximum_overlap"], 0, 0.02, "as asked for", "d")

@@ -27,10 +27,8 @@ def test_a_thin_bed_slips_on_the_wall(record, drums):
         record_center_of_mass(record, f"mu 0.2, fill {fill}", results[fill], angle, 0.7)
     thin = results[0.35]
     record.same("mu 0.2, fill 0.35: regime", thin["regime"]["name"], {"slipping", "slumping"}, "another code: slips on the wall")
-    record.between("mu 0.2, fill 0.35: centre of mass", thin["repose"]["other_methods"]["center-of-mass"], 14.7, 24,
-                   "another code: 18.7, of unknown spread, where a twentieth of fill makes one or two degrees; two degrees below 26 at the least", "degrees")
-    record.between("mu 0.2, fill 0.35: slip on the wall, over that of fill 0.5",
-                   thin["regime"]["evidence"]["wall_slip"] / max(results[0.5]["regime"]["evidence"]["wall_slip"], 1e-9), 1.5, 1000, "another code: slips")
+    record("mu 0.2, fill 0.35: centre of mass", thin["repose"]["other_methods"]["center-of-mass"], 18.7, 2,
+           "another code; a twentieth of fill makes one or two degrees", "degrees")
 
 
 ALIKE = {
