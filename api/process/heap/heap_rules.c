@@ -117,14 +117,14 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     return heap;
 }
 
-/* Particles that stand over a tube's top fall down its outside; a tube that is pulled away lets its particles fall. */
+/* A loose bed stands above the height given, where the wall goes on; a tube that is pulled away lets its particles fall. */
 static void warn(const job_spec *spec, problem_list *warnings)
 {
     const double loose = height_of_loose_tube(&spec->drum);
     if (spec->drum.length < loose * (1.0 - 1e-9))
         problem_list_add(warnings, "/inputs/tube/height",
-                         "is %g m, over which the bed may stand and spill: particles of these shapes with much friction make "
-                         "a loose bed, which needs %.4g m",
+                         "is %g m, over which the bed may stand, where the wall goes on: particles of these shapes with much "
+                         "friction make a loose bed, which needs %.4g m",
                          spec->drum.length, loose);
     const double fast = FAST_LIFT_SHARE * sqrt(spec->drum.gravity * spec->drum.diameter);
     if (spec->drum.lift.speed > fast)
