@@ -89,13 +89,54 @@ static size_t select_for_study(const field_columns *columns, const field_column 
     return count;
 }
 
+static char *write_insert(const field_columns *columns, const char *table)
+{
+    text_buffer sql;
+    text_buffer_init(&sql, LONGEST_STATEMENT);
+    size_t count = 0;
+    text_buffer_print(&sql, "INSERT OR REPLACE INTO %s(job", table);
+    for (size_t c = 0; c < columns->count; c++) {
+        if (strcmp(columns->column[c].table, table) != 0) continue;
+        text_buffer_print(&sql, ",%s", columns->column[c].name);
+        count++;
+    }
+    text_buffer_print(&sql, ") VALUES(?");
+    for (size_t i = 0; i < count; i++) text_buffer_print(&sql, ",?");
+    text_buffer_print(&sql, ")");
+    if (!sql.failed) return sql.text;
+    text_buffer_clear(&sql);
+    return NULL;
+}
+
+static const field_insert *find_insert(const field_tables *tables, const char *table)
+{
+    for (size_t i = 0; i < tables->insert_count; i++)
+        if (strcmp(tables->insert[i].table, table) == 0) return &tables->insert[i];
+    return NULL;
+}
+
+static bool write_inserts(field_tables *tables)
+{
+    const field_columns *columns = &tables->columns;
+    tables->insert = calloc(columns->count, sizeof *tables->insert);
+    bool good = tables->insert != NULL;
+    for (size_t c = 0; good && c < columns->count; c++) {
+        const char *table = columns->column[c].table;
+        if (find_insert(tables, table)) continue;
+        field_insert *insert = &tables->insert[tables->insert_count++];
+        *insert = (field_insert){ table, c, write_insert(columns, table) };
+        good = insert->sql != NULL;
+    }
+    return good;
+}
+
 bool field_tables_init(field_tables *tables)
 {
     *tables = (field_tables){ .listed_count = 0 };
     if (!field_columns_gather(&tables->columns)) return false;
     tables->listed = calloc(tables->columns.count, sizeof *tables->listed);
     const field_column **list = calloc(tables->columns.count, sizeof *list);
-    bool good = tables->listed && list;
+    bool good = tables->listed && list && write_inserts(tables);
     if (good) {
         const size_t listed = field_columns_select(&tables->columns, COLUMNS_LISTED, tables->listed);
         good = write_select(tables->listed, listed, &tables->select_listed, &tables->join_listed)
@@ -109,6 +150,8 @@ bool field_tables_init(field_tables *tables)
 
 void field_tables_clear(field_tables *tables)
 {
+    for (size_t i = 0; i < tables->insert_count; i++) free(tables->insert[i].sql);
+    free(tables->insert);
     field_columns_clear(&tables->columns);
     free(tables->listed);
     free(tables->select_listed);
@@ -242,27 +285,6 @@ bool field_tables_make_view(const field_tables *tables, sqlite3 *writer)
 
 /* --- rows --- */
 
-/* "<insert> INTO <table>(job,...) VALUES(?,...)", bound to the job. NULL: the problem is logged. */
-static sqlite3_stmt *prepare_insert(const field_columns *columns, sqlite3 *writer, const char *insert, const char *table,
-                                    int64_t job)
-{
-    text_buffer sql;
-    text_buffer_init(&sql, LONGEST_STATEMENT);
-    size_t count = 0;
-    text_buffer_print(&sql, "%s INTO %s(job", insert, table);
-    for (size_t c = 0; c < columns->count; c++) {
-        if (strcmp(columns->column[c].table, table) != 0) continue;
-        text_buffer_print(&sql, ",%s", columns->column[c].name);
-        count++;
-    }
-    text_buffer_print(&sql, ") VALUES(?");
-    for (size_t i = 0; i < count; i++) text_buffer_print(&sql, ",?");
-    text_buffer_print(&sql, ")");
-    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(writer, sql.text, "i", job);
-    text_buffer_clear(&sql);
-    return statement;
-}
-
 /* The word that a choice stands for; of an object in its place, the name of what it holds. */
 static const char *word_of(const spec_table *table, const spec_field *field, double choice)
 {
@@ -287,14 +309,16 @@ static void bind_input(sqlite3_stmt *statement, int index, const spec_field *fie
 
 store_status field_tables_insert_inputs(const field_tables *tables, sqlite3 *writer, int64_t job, const job_spec *spec)
 {
-    const char *table = NULL;
-    for (size_t c = 0; c < tables->columns.count && !table; c++)
-        if (tables->columns.column[c].input && tables->columns.column[c].process == spec->type) table = tables->columns.column[c].table;
-    assert(table);
-    sqlite3_stmt *statement = prepare_insert(&tables->columns, writer, "INSERT", table, job);
+    const field_insert *insert = NULL;
+    for (size_t i = 0; i < tables->insert_count && !insert; i++) {
+        const field_column *first = &tables->columns.column[tables->insert[i].first];
+        if (first->input && first->process == spec->type) insert = &tables->insert[i];
+    }
+    assert(insert); /* each process has inputs that are columns */
+    sqlite3_stmt *statement = sql_prepare(writer, insert->sql, "i", job);
     if (!statement) return STORE_FAILED;
     int index = 2;
-    for (size_t c = 0; c < tables->columns.count; c++) {
+    for (size_t c = insert->first; c < tables->columns.count; c++) {
         const field_column *column = &tables->columns.column[c];
         if (column->input && column->process == spec->type) bind_input(statement, index++, column->input, spec);
     }
@@ -311,13 +335,14 @@ static void bind_json(sqlite3_stmt *statement, int index, const json_t *value)
     else sqlite3_bind_null(statement, index);
 }
 
-static store_status insert_output(const field_columns *columns, sqlite3 *writer, int64_t job, const char *table, const json_t *output)
+static store_status insert_output(const field_columns *columns, sqlite3 *writer, int64_t job, const field_insert *insert,
+                                  const json_t *output)
 {
-    sqlite3_stmt *statement = prepare_insert(columns, writer, "INSERT OR REPLACE", table, job);
+    sqlite3_stmt *statement = sql_prepare(writer, insert->sql, "i", job);
     if (!statement) return STORE_FAILED;
     int index = 2;
-    for (size_t c = 0; c < columns->count; c++) {
-        if (strcmp(columns->column[c].table, table) != 0) continue;
+    for (size_t c = insert->first; c < columns->count; c++) {
+        if (strcmp(columns->column[c].table, insert->table) != 0) continue;
         const result_field *field = columns->column[c].result;
         const json_t *object = field->group ? json_object_get(output, field->group) : output;
         bind_json(statement, index++, json_object_get(object, field->name));
@@ -325,23 +350,15 @@ static store_status insert_output(const field_columns *columns, sqlite3 *writer,
     return sql_finish(statement, sqlite3_step(statement));
 }
 
-static bool is_first_of_its_table(const field_columns *columns, size_t i)
-{
-    for (size_t c = 0; c < i; c++)
-        if (strcmp(columns->column[c].table, columns->column[i].table) == 0) return false;
-    return true;
-}
-
 store_status field_tables_insert_results(const field_tables *tables, sqlite3 *writer, int64_t job, const char *document,
                                          const json_t *results)
 {
-    store_status status = results ? sql_run(writer, NULL, "INSERT OR REPLACE INTO result(job, document) VALUES(?,?)", "it", job, document)
-                                  : STORE_FAILED;
-    for (size_t c = 0; status == STORE_OK && c < tables->columns.count; c++) {
-        const field_column *column = &tables->columns.column[c];
-        if (!column->result || !is_first_of_its_table(&tables->columns, c)) continue;
-        const json_t *output = json_object_get(results, column->result->output);
-        if (output) status = insert_output(&tables->columns, writer, job, column->table, output);
+    store_status status = STORE_FAILED;
+    if (results) status = sql_run(writer, NULL, "INSERT OR REPLACE INTO result(job, document) VALUES(?,?)", "it", job, document);
+    for (size_t i = 0; status == STORE_OK && i < tables->insert_count; i++) {
+        const result_field *field = tables->columns.column[tables->insert[i].first].result;
+        const json_t *output = field ? json_object_get(results, field->output) : NULL;
+        if (output) status = insert_output(&tables->columns, writer, job, &tables->insert[i], output);
     }
     return status;
 }

@@ -8,8 +8,17 @@
 #include "field_columns.h"
 #include "store.h"
 
+/* Of one table. */
+typedef struct field_insert {
+    const char *table;
+    size_t first; /* of its columns, among all */
+    char *sql;    /* "INSERT OR REPLACE INTO <table>(job,...) VALUES(?,...)"; owned */
+} field_insert;
+
 typedef struct field_tables {
     field_columns columns;
+    field_insert *insert; /* (insert_count) owned */
+    size_t insert_count;
     const field_column **listed; /* (listed_count) what a job's summary has, in the order of select_jobs; owned */
     size_t listed_count;
     char *select_listed; /* ", friction AS ..., ...": more columns of a SELECT; owned, as all below */
