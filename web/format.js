@@ -80,33 +80,6 @@ export function answerInWords({ status, processID, summary }) {
   return status === 'successful' && processID !== 'granule' ? NO_ANGLE : null;
 }
 
-// The main inputs of a job, in the order in which an engineer asks for them.
-export function inputsInWords(summary) {
-  const has = name => !missing(summary[name]);
-  const words = [];
-  const add = (text, title) => words.push({ text, title });
-  if (has('friction')) add(`μ ${significant(summary.friction)}`, 'friction between particles');
-  if (has('rotation_rate')) {
-    const rpm = summary.rotation_rate * 30 / Math.PI;
-    add(`${significant(summary.rotation_rate)} rad/s`, `rotation rate: ${significant(rpm)} turns a minute`);
-  }
-  if (has('radius')) add(`R ${millimetres(summary.radius)}`, 'radius of the particle’s circle');
-  if (has('drum_diameter')) add(`drum Ø ${millimetres(summary.drum_diameter)}`, 'inner diameter of the drum');
-  if (has('cylinder_diameter')) add(`cylinder Ø ${millimetres(summary.cylinder_diameter)}`, 'inner diameter of the cylinder');
-  if (has('impact_speed')) add(`${significant(summary.impact_speed)} m/s`, 'speed of impact on the bed');
-  if (has('rate')) add(`${significant(summary.rate)} a second`, 'particles that enter a second');
-  if (has('tube_diameter')) add(`tube Ø ${millimetres(summary.tube_diameter)}`, 'inner diameter of the tube');
-  if (has('lift_speed')) add(`${significant(1e3 * summary.lift_speed)} mm/s`, 'speed at which the tube is raised');
-  if (has('plate_diameter')) add(`plate Ø ${millimetres(summary.plate_diameter)}`, 'diameter of the plate');
-  if (has('particles') && summary.species > 1)
-    add(`${count(summary.particles)} of ${summary.species} kinds`, 'particles of several kinds');
-  else if (has('particles') && has('diameter'))
-    add(`${count(summary.particles)} × ${millimetres(summary.diameter)}`, 'particles × their diameter');
-  else if (has('particles')) add(`${count(summary.particles)} particles`, 'number of particles');
-  if (has('fill_fraction')) add(`${percent(summary.fill_fraction)} full`, 'fill fraction');
-  return words;
-}
-
 export function bytes(value) {
   if (missing(value)) return '–';
   const units = ['B', 'kB', 'MB', 'GB', 'TB'];

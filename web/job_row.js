@@ -1,9 +1,10 @@
 // One job in the list: a row, and under it a row for the details that opens and closes. Rows are kept from
 // poll to poll and only their changed cells are written.
 import { h, replaceIfChanged } from './dom.js';
-import { answerInWords, clock, count, duration, inputsInWords, regimeInWords, secondsBetween, significant, verdictInWords } from './format.js';
+import { answerInWords, clock, count, duration, regimeInWords, secondsBetween, significant, verdictInWords } from './format.js';
 import { drumPicture } from './drum_picture.js';
 import { createDetail } from './job_detail.js';
+import { inputsInWords } from './words.js';
 
 const COLUMNS = ['job', 'state', 'inputs', 'angle', 'regime', 'times', 'actions'];
 const CAN_BE_STOPPED = ['accepted', 'running'];
@@ -70,7 +71,7 @@ function showState(cell, job) {
 }
 
 function showInputs(cell, job) {
-  const words = inputsInWords(job.summary ?? {});
+  const words = inputsInWords(job);
   replaceIfChanged(cell, words, () => words.map(({ text, title }) => h('span', { title }, text)));
 }
 

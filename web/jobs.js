@@ -7,6 +7,7 @@ import { answerInWords, count } from './format.js';
 import { createRow, nameOf } from './job_row.js';
 import { startPolling } from './polling.js';
 import { addressOf, readView, STATES, writeView } from './view.js';
+import { learnInputs } from './words.js';
 
 const PAGE = 50;      // jobs a page
 const TYPING = 250;   // ms without a key before a search is sent
@@ -24,6 +25,7 @@ takeToken(refresh);
 async function ask() {
   const asked = view;
   const list = await listJobs({ ...asked, limit: PAGE });
+  await learnInputs(list.jobs);
   if (asked !== view) return true; // the view changed meanwhile: this answer is of the old one
   showConnected();
   showStates(list.counts);

@@ -25,14 +25,41 @@ const MEANINGS = {
   'at-most-revolutions': 'after the most revolutions allowed',
 };
 
-// {output: its JSON Schema}; a process is asked once. What can't be described is shown under its own name.
+// A process is asked once. What can't be described is shown under its own name.
 const described = new Map();
-export async function schemasOf(process) {
+async function describe(process) {
   if (!described.has(process)) {
-    const { outputs } = await json(`/processes/${encodeURIComponent(process)}`);
-    described.set(process, Object.fromEntries(Object.entries(outputs).map(([name, { schema }]) => [name, schema])));
+    const { inputs, outputs } = await json(`/processes/${encodeURIComponent(process)}`);
+    described.set(process, {
+      schemas: Object.fromEntries(Object.entries(outputs).map(([name, { schema }]) => [name, schema])),
+      listed: listedIn(inputs).sort((a, b) => a.order - b.order),
+    });
   }
   return described.get(process);
+}
+
+// {output: its JSON Schema}
+export const schemasOf = async process => (await describe(process)).schemas;
+
+// Of all schemas in a tree those that a list of jobs shows: {column, order, before, factor, after or unit, above, of, title}.
+function listedIn(node) {
+  if (node === null || typeof node !== 'object') return [];
+  const own = node['x-listed'] ? [{ ...node['x-listed'], title: node.description }] : [];
+  return [...own, ...Object.values(node).flatMap(listedIn)];
+}
+
+// So that inputsInWords has words for the inputs of these jobs.
+export const learnInputs = jobs => Promise.all([...new Set(jobs.map(job => job.processID))].map(describe));
+
+// The main inputs of a job, in the order in which an engineer asks for them: [{text, title}].
+export function inputsInWords({ processID, summary = {} }) {
+  const listed = described.get(processID)?.listed ?? [];
+  const isShown = ({ column, above = -Infinity, of }) => typeof summary[column] === 'number' && summary[column] > above && !(summary[of] > 1);
+  return listed.filter(isShown).map(({ column, before, factor, after, unit, title }) => {
+    const value = summary[column] * factor;
+    const text = OF_UNIT[unit] ? OF_UNIT[unit](value) : Number.isInteger(value) && !unit ? count(value) : `${significant(value)}${unit ? ` ${unit}` : ''}`;
+    return { text: `${before}${text}${after ?? ''}`, title: unit === 'rad/s' ? `${title}: ${significant(value * 30 / Math.PI)} turns a minute` : title };
+  });
 }
 
 const OF_UNIT = { degrees, m: millimetres, s: duration };

@@ -12,6 +12,8 @@
     .column = (name), .column_kind = COLUMN_##kind, .column_at = offsetof(job_spec, member)
 #define LISTED .is_listed = true
 #define IN_VIEW(place) .in_view = (place)
+#define IN_LIST(order, before, by, after) \
+    .list_order = (order), .list_before = (before), .list_factor = (by), .list_after = (after)
 #define FREE_OF_BED .is_free_of_bed = true
 #define OPEN_RANGE(low, high) .minimum = (low), .minimum_open = true, .maximum = (high)
 

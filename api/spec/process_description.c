@@ -7,7 +7,8 @@ static json_t *group_schema(const spec_table *table, spec_group group);
 
 static json_t *whole_or_real(double number)
 {
-    return number == floor(number) && fabs(number) <= (double)LARGEST_WHOLE_NUMBER ? json_integer((json_int_t)number) : json_real(number);
+    return number == floor(number) && fabs(number) <= (double)LARGEST_WHOLE_NUMBER ? json_integer((json_int_t)number)
+                                                                                   : json_real(number);
 }
 
 static json_t *number_schema(const spec_field *field)
@@ -16,8 +17,8 @@ static json_t *number_schema(const spec_field *field)
     json_object_set_new(schema, field->minimum_open ? "exclusiveMinimum" : "minimum", whole_or_real(field->minimum));
     json_object_set_new(schema, "maximum", whole_or_real(field->maximum));
     if (field->least_size > 0.0)
-        json_object_set_new(schema, "not", json_pack("{s:f, s:f}", "exclusiveMinimum", -field->least_size, "exclusiveMaximum",
-                                                     field->least_size));
+        json_object_set_new(schema, "not",
+                            json_pack("{s:f, s:f}", "exclusiveMinimum", -field->least_size, "exclusiveMaximum", field->least_size));
     if (!isnan(field->fallback)) json_object_set_new(schema, "default", whole_or_real(field->fallback));
     if (*field->unit) json_object_set_new(schema, "x-unit", json_string(field->unit));
     return schema;
@@ -28,6 +29,21 @@ static json_t *choice_schema(const spec_field *field)
     json_t *choices = json_array();
     for (size_t c = 0; field->choices[c]; c++) json_array_append_new(choices, json_string(field->choices[c]));
     return json_pack("{s:s, s:o, s:s}", "type", "string", "enum", choices, "default", field->choices[0]);
+}
+
+/* How a list of jobs shows the column. "of": what is of the first entry of a list is shown only where that has no other; its
+ * column says how many it has. */
+static json_t *listed_schema(const spec_table *table, const spec_field *field)
+{
+    json_t *listed = json_pack("{s:s, s:i, s:s, s:o}", "column", field->column, "order", field->list_order, "before",
+                               field->list_before, "factor", whole_or_real(field->list_factor));
+    if (field->list_after) json_object_set_new(listed, "after", json_string(field->list_after));
+    else if (field->unit && *field->unit) json_object_set_new(listed, "unit", json_string(field->unit));
+    if (field->list_above > 0.0) json_object_set_new(listed, "above", whole_or_real(field->list_above));
+    for (size_t f = 0; f < table->count; f++)
+        if (table->field[f].kind == FIELD_LIST && table->field[f].child == field->group && table->field[f].column)
+            json_object_set_new(listed, "of", json_string(table->field[f].column));
+    return listed;
 }
 
 static json_t *field_schema(const spec_table *table, const spec_field *field)
@@ -64,6 +80,7 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
     default: schema = group_schema(table, field->child);
     }
     json_object_set_new(schema, "description", json_string(field->meaning));
+    if (field->list_order) json_object_set_new(schema, "x-listed", listed_schema(table, field));
     return schema;
 }
 
@@ -83,8 +100,8 @@ static json_t *group_schema(const spec_table *table, spec_group group)
         if (field->required && !field->spared_by) json_array_append_new(required, json_string(field->name));
         const spec_field *other = field->required && field->spared_by ? spec_field_find(table, group, field->spared_by) : NULL;
         if (other && other->kind == FIELD_REAL)
-            json_array_append_new(exclusions, json_pack("{s:[{s:[s]}, {s:[s]}]}", "anyOf", "required", field->name, "required",
-                                                        other->name));
+            json_array_append_new(exclusions,
+                                  json_pack("{s:[{s:[s]}, {s:[s]}]}", "anyOf", "required", field->name, "required", other->name));
         if (field->excludes && !isnan(field->fallback)) json_array_append_new(exclusions, exclusion(field, field->excludes));
         if (field->excludes_too) json_array_append_new(exclusions, exclusion(field, field->excludes_too));
     }

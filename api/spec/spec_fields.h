@@ -88,6 +88,13 @@ typedef struct spec_field {
     int in_view;          /* the place among the columns of run_summary; 0: not there */
     bool is_listed;       /* a member of a job's summary */
 
+    /* For people, in a list of jobs: the column's number times the factor between two texts. */
+    int list_order;          /* 0: not shown */
+    const char *list_before; /* "μ " */
+    double list_factor;
+    const char *list_after; /* NULL: the unit, as is usual for it */
+    double list_above;      /* shown only where it is more than this */
+
     bool is_free_of_bed; /* of a drum: may be another than in the run that made the bed which it starts from */
 } spec_field;
 

@@ -24,7 +24,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
 #define FIELDS_OF_PARTICLES \
     { SPEC_INPUTS, "particles", FIELD_LIST, SPEC_PARTICLES, .required = true, RANGE(1, DEM_MAXIMUM_SPECIES), AT(species), \
       .count_offset = offsetof(drum_inputs, species_count), .entry_size = sizeof(species_inputs), \
-      COLUMN("species", COUNT, drum.species_count), LISTED, IN_VIEW(190), \
+      COLUMN("species", COUNT, drum.species_count), LISTED, IN_LIST(120, "of ", 1, " kinds"), .list_above = 1, IN_VIEW(190), \
       .meaning = "the kinds of particles" }, \
     { SPEC_PARTICLES, "shape", FIELD_CHOICE_OR_OBJECT, SPEC_SHAPE, .unit = "", .choices = shape_choices, AT_SPECIES(shape), \
       COLUMN("shape", WORD, inputs.species[0].shape), IN_VIEW(50), \
@@ -40,7 +40,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     { SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .spared_by = "shape", .unit = "m", RANGE(1e-5, 1.0), \
       .fallback = NAN, AT_SPECIES(diameter), \
       USUAL(1e-4, 0.05), SLIP("cm", 0.01), \
-      COLUMN("diameter", REAL, drum.species[0].diameter), LISTED, IN_VIEW(200), \
+      COLUMN("diameter", REAL, drum.species[0].diameter), LISTED, IN_LIST(130, "× ", 1, NULL), IN_VIEW(200), \
       .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
                  "cluster has its own" }, \
     { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), \
@@ -59,7 +59,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
       USUAL(0.0, 1.5), \
-      COLUMN("friction", REAL, drum.contact.friction), LISTED, IN_VIEW(220), \
+      COLUMN("friction", REAL, drum.contact.friction), LISTED, IN_LIST(10, "μ ", 1, NULL), IN_VIEW(220), \
       .meaning = "coefficient of friction between particles" }, \
     { SPEC_CONTACT, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(rolling_friction), \
       COLUMN("rolling_friction", REAL, drum.contact.rolling_friction), IN_VIEW(250), \
