@@ -4,7 +4,8 @@
  * times its noise from frame to frame (10^4 normal numbers span 7.7 deviations), or 0.87 of the distance between its
  * quartiles, whichever is more: a saw-tooth's quartiles are half its height apart, so that teeth above 0.43 of the usual
  * height are seen, and one large fall does not hide the others. A bed that begins at rest climbs to its first fall: the
- * quartiles leave that climb out. */
+ * quartiles leave that climb out. A bed that goes on climbing between its falls would spread them too: they are those of
+ * what a line leaves, where that is less. */
 #include "array.h"
 #include "measure.h"
 #include "statistics.h"
@@ -95,6 +96,16 @@ static double between_quartiles(double *x, size_t count)
     return x[3 * count / 4] - x[count / 4];
 }
 
+/* What the angle swings over: a steady climb or sinking is no swing. room: (count). */
+static double swing_of(const double *time, const double *angle, size_t count, double *room)
+{
+    memcpy(room, angle, count * sizeof *room);
+    const double level = between_quartiles(room, count);
+    const line_fit line = statistics_line(time, angle, count, 1);
+    for (size_t k = 0; k < count; k++) room[k] = angle[k] - line.intercept - line.slope * time[k];
+    return fmin(level, between_quartiles(room, count));
+}
+
 /* Where the series first reaches its median: before, it may still climb. room: (count). */
 static size_t climb_end(const double *angle, size_t count, double *room)
 {
@@ -129,8 +140,7 @@ dem_status measure_slumps(const double *time, const double *angle, size_t count,
     if (n >= 3) {
         const size_t climbed = climb_end(seen, n, room);
         const double noise = noise_of(seen, n, room);
-        memcpy(room, seen + climbed, (n - climbed) * sizeof *room);
-        const double threshold = fmax(8 * noise, 0.87 * between_quartiles(room, n - climbed));
+        const double threshold = fmax(8 * noise, 0.87 * swing_of(seen_time + climbed, seen + climbed, n - climbed, room));
         slump_list found = { room, room + count, room + 2 * count, 0, NAN };
         const size_t first = find_slumps(seen_time, seen, n, threshold, &found);
         if (first < n) slumps->first_start = seen_time[first];

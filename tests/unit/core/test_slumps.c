@@ -90,6 +90,25 @@ static void swings_of_few_frames_are_no_noise(void **unused)
     CHECK_NEAR(s.period.mean, A_SWING * INTERVAL, 1e-12);
 }
 
+/* Teeth of 4 degrees in a climb of 0.5 degrees a second, 30 in all: each of 30 tops at 1.6 + 2 k s is 4 degrees above the
+ * climb, and the fall of 0.4 s ends 3.8 degrees lower. The end of the last is at 60 s, beyond the end of the series. */
+static void a_climb_does_not_hide_the_falls_in_it(void **unused)
+{
+    (void)unused;
+    static double time[COUNT], angle[COUNT];
+    for (int k = 0; k < COUNT; k++) {
+        time[k] = INTERVAL * k;
+        angle[k] = 0.5 * time[k] + saw_tooth(INTERVAL * (k % 40), 0, 0, 4, 1.6, 0.4);
+    }
+    const dem_slumps s = slumps_of(time, angle, COUNT);
+    CHECK_NEAR(s.count, 29, 0);
+    CHECK_NEAR(s.period.mean, 2, 1e-12);
+    CHECK_NEAR(s.first_start, 1.6, 1e-12);
+    CHECK_NEAR(s.start_deg.mean, 4 + 0.5 * (1.6 + 2 * 14), 1e-9);
+    CHECK_NEAR(s.size_deg.mean, 3.8, 1e-9);
+    CHECK_NEAR(s.size_deg.standard_error, 0, 1e-9);
+}
+
 static void noise_alone_has_no_slumps(void **unused)
 {
     (void)unused;
@@ -206,6 +225,7 @@ int main(void)
         cmocka_unit_test(a_saw_tooth_is_found_tooth_by_tooth),
         cmocka_unit_test(noise_neither_hides_nor_makes_slumps),
         cmocka_unit_test(swings_of_few_frames_are_no_noise),
+        cmocka_unit_test(a_climb_does_not_hide_the_falls_in_it),
         cmocka_unit_test(noise_alone_has_no_slumps),
         cmocka_unit_test(uneven_slumps_are_all_seen),
         cmocka_unit_test(hysteresis_reaches_from_the_highest_start_to_the_lowest_stop),
