@@ -78,6 +78,7 @@ def small_bed(friction, rate, **duration):
 # what is made, which process, and what claims an error
 KINDS = {
     "rolling": ("drum", small_bed(0.3, 3.0, revolutions=3), OF_DRUM),
+    "slipping": ("drum", small_bed(0.3, 16.0, revolutions=8), OF_DRUM),
     "avalanching": ("drum", small_bed(0.5, math.pi / 32, seconds=20), OF_DRUM | OF_FALLS),
     "slumping": ("drum", small_bed(0.02, math.pi / 2, seconds=5), {"center-of-mass", "torque", "weight_torque", "period"}),
     "heap": ("heap", {"tube": {"diameter": 0.03, "lift_speed": 0.04}, "plate": {"diameter": 0.06, "rim_height": 0.0015},
