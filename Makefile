@@ -242,6 +242,9 @@ asan-run: programs $(UNIT_TESTS) $(KERNEL_TESTS)
 tsan: test-packages ## unit tests of the daemon under the thread sanitizer, in build/tsan
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan SANITIZE="-fsanitize=thread" asan-run
 
+openapi: programs ## write the schemas of inputs and results into api/openapi.yaml
+	@$(BUILD)/reposed openapi api/openapi.yaml
+
 format: lint-packages ## clang-format over all C
 	@git ls-files '*.c' '*.h' | xargs clang-format -i
 
@@ -279,6 +282,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
-.PHONY: FORCE all programs demo serve test unit torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan format lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve test unit torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan openapi format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

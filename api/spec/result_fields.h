@@ -1,5 +1,7 @@
 /* A table of a process's results: output, name, unit and meaning of each. It drives writing the results document,
- * describing it and keeping it in SQL: the tables <output>_result, the view run_summary, summaries of jobs and studies. */
+ * describing it, showing it on the page and keeping it in SQL: the tables <output>_result, the view run_summary, summaries
+ * of jobs and studies. A new result is measured in the core, has a member in a struct and a row here; `make openapi` then
+ * writes it into the OpenAPI document. */
 #ifndef RESULT_FIELDS_H
 #define RESULT_FIELDS_H
 
