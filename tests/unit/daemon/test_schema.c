@@ -30,14 +30,21 @@ static int64_t number_of(sqlite3 *database, const char *sql)
     return number;
 }
 
+static void run_migration(sqlite3 *database, const schema_migration *migration)
+{
+    for (size_t p = 0; p < sizeof migration->parts / sizeof migration->parts[0]; p++)
+        if (migration->parts[p]) run_sql(database, migration->parts[p]);
+}
+
 /* A database as version `version` of the tables left it, with one drum that has run. */
 static void make_database(const char *path, int version)
 {
     sqlite3 *database;
     assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
-    for (int m = 0; m < version; m++)
-        for (size_t p = 0; p < sizeof older_migrations[m].parts / sizeof older_migrations[m].parts[0]; p++)
-            if (older_migrations[m].parts[p]) run_sql(database, older_migrations[m].parts[p]);
+    for (int m = 0; m < version; m++) {
+        run_migration(database, &older_migrations[m]);
+        run_migration(database, &schema_migrations[m]);
+    }
     char text[200];
     snprintf(text, sizeof text, "PRAGMA application_id=%d; PRAGMA user_version=%d", SCHEMA_APPLICATION_ID, version);
     run_sql(database, text);
