@@ -294,10 +294,11 @@ static inline double dem_field_cells(double drum_diameter, double mean_diameter,
     return fmin(ceil(2.0 * drum_diameter / mean_diameter - 1e-9), most);
 }
 
-/* Of particles, walls or plate: then every contact carries a moment. */
+/* Of particles, walls, ends or plate: then every contact carries a moment. */
 static inline bool dem_has_rolling_friction(const dem_drum_definition *d)
 {
-    return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->plate.rolling_friction > 0;
+    return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->ends.rolling_friction > 0
+           || d->plate.rolling_friction > 0;
 }
 
 #endif

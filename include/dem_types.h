@@ -72,7 +72,7 @@ typedef struct dem_contact_parameters {
     double wall_friction;          /* mu_w, particle against the cylinder (drum, tube) or its lining */
     double tangential_stiffness_ratio; /* K_T0/K1 */
     double rolling_friction;           /* mu_r between particles: a contact bears a moment of mu_r R* N; 0: none */
-    double wall_rolling_friction;      /* likewise, particle against all that is the container's but a plate */
+    double wall_rolling_friction;      /* likewise, particle against all that is the container's but ends, floor and plate */
 } dem_contact_parameters;
 
 /* Spheres glued to the inner wall, turning with it. diameter 0: no lining, a smooth wall. */
@@ -87,10 +87,10 @@ typedef enum dem_container_kind {
     DEM_TUBE_ON_PLATE /* stands on a plate, open at both ends, and is raised; its wall is thin */
 } dem_container_kind;
 
-/* What closes a drum, and turns with it. */
+/* What closes a drum, and turns with it; the floor of a cylinder has its frictions. */
 typedef struct dem_drum_ends {
     bool are_walls; /* else the axis is periodic */
-    double friction;
+    double friction, rolling_friction;
 } dem_drum_ends;
 
 /* Straight bars of rectangular section along the whole drum, evenly spaced about it, turning with it. */

@@ -77,7 +77,7 @@ typedef struct drum_inputs {
     double unloading;                                  /* 0: constant, 1: variable */
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
     double poissons_ratio;
-    double wall_friction, wall_rolling_friction, end_friction, lining_diameter, lining_pitch;
+    double wall_friction, wall_rolling_friction, end_friction, end_rolling_friction, lining_diameter, lining_pitch;
     double lifter_count, lifter_height, lifter_width, lifter_friction; /* NaN: no lifters */
     double revolutions, seconds, until_standard_error;                 /* one of the three */
     double at_most_revolutions;                                        /* beside the last */

@@ -35,6 +35,8 @@ static bool is_cluster(const dem_cluster *c)
 
 static bool is_not_negative(double x) { return x >= 0 && isfinite(x); }
 
+static bool are_frictions(double sliding, double rolling) { return is_not_negative(sliding) && is_not_negative(rolling); }
+
 /* Bars whose corners lie within the drum, and which leave room between each other. */
 static bool are_lifters(const dem_lifters *l, double radius)
 {
@@ -60,12 +62,12 @@ static bool is_container(const dem_drum_definition *d)
     const bool is_lined = d->lining.diameter != 0;
     switch (d->container) {
     case DEM_DRUM:
-        return (!d->ends.are_walls || is_not_negative(d->ends.friction)) && are_lifters(&d->lifters, 0.5 * d->diameter)
+        return (!d->ends.are_walls || are_frictions(d->ends.friction, d->ends.rolling_friction)) && are_lifters(&d->lifters, 0.5 * d->diameter)
                && !(is_lined && d->lifters.count > 0);
-    case DEM_CYLINDER: return is_not_negative(d->ends.friction) && !is_lined && d->lifters.count == 0;
+    case DEM_CYLINDER: return are_frictions(d->ends.friction, d->ends.rolling_friction) && !is_lined && d->lifters.count == 0;
     case DEM_TUBE_ON_PLATE:
         return d->plate.diameter > d->diameter && isfinite(d->plate.diameter) && is_not_negative(d->plate.rim_height)
-               && is_not_negative(d->plate.friction) && is_not_negative(d->plate.rolling_friction) && is_not_negative(d->lift.speed)
+               && are_frictions(d->plate.friction, d->plate.rolling_friction) && is_not_negative(d->lift.speed)
                && is_not_negative(d->lift.start) && !is_lined && d->lifters.count == 0;
     }
     return false;

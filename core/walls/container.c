@@ -100,10 +100,11 @@ static double wall_friction(const container *c, const dem_drum_definition *defin
     return definition->contact.wall_friction;
 }
 
-/* All that belongs to the drum has one; a plate and its rim have their own. */
+/* Ends, and a plate with its rim, have their own; lifters and all others have the wall's. */
 static double wall_rolling_friction(const container *c, const dem_drum_definition *definition, int k)
 {
     const bool is_plate = c->wall[k].kind == WALL_DISC || (c->wall[k].kind == WALL_SHELL && k > 0);
+    if (c->wall[k].kind == WALL_PLANE) return definition->ends.rolling_friction;
     return is_plate ? definition->plate.rolling_friction : definition->contact.wall_rolling_friction;
 }
 

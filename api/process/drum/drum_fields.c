@@ -70,10 +70,13 @@ static const spec_field fields[] = {
       .meaning = "coefficient of friction between a particle and the wall or its lining" },
     { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
       COLUMN("wall_rolling_friction", REAL, drum.contact.wall_rolling_friction), IN_VIEW(260), FREE_OF_BED,
-      .meaning = "coefficient of rolling friction between a particle and all that is the drum's: wall, ends, lining, lifters. "
-                 "Default: none" },
+      .meaning = "coefficient of rolling friction between a particle and all that is the drum's: wall, lining, lifters, and ends "
+                 "that have none of their own. Default: none" },
     { SPEC_WALL, "end_friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(end_friction), USUAL(0.0, 1.5),
       FREE_OF_BED, .meaning = "coefficient of friction between a particle and the walls at the drum's ends. Default: the wall's" },
+    { SPEC_WALL, "end_rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = NAN, AT(end_rolling_friction),
+      COLUMN("end_rolling_friction", REAL, drum.ends.rolling_friction), IN_VIEW(265), FREE_OF_BED,
+      .meaning = "coefficient of rolling friction between a particle and the walls at the drum's ends. Default: the wall's" },
     { SPEC_WALL, "lining", FIELD_OBJECT_OR_NULL, SPEC_LINING, AT(lining_diameter),
       .meaning = "spheres glued to the wall, turning with it; null: a smooth wall" },
     { SPEC_LINING, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT(lining_diameter),

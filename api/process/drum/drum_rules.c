@@ -61,6 +61,7 @@ static bool has_end_walls(const drum_inputs *inputs) { return inputs->drum_ends 
 static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_t seed_if_missing)
 {
     if (isnan(inputs->end_friction) && has_end_walls(inputs)) inputs->end_friction = inputs->wall_friction;
+    if (isnan(inputs->end_rolling_friction) && has_end_walls(inputs)) inputs->end_rolling_friction = inputs->wall_rolling_friction;
     if (isnan(inputs->lifter_friction) && inputs->lifter_count > 0.0) inputs->lifter_friction = inputs->wall_friction;
     if (isnan(inputs->lining_pitch)) inputs->lining_pitch = inputs->lining_diameter;
     if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & LARGEST_WHOLE_NUMBER);
@@ -117,9 +118,15 @@ static void check_lining(const drum_inputs *inputs, problem_list *problems)
 
 static void check_ends(const drum_inputs *inputs, problem_list *problems)
 {
-    if (!isnan(inputs->end_friction) && inputs->drum_ends == 0.0)
-        problem_list_add(problems, "/inputs/wall/end_friction",
-                         "is %g, but the drum's ends are periodic; give /inputs/drum/ends as \"walls\", too", inputs->end_friction);
+    const struct {
+        const char *pointer;
+        double value;
+    } given[] = { { "/inputs/wall/end_friction", inputs->end_friction },
+                  { "/inputs/wall/end_rolling_friction", inputs->end_rolling_friction } };
+    for (size_t k = 0; k < sizeof given / sizeof *given; k++)
+        if (!isnan(given[k].value) && inputs->drum_ends == 0.0)
+            problem_list_add(problems, given[k].pointer,
+                             "is %g, but the drum's ends are periodic; give /inputs/drum/ends as \"walls\", too", given[k].value);
 }
 
 /* Bars whose corners are within the drum, apart from each other, and which leave the largest particle its room. */
@@ -247,7 +254,7 @@ static double derive_drum(drum_inputs *inputs, dem_drum_definition *drum, proble
         .threads = isnan(inputs->threads) ? 1 : (int)inputs->threads,
     };
     if (!isnan(inputs->lining_diameter)) drum->lining = (dem_lining){ inputs->lining_diameter, inputs->lining_pitch };
-    drum->ends = (dem_drum_ends){ has_end_walls(inputs), has_end_walls(inputs) ? inputs->end_friction : 0.0 };
+    if (has_end_walls(inputs)) drum->ends = (dem_drum_ends){ true, inputs->end_friction, inputs->end_rolling_friction };
     if (inputs->lifter_count > 0.0)
         drum->lifters =
             (dem_lifters){ (size_t)inputs->lifter_count, inputs->lifter_height, inputs->lifter_width, inputs->lifter_friction };

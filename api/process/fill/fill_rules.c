@@ -89,6 +89,7 @@ static void derive_cylinder(drum_inputs *inputs, dem_drum_definition *scene, pro
     scene->container = DEM_CYLINDER;
     scene->diameter = inputs->fill.cylinder_diameter;
     scene->ends.friction = inputs->wall_friction;
+    scene->ends.rolling_friction = inputs->wall_rolling_friction;
     const double widest = scene_of_species(scene, scene_species_width, true);
     if (scene->diameter < LEAST_CYLINDER_DIAMETERS * widest * (1.0 - 1e-9))
         problem_list_add(problems, "/inputs/cylinder/diameter",

@@ -240,6 +240,7 @@ static void a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own(vo
     job_spec spec = parse_or_fail(minimal_with("drum/ends", "\"walls\""));
     assert_true(spec.drum.ends.are_walls);
     assert_true(spec.drum.ends.friction == spec.drum.contact.wall_friction);
+    assert_true(spec.drum.ends.rolling_friction == 0);
     assert_true(spec.drum.lifters.count == 0);
     job_spec_clear(&spec);
     spec = parse_or_fail(minimal_with("drum/lifters", "{\"count\": 6, \"height\": 0.004, \"width\": 0.003, \"friction\": 0.7}"));
@@ -251,6 +252,9 @@ static void a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own(vo
     expect_problem(
         "wall/end_friction", "0.2",
         "/inputs/wall/end_friction: is 0.2, but the drum's ends are periodic; give /inputs/drum/ends as \"walls\", too\n");
+    expect_problem(
+        "wall/end_rolling_friction", "0.2",
+        "/inputs/wall/end_rolling_friction: is 0.2, but the drum's ends are periodic; give /inputs/drum/ends as \"walls\", too\n");
     /* 25 mm less 1.5 times 5 mm */
     expect_problem("drum/lifters", "{\"count\": 4, \"height\": 0.02, \"width\": 0.003}",
                    "/inputs/drum/lifters/height: is 0.02 m; must be at most 0.0175 m, the drum's radius less 1.5 of the largest "

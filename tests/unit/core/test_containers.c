@@ -135,6 +135,24 @@ static void a_sphere_set_sliding_on_a_floor_ends_rolling_at_five_sevenths(void *
     }
 }
 
+/* Coasting over a floor or a plate: m a = F and I a/R = mu_r R m g - F R, a = 5/7 mu_r g, by the rolling friction of what it
+ * rolls on alone. The lever is short of R by alpha/2, 1e-4 of it, and the spring yields after a way of 1e-6 m. */
+static void a_sphere_that_rolls_is_slowed_by_the_rolling_friction_of_the_floor(void **unused)
+{
+    (void)unused;
+    for (int plate = 0; plate < 2; plate++) {
+        dem_drum_definition d = container_definition(plate ? DEM_TUBE_ON_PLATE : DEM_CYLINDER, 1);
+        d.ends.rolling_friction = d.plate.rolling_friction = 0.05;
+        d.contact.wall_rolling_friction = 0.9; /* not the floor's */
+        dem_scene *scene = container_scene(&d);
+        const double v_0 = 0.06, alpha = sphere_mass_of(scene) * 9.81 / K_1, a = 5.0 / 7 * 0.05 * 9.81, time = 0.5 * v_0 / a;
+        put(scene, (double[]){ -0.03, 0, R - alpha }, (double[]){ v_0, 0, 0 }, (double[]){ 0, v_0 / (R - alpha / 2), 0 });
+        go_on(scene, (int64_t)(time / d.time_step));
+        CHECK_NEAR((v_0 - scene->spheres.velocity[0][0]) / time, a, 3e-3 * a);
+        dem_scene_free(scene);
+    }
+}
+
 /* A sphere that meets a turning end wall slides throughout where the wall is fast: it takes mu times the normal impulse
  * m v (1 + e) in the direction of the wall, and spins by r times that over the moment of inertia. */
 static void a_turning_end_wall_drives_a_sphere_by_coulombs_impulse(void **unused)
@@ -292,6 +310,7 @@ int main(void)
         cmocka_unit_test(a_sphere_at_rest_on_any_wall_carries_its_weight),
         cmocka_unit_test(a_normal_impact_on_any_wall_leaves_e_of_the_speed),
         cmocka_unit_test(a_sphere_set_sliding_on_a_floor_ends_rolling_at_five_sevenths),
+        cmocka_unit_test(a_sphere_that_rolls_is_slowed_by_the_rolling_friction_of_the_floor),
         cmocka_unit_test(a_turning_end_wall_drives_a_sphere_by_coulombs_impulse),
         cmocka_unit_test(a_lifter_carries_a_ball_up_until_its_face_is_level),
         cmocka_unit_test(a_particle_beyond_any_wall_has_escaped),
