@@ -12,7 +12,7 @@ typedef struct dem_scene dem_scene;
 /* A scene of the drum with its particles placed at random, at step 0 of DEM_PHASE_GROWING.
  * definition: checked (DEM_BAD_PARAMETER); copied. *scene: freed with dem_scene_free; NULL on failure.
  * Errors: DEM_NO_MEMORY, DEM_BAD_PARAMETER, DEM_DOES_NOT_FIT. */
-dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **scene);
+dem_status dem_scene_create(const dem_scene_definition *definition, dem_scene **scene);
 void dem_scene_free(dem_scene *scene);
 
 /* Advance by `steps` time steps, passing from growing to settling to rotating as each phase ends.
@@ -20,7 +20,7 @@ void dem_scene_free(dem_scene *scene);
  * for any way of dividing the steps into calls. */
 dem_status dem_scene_advance(dem_scene *scene, int64_t steps);
 /* The same, of at most `steps`: no further than to the first step of rotation. */
-dem_status dem_scene_advance_to_rotation(dem_scene *scene, int64_t steps);
+dem_status dem_scene_advance_to_run(dem_scene *scene, int64_t steps);
 const dem_failure *dem_scene_failure(const dem_scene *scene);
 
 /* From now on `profile` is filled, until it is set to NULL; it must live as long. Nothing computed depends on it,
@@ -28,8 +28,8 @@ const dem_failure *dem_scene_failure(const dem_scene *scene);
 void dem_scene_set_profile(dem_scene *scene, dem_step_profile *profile);
 
 dem_phase dem_scene_phase(const dem_scene *scene);
-int64_t dem_scene_step_count(const dem_scene *scene);     /* since creation */
-int64_t dem_scene_rotation_start(const dem_scene *scene); /* step at which rotation began; -1 before */
+int64_t dem_scene_step_count(const dem_scene *scene);    /* since creation */
+int64_t dem_scene_run_start(const dem_scene *scene);     /* step at which rotation began; -1 before */
 double dem_scene_turned(const dem_scene *scene);         /* rad that the drum has turned, in all runs from which this one goes on */
 double dem_scene_time(const dem_scene *scene);           /* s since rotation began; negative before: less the time since creation */
 size_t dem_scene_particle_count(const dem_scene *scene); /* mobile particles, each sphere or cluster one; without the lining */

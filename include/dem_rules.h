@@ -71,7 +71,7 @@ static inline double dem_species_largest_sphere(const dem_species *s)
 }
 
 /* Diameter of the largest sphere of all, m: of particles or of the lining. */
-static inline double dem_largest_sphere(const dem_drum_definition *d)
+static inline double dem_largest_sphere(const dem_scene_definition *d)
 {
     double largest = d->lining.diameter;
     for (size_t k = 0; k < d->species_count; k++) largest = fmax(largest, dem_species_largest_sphere(&d->species[k]));
@@ -137,7 +137,7 @@ static inline double dem_most_solid(const dem_species *species, size_t count)
 }
 
 /* How much a bed fills of an upright container that it was poured into with much friction: it is loose along the wall. */
-static inline double dem_poured_solid(const dem_drum_definition *d)
+static inline double dem_poured_solid(const dem_scene_definition *d)
 {
     double volume = 0.0, solid = 0.0, reach = 0.0;
     for (size_t s = 0; s < d->species_count; s++) {
@@ -152,7 +152,7 @@ static inline double dem_poured_solid(const dem_drum_definition *d)
 /* Share of a container's free volume, without the layer of a lining and without bars, that particles may have the volume of for
  * all of them to find a place at the start and to grow there: in a drum a little more than they can be packed to; half of one
  * that is open at the top, which growing particles would leave. */
-static inline double dem_most_placed(const dem_drum_definition *d)
+static inline double dem_most_placed(const dem_scene_definition *d)
 {
     return d->container == DEM_DRUM ? 0.62 / DEM_MOST_SOLID * dem_most_solid(d->species, d->species_count) : 0.5;
 }
@@ -259,7 +259,7 @@ static inline double dem_bed_layers(double drum_diameter, double share, double m
  * 2 sqrt(D/d) of them in a cross-section, and the less friction holds them; where they lie on each other they stop at once.
  * Clusters interlock, and stop sooner than the spheres that hold them would. Seeds scatter by 0.3 of the time for less than such
  * a row, by 0.1 to 0.2 above. From beds of 8 to 2700 particles, D/d from 8.5 to 100: core/NUMERICS.md, "How long a bed takes". */
-static inline double dem_settling_time(const dem_drum_definition *d)
+static inline double dem_settling_time(const dem_scene_definition *d)
 {
     if (d->is_placed || d->stream.rate > 0) return 0.0;
     double reach = 0.0, held = 0.0;
@@ -295,7 +295,7 @@ static inline double dem_field_cells(double drum_diameter, double mean_diameter,
 }
 
 /* Of particles, walls, ends or plate: then every contact carries a moment. */
-static inline bool dem_has_rolling_friction(const dem_drum_definition *d)
+static inline bool dem_has_rolling_friction(const dem_scene_definition *d)
 {
     return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->ends.rolling_friction > 0
            || d->plate.rolling_friction > 0;

@@ -101,7 +101,7 @@ typedef struct dem_lifters {
     double friction;
 } dem_lifters;
 
-/* How the tube is raised, from when the bed in it is at rest (DEM_PHASE_ROTATING) on. */
+/* How the tube is raised, from when the bed in it is at rest (DEM_PHASE_RUNNING) on. */
 typedef struct dem_lift {
     double speed; /* m/s */
     double start; /* s after the bed came to rest */
@@ -123,7 +123,7 @@ typedef struct dem_stream {
 
 enum { DEM_MAXIMUM_LIFTERS = 64 };
 
-typedef struct dem_drum_definition {
+typedef struct dem_scene_definition {
     dem_container_kind container;
     double diameter; /* m, inner diameter of the smooth wall */
     double
@@ -146,12 +146,12 @@ typedef struct dem_drum_definition {
     int corrector_passes; /* of Euler's equations for clusters, Eqns 9-10; 0: one */
     uint64_t seed;
     int threads;
-} dem_drum_definition;
+} dem_scene_definition;
 
 typedef enum dem_phase {
     DEM_PHASE_GROWING,  /* spheres placed at random grow to full size, without gravity */
     DEM_PHASE_SETTLING, /* the bed falls and comes to rest in the standing drum */
-    DEM_PHASE_ROTATING  /* the drum turns; the tube is raised; the stream fills the cylinder, from the first step on */
+    DEM_PHASE_RUNNING   /* the drum turns; the tube is raised; the stream fills the cylinder, from the first step on */
 } dem_phase;
 
 /* The parts of a step, for whoever wants to know what they cost. */
@@ -295,11 +295,11 @@ typedef struct dem_repose_result {
     double window_revolutions;             /* that the drum turned in the window */
     double correlation_times;              /* that the window is long */
     double layers;                         /* depth of the bed at mid-chord, in mean diameters */
-    double interface_fluctuation;    /* m: mean over x of the standard deviation in time of the interface height */
-    double window_start, window_end; /* s since rotation began */
-    double correlation_time;         /* s, of the surface-fit angle */
-    size_t frames;                   /* in the window */
-    dem_slumps slumps;               /* all NaN where the bed neither slumps nor avalanches */
+    double interface_fluctuation;          /* m: mean over x of the standard deviation in time of the interface height */
+    double window_start, window_end;       /* s since rotation began */
+    double correlation_time;               /* s, of the surface-fit angle */
+    size_t frames;                         /* in the window */
+    dem_slumps slumps;                     /* all NaN where the bed neither slumps nor avalanches */
 } dem_repose_result;
 
 typedef struct dem_regime_result {

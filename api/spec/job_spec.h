@@ -63,7 +63,7 @@ typedef struct heap_inputs {
 } heap_inputs;
 
 /* Of every process that advances a scene: drum, fill, heap. */
-typedef struct drum_inputs {
+typedef struct scene_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
     double rotation_rate_rpm; /* given instead; NaN once rotation_rate is set by it */
     double rate_was_rpm;      /* NaN: it was not */
@@ -90,7 +90,7 @@ typedef struct drum_inputs {
     /* While it is parsed: */
     struct spec_memory *memory;
     const client_watch *client;
-} drum_inputs;
+} scene_inputs;
 
 typedef struct granule_inputs {
     double friction, radius, rotation_rate; /* rotation_rate may be NaN: not asked for */
@@ -118,8 +118,8 @@ typedef struct job_spec {
     json_t *label;            /* object of strings and numbers, owned; never NULL */
 
     /* Of all that advance a scene: */
-    drum_inputs inputs;          /* as asked for */
-    dem_drum_definition drum;    /* the scene, complete: stiffness, time step and particle count derived */
+    scene_inputs inputs;         /* as asked for */
+    dem_scene_definition scene;  /* the scene, complete: stiffness, time step and particle count derived */
     bool is_mirrored;            /* rotation_rate is below 0: the scene is the mirror image, x for -x, of what was asked for */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
     double expected_overlap;     /* of the hardest impact, likewise; follows from the stiffness where that was given */

@@ -58,7 +58,7 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
         schema = json_pack("{s:s, s:I, s:I}", "type", "string", "minLength", (json_int_t)field->minimum, "maxLength",
                            (json_int_t)field->maximum);
         break;
-    case FIELD_TURN:
+    case FIELD_ORIENTATION:
         schema = json_pack("{s:s, s:i, s:i, s:o}", "type", "array", "minItems", 4, "maxItems", 4, "items", number_schema(field));
         break;
     case FIELD_PLACE:

@@ -37,7 +37,7 @@ typedef enum field_kind {
     FIELD_TRUE,             /* true, kept as 1; there is no false, which is said by leaving it out */
     FIELD_TEXT,             /* kept as bytes that end with 0; "": not given. Its range is that of its length */
     FIELD_PLACE,            /* a list of three numbers, kept as three doubles */
-    FIELD_TURN,             /* a list of four numbers, kept as four doubles */
+    FIELD_ORIENTATION,      /* a list of four numbers, kept as four doubles */
     FIELD_CHOICE_OR_OBJECT, /* a word, or an object whose members are kept beside it; the object's index follows the words' */
     FIELD_OBJECT,
     FIELD_OBJECT_OR_NULL, /* null, the default: none */

@@ -58,14 +58,14 @@ static bool are_remembered(const spec_memory *memory, const start_inputs *start)
            && memcmp(memory->placed, start->particles, start->particle_count * sizeof *start->particles) == 0;
 }
 
-static double period_of(const dem_drum_definition *drum) { return drum->ends.are_walls ? 0.0 : drum->length; }
+static double period_of(const dem_scene_definition *drum) { return drum->ends.are_walls ? 0.0 : drum->length; }
 
 static bool have_the_same_spheres(const dem_species *a, const dem_species *b)
 {
     return a->diameter == b->diameter && memcmp(&a->cluster, &b->cluster, sizeof a->cluster) == 0;
 }
 
-bool spec_memory_knows_apart(const spec_memory *memory, const start_inputs *start, const dem_drum_definition *drum)
+bool spec_memory_knows_apart(const spec_memory *memory, const start_inputs *start, const dem_scene_definition *drum)
 {
     if (!memory || !memory->placed_apart || memory->placed_period != period_of(drum)
         || memory->placed_species_count != drum->species_count)
@@ -75,13 +75,13 @@ bool spec_memory_knows_apart(const spec_memory *memory, const start_inputs *star
     return are_remembered(memory, start);
 }
 
-bool spec_memory_knows_inside(const spec_memory *memory, const start_inputs *start, const dem_drum_definition *drum)
+bool spec_memory_knows_inside(const spec_memory *memory, const start_inputs *start, const dem_scene_definition *drum)
 {
     return memory && memory->placed_diameter == drum->diameter && memory->placed_length == drum->length
            && spec_memory_knows_apart(memory, start, drum);
 }
 
-void spec_memory_keep_sound(spec_memory *memory, const start_inputs *start, const dem_drum_definition *drum)
+void spec_memory_keep_sound(spec_memory *memory, const start_inputs *start, const dem_scene_definition *drum)
 {
     if (!are_remembered(memory, start)) return;
     memory->placed_apart = true;

@@ -40,10 +40,10 @@ void spec_memory_keep_placed(spec_memory *memory, const json_t *inputs, const st
 
 /* Whether the particles remembered, which these are, were found apart among such species, and inside of such a drum, too.
  * NULL remembers nothing. */
-bool spec_memory_knows_apart(const spec_memory *memory, const start_inputs *start, const dem_drum_definition *drum);
-bool spec_memory_knows_inside(const spec_memory *memory, const start_inputs *start, const dem_drum_definition *drum);
+bool spec_memory_knows_apart(const spec_memory *memory, const start_inputs *start, const dem_scene_definition *drum);
+bool spec_memory_knows_inside(const spec_memory *memory, const start_inputs *start, const dem_scene_definition *drum);
 /* They are both. */
-void spec_memory_keep_sound(spec_memory *memory, const start_inputs *start, const dem_drum_definition *drum);
+void spec_memory_keep_sound(spec_memory *memory, const start_inputs *start, const dem_scene_definition *drum);
 
 /* The spec that made the bed of a job, and its number of particles. New reference; NULL: another bed, or memory is NULL. */
 json_t *spec_memory_find_bed(const spec_memory *memory, const start_inputs *start, double *particles);

@@ -264,7 +264,7 @@ static void read_text(const spec_field *field, const json_t *value, const char *
 /* Three or four numbers of the field's range. */
 static void read_place(const spec_field *field, const json_t *value, const char *pointer, double *place, problem_list *problems)
 {
-    const size_t numbers = field->kind == FIELD_TURN ? 4 : 3;
+    const size_t numbers = field->kind == FIELD_ORIENTATION ? 4 : 3;
     char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
     for (size_t c = 0; c < numbers; c++) place[c] = field->required ? NAN : field->fallback;
     if (!value && !field->required) return;
@@ -315,7 +315,7 @@ static void read_group(const spec_table *table, spec_group group, const json_t *
             read_list(table, field, value, member, place, problems);
         } else if (field->kind == FIELD_TEXT) {
             read_text(field, value, member, place + field->offset, problems);
-        } else if (field->kind == FIELD_PLACE || field->kind == FIELD_TURN) {
+        } else if (field->kind == FIELD_PLACE || field->kind == FIELD_ORIENTATION) {
             read_place(field, value, member, (double *)(place + field->offset), problems);
         } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {
             read_choice_or_object(table, field, value, member, place, problems);

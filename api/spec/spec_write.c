@@ -50,7 +50,7 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
             member = json_string(place + field->offset);
         } else if (field->kind == FIELD_LONG_LIST && *(const size_t *)(place + field->count_offset) == 0) {
             continue;
-        } else if (field->kind == FIELD_TURN) {
+        } else if (field->kind == FIELD_ORIENTATION) {
             const double *q = (const double *)(place + field->offset);
             if (isnan(q[0])) continue;
             member = json_pack("[f, f, f, f]", q[0], q[1], q[2], q[3]);

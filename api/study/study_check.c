@@ -132,7 +132,7 @@ static void give_repeats(checking *check, job_spec *spec, size_t index)
     for (int repeat = 0; check->taker && repeat < repeats && !check->refused; repeat++) {
         if (check->study->has_seed) {
             spec->inputs.seed = last - (repeats - 1 - repeat);
-            spec->drum.seed = (uint64_t)spec->inputs.seed;
+            spec->scene.seed = (uint64_t)spec->inputs.seed;
         }
         check->refused = !check->taker->take(check->taker->context, spec, index, repeat);
     }

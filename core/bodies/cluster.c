@@ -20,7 +20,7 @@ static void shape_init(cluster_shape *shape, const dem_species *species)
     shape->reach = from->reach;
 }
 
-dem_status clusters_init(clusters *c, const dem_drum_definition *definition, size_t count, size_t sphere_count)
+dem_status clusters_init(clusters *c, const dem_scene_definition *definition, size_t count, size_t sphere_count)
 {
     *c = (clusters){ .count = count,
                      .sphere_count = sphere_count,

@@ -36,7 +36,7 @@ typedef struct clusters {
     int corrector_passes; /* of Euler's equations, at least 1 */
 } clusters;
 
-dem_status clusters_init(clusters *clusters, const dem_drum_definition *definition, size_t count, size_t sphere_count);
+dem_status clusters_init(clusters *clusters, const dem_scene_definition *definition, size_t count, size_t sphere_count);
 void clusters_clear(clusters *clusters);
 
 /* A sphere's place from the centre of its cluster, along the axes of space, m. */

@@ -9,7 +9,7 @@ enum { MANY = 10000, VERY_MANY = 50000, FOR_WAVES = 200000 };
 
 size_t spheres_count(const spheres *s) { return s->mobile_count + s->lining_count; }
 
-static size_t particles_before(const dem_drum_definition *definition, size_t species)
+static size_t particles_before(const dem_scene_definition *definition, size_t species)
 {
     double share = 0.0;
     for (size_t k = 0; k < species; k++) share += definition->species[k].share;
@@ -17,7 +17,7 @@ static size_t particles_before(const dem_drum_definition *definition, size_t spe
                                                 : (size_t)floor(share * (double)definition->particle_count + 0.5);
 }
 
-size_t species_particles(const dem_drum_definition *definition, size_t species)
+size_t species_particles(const dem_scene_definition *definition, size_t species)
 {
     return particles_before(definition, species + 1) - particles_before(definition, species);
 }
@@ -70,7 +70,7 @@ void spheres_forget_surface(spheres *s)
     for (size_t i = 0; i < s->mobile_count; i++) s->surface_track[i] = (surface_track){ 0, NAN };
 }
 
-dem_status spheres_init(spheres *s, const dem_drum_definition *definition, size_t lining_count)
+dem_status spheres_init(spheres *s, const dem_scene_definition *definition, size_t lining_count)
 {
     size_t singles = 0, bodies = 0, joined = 0;
     for (size_t k = 0; k < definition->species_count; k++) {
@@ -117,7 +117,7 @@ void spheres_clear(spheres *s)
     memset(s, 0, sizeof *s);
 }
 
-void spheres_set_period(spheres *s, const dem_drum_definition *definition, double period)
+void spheres_set_period(spheres *s, const dem_scene_definition *definition, double period)
 {
     /* Half a ring is at least one and a half of the largest diameters: a period has three. Listed pairs are within 1.8, and
      * those that can touch before the next pick within 1.4, by the skin of 0.4: the others may be seen on the wrong side. */

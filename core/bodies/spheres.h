@@ -69,8 +69,8 @@ typedef struct spheres {
     bool in_waves;                              /* it pays to take several steps in one pass through memory: wave.h */
     double scale;                               /* share of full size that the mobile spheres have now */
     /* written in each step, apart from what all threads read */
-    _Alignas(ALIGNMENT) int copies_turn; /* 0, 1: which of the two copies of a row is read next */
-    bool copies_hold;                    /* it is that of the rows of now */
+    _Alignas(ALIGNMENT) int front_copy; /* 0, 1: which of the two copies of a row is read next */
+    bool copies_hold;                   /* it is that of the rows of now */
 } spheres;
 
 /* An array of the spheres: everything that is done with each of them alike follows from its row in this table. */
@@ -96,7 +96,7 @@ enum { SPHERE_ARRAYS = 14 };
 extern const sphere_array sphere_arrays[SPHERE_ARRAYS];
 void *sphere_array_of(const spheres *spheres, const sphere_array *array);
 
-dem_status spheres_init(spheres *spheres, const dem_drum_definition *definition, size_t lining_count);
+dem_status spheres_init(spheres *spheres, const dem_scene_definition *definition, size_t lining_count);
 void spheres_clear(spheres *spheres);
 size_t spheres_count(const spheres *spheres); /* mobile and lining */
 /* How rows are laid out is the business of the step's own files; all others ask here. */
@@ -154,10 +154,10 @@ static inline int32_t particle_id(const spheres *s, size_t p)
 }
 
 /* How many particles a species has: shares by number, every species within one of its share, the total exact. */
-size_t species_particles(const dem_drum_definition *definition, size_t species);
+size_t species_particles(const dem_scene_definition *definition, size_t species);
 /* Before any place is set: rows tell places apart modulo a length, the period along z (m; 0: none) or a whole part of it or
  * some diameters. */
-void spheres_set_period(spheres *spheres, const dem_drum_definition *definition, double period);
+void spheres_set_period(spheres *spheres, const dem_scene_definition *definition, double period);
 /* The first of a part's loads for what concerns nobody: no two parts write to one line of memory. */
 enum { LOADS_A_PART = 8, LOADS_OF_NOBODY = LOADS_A_PART * (MOST_PARTS + 1) };
 static inline size_t loads_of_nobody(const spheres *s, int part) { return s->load_count - LOADS_A_PART * (size_t)(part + 1); }

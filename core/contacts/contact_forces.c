@@ -3,10 +3,10 @@
 #include "wall_forces.h"
 
 /* What all contacts of a block have, from the way between their ends in ring units. */
-WIDE_INLINE void store_geometry(contact_block *restrict block, int k, const wide_ring turned[3], wide reach, wide to_metres)
+WIDE_INLINE void store_geometry(contact_block *restrict block, int k, const wide_ring apart[3], wide reach, wide to_metres)
 {
     wide x[3];
-    const wide gap2 = wide_ring_gap2(turned, reach, x);
+    const wide gap2 = wide_ring_gap2(apart, reach, x);
     store_vector(block->n, k, x);
     /* not zero where centres nearly coincide, by rounding */
     const wide reach2 = reach * reach;
@@ -68,15 +68,15 @@ WIDE_INLINE void gather_any(contact_block *restrict block, const spheres *s, con
         const wide omega_i[3] = { row_i.omega[0], row_i.omega[1], rest_i.omega_z };
         const wide omega_j[3] = { row_j.omega[0], row_j.omega[1], rest_j.omega_z };
         const wide radii = rest_i.radius + rest_j.radius, reach = radii * to_units;
-        wide_ring turned[3];
+        wide_ring apart[3];
         for (int c = 0; c < 3; c++) {
-            turned[c] = wide_ring_difference(row_i.place[c], row_j.place[c]);
+            apart[c] = wide_ring_difference(row_i.place[c], row_j.place[c]);
             wide_store(block->v[c] + k, row_j.v[c] - row_i.v[c]);
             wide_store(block->r_omega[c] + k, wide_fused(rest_i.radius, omega_i[c], rest_j.radius * omega_j[c]));
             wide_store(block->omega[c] + k, omega_i[c] + omega_j[c]);
             if (spins) wide_store(block->spin[c] + k, omega_i[c] - omega_j[c]);
         }
-        store_geometry(block, k, turned, reach, to_metres);
+        store_geometry(block, k, apart, reach, to_metres);
         wide_store(block->reach + k, reach);
         wide_store(block->radii + k, radii);
     }
@@ -235,81 +235,82 @@ WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, s
 }
 
 /* The part's own up to `to` have all their forces from others. */
-WIDE_INLINE void spheres_complete(part_turn *turn, size_t to)
+WIDE_INLINE void spheres_complete(list_cursor *cursor, size_t to)
 {
     enum { AHEAD = 96 }; /* of three blocks or four */
-    const pair_work *const work = turn->work;
+    const pair_work *const work = cursor->work;
     neighbor_list *const list = work->list;
     spheres *const s = work->spheres;
     if (s->exceed_caches) __builtin_prefetch(&list->wall_start[to + AHEAD]);
-    while (turn->walls < turn->walls_end && turn->walls < list->wall_start[to]) {
-        const size_t next = turn->walls / BLOCK * BLOCK + BLOCK, end = next < turn->walls_end ? next : turn->walls_end;
-        contact_forces_with_some_walls(list, turn->walls, end, s, work->walls, work->contact, work->dt, &turn->largest);
-        turn->walls = end;
+    while (cursor->walls < cursor->walls_end && cursor->walls < list->wall_start[to]) {
+        const size_t next = cursor->walls / BLOCK * BLOCK + BLOCK, end = next < cursor->walls_end ? next : cursor->walls_end;
+        contact_forces_with_some_walls(list, cursor->walls, end, s, work->walls, work->contact, work->dt, &cursor->largest);
+        cursor->walls = end;
     }
-    const size_t from = turn->complete, last = to < s->single_count ? to : s->single_count;
+    const size_t from = cursor->complete, last = to < s->single_count ? to : s->single_count;
     add_walls(list, s, from, to);
-    turn->complete = to;
+    cursor->complete = to;
     if (!work->leap || from >= last) return;
-    turn->strayed = vector4_greater_size(turn->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
-    contact_parts_copy_rows(&list->parts, s, 1 - work->copies_turn, list->parts.shared_begin[turn->part + 1], last, &turn->shared);
+    cursor->strayed = vector4_greater_size(cursor->strayed, spheres_advance(work->leap, s, list->picked_velocity, from, last));
+    contact_parts_copy_rows(&list->parts, s, 1 - work->front_copy, list->parts.shared_begin[cursor->part + 1], last,
+                            &cursor->shared);
 }
 
 /* One block, to the loads of the part's own spheres. rows: NULL: all are. coming: as above. */
-WIDE_INLINE void block_forces(part_turn *turn, contact_list *pairs, size_t b, const block_rows *rows, const int32_t *coming)
+WIDE_INLINE void block_forces(list_cursor *cursor, contact_list *pairs, size_t b, const block_rows *rows, const int32_t *coming)
 {
-    const pair_work *const work = turn->work;
+    const pair_work *const work = cursor->work;
     const contact_parts *const parts = &work->list->parts;
     spheres *const s = work->spheres;
-    contact_block *const block = turn->block;
+    contact_block *const block = cursor->block;
     const int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
-    const int32_t *const first_row = rows ? rows->first[work->copies_turn] : first;
-    const int32_t *const second_row = rows ? rows->second[work->copies_turn] : second;
+    const int32_t *const first_row = rows ? rows->first[work->front_copy] : first;
+    const int32_t *const second_row = rows ? rows->second[work->front_copy] : second;
     const bool all_mobile = s->lining_count == 0 && (b + 1) * BLOCK <= pairs->count;
     block_loads loads;
-    if (are_alike(pairs)) gather_alike(block, s, first_row, second_row, rows ? 0 : parts->sphere[turn->part + 1], coming);
+    if (are_alike(pairs)) gather_alike(block, s, first_row, second_row, rows ? 0 : parts->sphere[cursor->part + 1], coming);
     else if (pairs->has_rolling) gather_any(block, s, first_row, second_row, coming, true);
     else gather_any(block, s, first_row, second_row, coming, false);
     if (coming && s->exceed_caches) send_for_block(pairs, (b + 1) * BLOCK);
-    contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &turn->largest);
-    find_loads(&loads, first, second, parts->sphere[turn->part], parts->sphere[turn->part + 1], loads_of_nobody(s, turn->part),
-               !rows && all_mobile);
+    contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &cursor->largest);
+    find_loads(&loads, first, second, parts->sphere[cursor->part], parts->sphere[cursor->part + 1],
+               loads_of_nobody(s, cursor->part), !rows && all_mobile);
     add_to_loads(block, &loads, pairs->ends_differ, s->load, coming);
 }
 
 /* Of a list that is not gone through from block to block. */
-static __attribute__((noinline)) void block_forces_aside(part_turn *turn, contact_list *pairs, size_t b, const block_rows *rows)
+static __attribute__((noinline)) void block_forces_aside(list_cursor *cursor, contact_list *pairs, size_t b, const block_rows *rows)
 {
-    block_forces(turn, pairs, b, rows, NULL);
+    block_forces(cursor, pairs, b, rows, NULL);
 }
 
 /* Block b is done: spheres before the first of the next one have all their forces. A sphere is first in contacts with those
  * behind it in memory alone: behind its last one as first, no other contact reads its row in this step. */
-WIDE_INLINE void block_done(part_turn *turn, size_t b)
+WIDE_INLINE void block_done(list_cursor *cursor, size_t b)
 {
-    const int32_t *const next = turn->work->list->pairs.first + (b + 1) * BLOCK;
-    if (b + 1 < turn->end && (size_t)*next > turn->complete) spheres_complete(turn, (size_t)*next);
+    const int32_t *const next = cursor->work->list->pairs.first + (b + 1) * BLOCK;
+    if (b + 1 < cursor->end && (size_t)*next > cursor->complete) spheres_complete(cursor, (size_t)*next);
 }
 
-void part_turn_next_block(part_turn *turn)
+void list_cursor_next_block(list_cursor *cursor)
 {
-    contact_list *const pairs = &turn->work->list->pairs;
-    const contact_part *const own = &turn->work->list->parts.part[turn->part];
-    const size_t b = turn->next++;
-    const bool is_across = turn->across < own->across_count && own->across[turn->across] == b;
+    contact_list *const pairs = &cursor->work->list->pairs;
+    const contact_part *const own = &cursor->work->list->parts.part[cursor->part];
+    const size_t b = cursor->next++;
+    const bool is_across = cursor->across < own->across_count && own->across[cursor->across] == b;
     const int32_t *const coming =
-        turn->work->spheres->are_many && turn->next < turn->end ? pairs->second + turn->next * BLOCK : NULL;
-    block_forces(turn, pairs, b, is_across ? &own->rows[turn->across++] : NULL, coming);
-    block_done(turn, b);
+        cursor->work->spheres->are_many && cursor->next < cursor->end ? pairs->second + cursor->next * BLOCK : NULL;
+    block_forces(cursor, pairs, b, is_across ? &own->rows[cursor->across++] : NULL, coming);
+    block_done(cursor, b);
 }
 
-void part_turn_complete(part_turn *turn, size_t to) { spheres_complete(turn, to); }
+void list_cursor_complete(list_cursor *cursor, size_t to) { spheres_complete(cursor, to); }
 
-void part_turn_rest_of_block(part_turn *turn, size_t done)
+void list_cursor_rest_of_block(list_cursor *cursor, size_t done)
 {
-    contact_list *const pairs = &turn->work->list->pairs;
-    const spheres *const s = turn->work->spheres;
-    const size_t b = turn->next++;
+    contact_list *const pairs = &cursor->work->list->pairs;
+    const spheres *const s = cursor->work->spheres;
+    const size_t b = cursor->next++;
     int32_t *const first = pairs->first + b * BLOCK, *const second = pairs->second + b * BLOCK;
     int32_t ends[2][BLOCK];
     real kept[CONTACT_NUMBERS][BLOCK];
@@ -322,36 +323,36 @@ void part_turn_rest_of_block(part_turn *turn, size_t done)
         second[k] = sphere_far_away(s);
     }
     block_rows rows = { 0 };
-    memcpy(rows.first[turn->work->copies_turn], first, sizeof rows.first[0]);
-    memcpy(rows.second[turn->work->copies_turn], second, sizeof rows.second[0]);
-    block_forces_aside(turn, pairs, b, &rows);
+    memcpy(rows.first[cursor->work->front_copy], first, sizeof rows.first[0]);
+    memcpy(rows.second[cursor->work->front_copy], second, sizeof rows.second[0]);
+    block_forces_aside(cursor, pairs, b, &rows);
     memcpy(first, ends[0], sizeof ends[0]);
     memcpy(second, ends[1], sizeof ends[1]);
     for (int m = 0; m < numbers; m++) memcpy(pairs->memory[m] + b * BLOCK, kept[m], done * sizeof(real));
-    block_done(turn, b);
+    block_done(cursor, b);
 }
 
 void pair_work_begin(pair_work *work, neighbor_list *list, spheres *s, const container *walls,
                      const dem_contact_parameters *contact, double dt, const leap_frog *leap)
 {
     work->list = list, work->spheres = s, work->walls = walls, work->contact = contact, work->dt = dt, work->leap = leap;
-    work->copies_turn = s->copies_turn;
+    work->front_copy = s->front_copy;
 }
 
-part_turn part_turn_of(const pair_work *work, int part, contact_block *block)
+list_cursor list_cursor_begin(const pair_work *work, int part, contact_block *block)
 {
     const neighbor_list *const list = work->list;
     const size_t begin = list->parts.sphere[part];
-    part_turn turn = { .work = work, .part = part, .block = block, .complete = begin };
-    turn.next = list->parts.block[part];
-    turn.end = list->parts.block[part + 1];
-    turn.shared = list->parts.shared_begin[part];
+    list_cursor cursor = { .work = work, .part = part, .block = block, .complete = begin };
+    cursor.next = list->parts.block[part];
+    cursor.end = list->parts.block[part + 1];
+    cursor.shared = list->parts.shared_begin[part];
     if (work->walls) {
-        turn.walls = list->wall_start[begin];
-        turn.walls_end = list->wall_start[list->parts.sphere[part + 1]];
+        cursor.walls = list->wall_start[begin];
+        cursor.walls_end = list->wall_start[list->parts.sphere[part + 1]];
     }
     if (are_alike(&list->pairs)) set_reach(block, work->spheres);
-    return turn;
+    return cursor;
 }
 
 /* One part's blocks, after the copies of what earlier parts have. */
@@ -360,13 +361,13 @@ static void part_forces(pair_work *work, int part)
     contact_part *const own = &work->list->parts.part[part];
     const size_t own_end = work->list->parts.sphere[part + 1];
     contact_block block;
-    part_turn turn = part_turn_of(work, part, &block);
+    list_cursor cursor = list_cursor_begin(work, part, &block);
     for (size_t b = 0; b * BLOCK < own->copies.count; b++)
-        block_forces_aside(&turn, &own->copies, b, &own->rows[own->across_count + b]);
-    while (turn.next < turn.end) part_turn_next_block(&turn);
-    if (turn.complete < own_end) part_turn_complete(&turn, own_end);
-    work->part[part].largest = wide_largest_lane(turn.largest);
-    work->part[part].strayed = turn.strayed;
+        block_forces_aside(&cursor, &own->copies, b, &own->rows[own->across_count + b]);
+    while (cursor.next < cursor.end) list_cursor_next_block(&cursor);
+    if (cursor.complete < own_end) list_cursor_complete(&cursor, own_end);
+    work->part[part].largest = wide_largest_lane(cursor.largest);
+    work->part[part].strayed = cursor.strayed;
 }
 
 static void pairs_of_part(void *context, int part, int parts)
@@ -385,7 +386,7 @@ double contact_forces_between_spheres(neighbor_list *list, spheres *s, const con
     pair_work_begin(&work, list, s, walls, contact, dt, leap);
     contact_parts_hand_out(&list->parts, s);
     team_run(list->parts.count, pairs_of_part, &work);
-    if (leap) s->copies_turn = 1 - s->copies_turn;
+    if (leap) s->front_copy = 1 - s->front_copy;
     double largest = 0.0;
     *strayed = (vector4){ 0 };
     for (int part = 0; part < list->parts.count; part++) {

@@ -36,12 +36,12 @@ typedef struct pair_work {
     const dem_contact_parameters *contact;
     double dt;
     const leap_frog *leap;
-    int copies_turn;
+    int front_copy;
     part_result part[MOST_PARTS];
 } pair_work;
 
 /* How far one part has come in one step. */
-typedef struct part_turn {
+typedef struct list_cursor {
     const pair_work *work;
     int part;
     size_t next, end; /* block; behind the part's last */
@@ -53,18 +53,18 @@ typedef struct part_turn {
     contact_block *block;
     wide largest; /* m, overlaps */
     vector4 strayed;
-} part_turn;
+} list_cursor;
 
 /* All but the parts' results. */
 void pair_work_begin(pair_work *work, neighbor_list *list, spheres *spheres, const container *walls,
                      const dem_contact_parameters *contact, double dt, const leap_frog *leap);
 /* At the beginning. block: where it computes; several that take turns may share one. */
-part_turn part_turn_of(const pair_work *work, int part, contact_block *block);
+list_cursor list_cursor_begin(const pair_work *work, int part, contact_block *block);
 /* The forces of its next block, and then the step of spheres that have all their forces. */
-void part_turn_next_block(part_turn *turn);
+void list_cursor_next_block(list_cursor *cursor);
 /* The same, but for the block's first `done` contacts, which have had theirs in this step. */
-void part_turn_rest_of_block(part_turn *turn, size_t done);
+void list_cursor_rest_of_block(list_cursor *cursor, size_t done);
 /* Its own spheres up to `to` have all their forces from others: those from walls, and their step. */
-void part_turn_complete(part_turn *turn, size_t to);
+void list_cursor_complete(list_cursor *cursor, size_t to);
 
 #endif

@@ -31,7 +31,7 @@ _Static_assert(offsetof(contact_history, roll) == (CONTACT_NUMBERS - NUMBERS_OF_
 #define TINY_SQUARE ((real)1e-30)
 
 /* The same contact seen from the other body: n points the other way, and so do all vectors. */
-static inline void contact_history_turn(contact_history *history)
+static inline void contact_history_reverse(contact_history *history)
 {
     for (int c = 0; c < 3; c++) {
         history->t[c] = -history->t[c];

@@ -251,7 +251,7 @@ static dem_status make_copies(const deal_work *work, int part)
 static void hand_out(const contact_parts *parts, spheres *s, int part)
 {
     size_t next = parts->shared_begin[part];
-    contact_parts_copy_rows(parts, s, s->copies_turn, parts->shared_begin[part + 1], s->mobile_count, &next);
+    contact_parts_copy_rows(parts, s, s->front_copy, parts->shared_begin[part + 1], s->mobile_count, &next);
 }
 
 static void complete_part(void *context, int part, int parts)

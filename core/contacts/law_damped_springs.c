@@ -93,8 +93,8 @@ static void hertz_mindlin_normals(contact_block *restrict block, const real *res
 
 /* damped_friction_increment of contact_law.h, LANES at a time, in two passes: the stretch turned into the tangent plane and
  * grown by this step's displacement; the force, and what it leaves of the stretch. */
-static void turn_stretch(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
-                         const real *restrict t_z)
+static void rotate_stretch(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
+                           const real *restrict t_z)
 {
     const wide one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -138,6 +138,6 @@ void contact_block_damped_springs(contact_block *block, contact_list *list, size
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
     if (contact->law == DEM_SPRING_DASHPOT) linear_normals(block, root_mass, friction, list->damped, inverse_dt);
     else hertz_mindlin_normals(block, root_mass, list->radius + at, friction, list->damped, inverse_dt);
-    turn_stretch(block, t_x, t_y, t_z);
+    rotate_stretch(block, t_x, t_y, t_z);
     friction_forces(block, t_x, t_y, t_z);
 }

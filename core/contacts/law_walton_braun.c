@@ -59,8 +59,8 @@ static void normal_forces_of_slope(contact_block *restrict block, real *restrict
 
 /* friction_increment of contact_law.h, LANES at a time, in three passes: the stored force turned into the tangent
  * plane; the stiffness along it; the new force. */
-static void turn_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
-                          const real *restrict t_z, const real *restrict friction)
+static void rotate_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
+                            const real *restrict t_z, const real *restrict friction)
 {
     const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -124,7 +124,7 @@ void contact_block_walton_braun(contact_block *block, contact_list *list, size_t
     if (contact->unloading_slope > 0) normal_forces_of_slope(block, alpha_0, (real)k_1, (real)contact->unloading_slope, dashpots);
     else if (alike) normal_forces(block, alpha_0, (real)k_1, (real)k_2, dashpots, true);
     else normal_forces(block, alpha_0, (real)k_1, (real)k_2, dashpots, false);
-    turn_friction(block, t_x, t_y, t_z, list->friction + constants_of(list, start));
+    rotate_friction(block, t_x, t_y, t_z, list->friction + constants_of(list, start));
     friction_stiffness(block, list->t_star + start);
     friction_forces(block, t_x, t_y, t_z);
 }

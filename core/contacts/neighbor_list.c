@@ -9,7 +9,7 @@
 /* Shares of the smallest diameter, chosen by measurement: core/NUMERICS.md, "Neighbor lists". */
 static const double SKIN = 0.4, LEAST_MARGIN = 0.0001, FIRST_MARGIN = 0.006, MOST_MARGIN = 0.02;
 
-dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_drum_definition *definition)
+dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_scene_definition *definition)
 {
     memset(list, 0, sizeof *list);
     list->margin = FIRST_MARGIN * s->smallest_diameter;
@@ -60,7 +60,7 @@ void neighbor_list_invalidate(neighbor_list *list)
     list->inner_valid = false;
 }
 
-void neighbor_list_doubt(neighbor_list *list, int steps_apart)
+void neighbor_list_expire(neighbor_list *list, int steps_apart)
 {
     list->inner_valid = false;
     list->steps_apart = steps_apart;
@@ -99,7 +99,7 @@ static void outlook_of_part(void *context, int part, int parts)
     work->part[part] = (outlook){ displacement2, speed2 };
 }
 
-static outlook outlook_measure(const neighbor_list *list, const spheres *s, const container *drum, int threads)
+static outlook outlook_measure(const neighbor_list *list, const spheres *s, const container *vessel, int threads)
 {
     outlook_work work = { .list = list, .spheres = s };
     team_run(team_parts(threads), outlook_of_part, &work);
@@ -109,8 +109,9 @@ static outlook outlook_measure(const neighbor_list *list, const spheres *s, cons
         out.largest_speed = fmax(out.largest_speed, sqrt(work.part[p].largest_speed));
     }
     if (s->lining_count) {
-        out.largest_speed = fmax(out.largest_speed, fabs(drum->rotation_rate) * drum->radius);
-        out.largest_displacement = fmax(out.largest_displacement, fabs(drum->angle - list->outer.turned_at_build) * drum->radius);
+        out.largest_speed = fmax(out.largest_speed, fabs(vessel->rotation_rate) * vessel->radius);
+        out.largest_displacement =
+            fmax(out.largest_displacement, fabs(vessel->angle - list->outer.angle_at_build) * vessel->radius);
     }
     return out;
 }
@@ -141,7 +142,7 @@ static void choose_margin(neighbor_list *list)
     list->margin = fmax(list->least_margin, fmin(ahead, list->most_margin));
 }
 
-dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
+dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container *vessel, const dem_contact_parameters *contact,
                                 double time_step, int threads, bool *looked)
 {
     *looked = false;
@@ -152,12 +153,12 @@ dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container
     outlook now = outlook_since(list, time_step);
     int steps = list->inner_valid ? safe_steps(list, &now, time_step) : 0;
     if (steps < HORIZON) {
-        now = outlook_measure(list, s, drum, threads);
+        now = outlook_measure(list, s, vessel, threads);
         steps = list->outer.valid ? safe_steps(list, &now, time_step) : 0;
         *looked = true;
     }
     if (steps < HORIZON) {
-        const dem_status status = outer_list_build(&list->outer, s, drum, &list->parts, threads);
+        const dem_status status = outer_list_build(&list->outer, s, vessel, &list->parts, threads);
         if (status != DEM_OK) {
             neighbor_list_invalidate(list);
             return status;
@@ -168,19 +169,19 @@ dem_status neighbor_list_update(neighbor_list *list, spheres *s, const container
     list->at_pick = now;
     /* Right after a build, the step at hand is safe whatever the speed. */
     list->safe_steps = steps > 1 ? steps : 1;
-    const dem_status status = neighbor_list_pick(list, s, drum, contact, time_step, threads);
+    const dem_status status = neighbor_list_pick(list, s, vessel, contact, time_step, threads);
     if (status != DEM_OK) neighbor_list_invalidate(list);
     return status;
 }
 
-void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, const container *drum, const int32_t *id,
+void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, const container *vessel, const int32_t *id,
                                   int32_t *contacts)
 {
     memset(contacts, 0, s->mobile_count * sizeof *contacts);
     for (size_t k = 0; k < list->pairs.count; k++) {
         const int32_t i = list->pairs.first[k], j = list->pairs.second[k];
         const double radii = sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j);
-        if (squared_distance(sphere_place(s, (size_t)i), sphere_place(s, (size_t)j), drum->period, drum->inverse_period)
+        if (squared_distance(sphere_place(s, (size_t)i), sphere_place(s, (size_t)j), vessel->period, vessel->inverse_period)
             >= radii * radii)
             continue;
         contacts[id ? id[i] : i]++;
@@ -188,7 +189,7 @@ void neighbor_list_count_contacts(const neighbor_list *list, const spheres *s, c
     }
     for (size_t k = 0; k < list->walls.count; k++) {
         const int32_t i = list->walls.first[k];
-        const container_wall *w = &drum->wall[list->walls.second[k]];
+        const container_wall *w = &vessel->wall[list->walls.second[k]];
         contacts[id ? id[i] : i] += wall_seen_from(w, sphere_place(s, (size_t)i)).distance < sphere_radius(s, (size_t)i);
     }
 }

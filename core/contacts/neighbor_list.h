@@ -45,16 +45,16 @@ typedef struct neighbor_list {
     int steps_since_pick;
 } neighbor_list;
 
-dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, const dem_drum_definition *definition);
+dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, const dem_scene_definition *definition);
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
 /* The next update picks, from spheres whose places may be as many steps apart: those that are ahead wait for the others. */
-void neighbor_list_doubt(neighbor_list *list, int steps_apart);
+void neighbor_list_expire(neighbor_list *list, int steps_apart);
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
  * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. looked: whether it is time to look at each sphere's place and
  * velocity: one that is no number is in no bound. */
-dem_status neighbor_list_update(neighbor_list *list, spheres *spheres, const container *drum, const dem_contact_parameters *contact,
-                                double time_step, int threads, bool *looked);
+dem_status neighbor_list_update(neighbor_list *list, spheres *spheres, const container *vessel,
+                                const dem_contact_parameters *contact, double time_step, int threads, bool *looked);
 /* Tell the list of a finished step: the largest |v - v at the pick| of all spheres, m/s. */
 static inline void neighbor_list_step_done(neighbor_list *list, double largest_deviation, double time_step)
 {
@@ -65,7 +65,7 @@ static inline void neighbor_list_step_done(neighbor_list *list, double largest_d
 
 /* Contacts (overlap > 0) of each mobile sphere at the places of now, in order of memory or (id not NULL) of id; the list
  * must be up to date. */
-void neighbor_list_count_contacts(const neighbor_list *list, const spheres *spheres, const container *drum, const int32_t *id,
+void neighbor_list_count_contacts(const neighbor_list *list, const spheres *spheres, const container *vessel, const int32_t *id,
                                   int32_t *contacts);
 
 #endif

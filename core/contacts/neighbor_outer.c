@@ -183,12 +183,12 @@ static void find_farthest(outer_list *list, const spheres *s)
     }
 }
 
-dem_status outer_list_build(outer_list *list, const spheres *s, const container *drum, const contact_parts *shares, int threads)
+dem_status outer_list_build(outer_list *list, const spheres *s, const container *vessel, const contact_parts *shares, int threads)
 {
     list->valid = false;
     const int parts = team_parts(threads);
     outer_work work = { .list = list, .spheres = s, .shares = shares };
-    if (cell_grid_fill(&list->grid, s, drum->low, drum->high, drum->period, list->skin) != DEM_OK) return DEM_NO_MEMORY;
+    if (cell_grid_fill(&list->grid, s, vessel->low, vessel->high, vessel->period, list->skin) != DEM_OK) return DEM_NO_MEMORY;
     team_run(parts, outer_of_part, &work);
     list->pair_count = 0;
     for (int p = 0; p < parts; p++) {
@@ -203,7 +203,7 @@ dem_status outer_list_build(outer_list *list, const spheres *s, const container 
         list->second[k] = sphere_far_away(s);
     }
     if (s->in_waves) find_farthest(list, s);
-    list->turned_at_build = drum->angle;
+    list->angle_at_build = vessel->angle;
     list->valid = true;
     list->builds++;
     return DEM_OK;

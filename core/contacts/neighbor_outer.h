@@ -24,8 +24,8 @@ typedef struct outer_list {
     uint16_t *in_reach;     /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
     uint16_t *was_in_reach; /* likewise, at the pick before */
     pair_part part[MOST_PARTS];
-    ring_row *built_at;     /* (mobile) places when the list was made */
-    double turned_at_build; /* rad: the container's angle when the list was made */
+    ring_row *built_at;    /* (mobile) places when the list was made */
+    double angle_at_build; /* rad: the container's angle when the list was made */
     cell_grid grid;
     int64_t builds;
 } outer_list;
@@ -34,7 +34,7 @@ typedef struct outer_list {
 dem_status outer_list_init(outer_list *list, const spheres *spheres, double skin);
 void outer_list_clear(outer_list *list);
 /* Makes the list from the places of now. shares: whose spheres each thread lists. Errors: DEM_NO_MEMORY. */
-dem_status outer_list_build(outer_list *list, const spheres *spheres, const container *drum, const contact_parts *shares,
+dem_status outer_list_build(outer_list *list, const spheres *spheres, const container *vessel, const contact_parts *shares,
                             int threads);
 
 #endif

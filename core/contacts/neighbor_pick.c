@@ -41,7 +41,7 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
 typedef struct pick_work {
     neighbor_list *list;
     const spheres *spheres;
-    const container *drum;
+    const container *vessel;
     const dem_contact_parameters *contact;
     species_roots roots;
     wall_outlook ahead;
@@ -75,7 +75,7 @@ static void mark_in_reach(void *context, int part, int parts)
     work->now[part] = now;
     work->was[part] = was;
     const size_t from = begin_of_part(list, s, part, parts), to = begin_of_part(list, s, part + 1, parts);
-    wall_reach_count(s, work->drum, work->ahead, from, to, list->wall_start + 1);
+    wall_reach_count(s, work->vessel, work->ahead, from, to, list->wall_start + 1);
     uint32_t walls = 0;
     for (size_t i = from; i < to; i++) list->wall_start[i + 1] = walls += list->wall_start[i + 1];
     work->walls[part] = walls;
@@ -153,7 +153,7 @@ static void fill_walls(const pick_work *work, int part, int parts)
     const uint32_t before = (uint32_t)work->walls[part];
     for (size_t i = from, slot = before; i < to; i++) {
         const size_t end = list->wall_start[i + 1] += before;
-        if (slot < end) wall_reach_fill(&list->walls, slot, end, s, work->drum, work->ahead, i);
+        if (slot < end) wall_reach_fill(&list->walls, slot, end, s, work->vessel, work->ahead, i);
         slot = end;
     }
     contact_list_carry(&list->walls, &list->walls_before, work->walls[part], work->walls[part + 1]);
@@ -176,12 +176,12 @@ static void make_contacts(void *context, int part, int parts)
     contact_list_pad(&list->walls, sphere_of_zeros(s), 0);
 }
 
-dem_status neighbor_list_pick(neighbor_list *list, spheres *s, const container *drum, const dem_contact_parameters *contact,
+dem_status neighbor_list_pick(neighbor_list *list, spheres *s, const container *vessel, const dem_contact_parameters *contact,
                               double time_step, int threads)
 {
     const int parts = team_parts(threads);
     const double duration = list->safe_steps * time_step;
-    pick_work work = { .list = list, .spheres = s, .drum = drum, .contact = contact, .ahead = { duration, list->margin } };
+    pick_work work = { .list = list, .spheres = s, .vessel = vessel, .contact = contact, .ahead = { duration, list->margin } };
     if (list->pairs.constants == CONSTANTS_OF_EACH) species_roots_set(&work.roots, s);
     work.apart = list->steps_apart * time_step * list->at_pick.largest_speed;
     work.same_outer = list->picked_of == list->outer.builds;
@@ -207,7 +207,8 @@ dem_status neighbor_list_pick(neighbor_list *list, spheres *s, const container *
     if (list->pairs.constants == CONSTANTS_OF_ALL) contact_constants_of_all(&list->pairs, s, contact);
     list->picked_of = list->outer.builds;
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
-    list->strayed = s->lining_count ? 0.5 * drum->rotation_rate * drum->rotation_rate * drum->radius * duration * duration : 0.0;
+    list->strayed =
+        s->lining_count ? 0.5 * vessel->rotation_rate * vessel->rotation_rate * vessel->radius * duration * duration : 0.0;
     list->deviation = 0.0;
     list->steps_since_pick = 0;
     list->inner_valid = true;

@@ -58,7 +58,7 @@ static void kernel_fill(density_grid *grid, size_t kernel, double diameter, doub
 
 /* One kernel for each diameter that a species' spheres have. Spheres that overlap in a cluster count for less, so that
  * together they have its volume. Returns how many kernels are in use then. */
-static size_t species_kernels(density_grid *grid, const dem_drum_definition *definition, size_t k, size_t used,
+static size_t species_kernels(density_grid *grid, const dem_scene_definition *definition, size_t k, size_t used,
                               const disc_points *disc)
 {
     const dem_species *species = &definition->species[k];
@@ -82,7 +82,7 @@ static size_t species_kernels(density_grid *grid, const dem_drum_definition *def
 
 dem_status density_grid_init(density_grid *grid, const dem_scene *scene)
 {
-    const dem_drum_definition *definition = &scene->definition;
+    const dem_scene_definition *definition = &scene->definition;
     const double spread = mean_diameter(scene);
     size_t most = definition->species_count;
     for (size_t k = 0; k < definition->species_count; k++) most += definition->species[k].cluster.sphere_count;

@@ -64,7 +64,7 @@ static dem_status measure_frame(dem_scene *scene, double *frame)
     const size_t n = scene->spheres.mobile_count;
     int32_t *contacts = array_create(n, sizeof *contacts);
     if (!contacts) return DEM_NO_MEMORY;
-    neighbor_list_count_contacts(&scene->neighbors, &scene->spheres, &scene->drum, NULL, contacts);
+    neighbor_list_count_contacts(&scene->neighbors, &scene->spheres, &scene->container, NULL, contacts);
     frame[FRAME_TIME] = dem_scene_time(scene);
     frame[FRAME_COORDINATION] = coordination_number(&scene->spheres, contacts);
     join_contacts(&scene->spheres, contacts);

@@ -33,5 +33,5 @@ void measure_drive_results(const dem_scene *scene, const frame_window *window, d
     result->torque = mean_of_column(window, FRAME_TORQUE);
     result->weight_torque = mean_of_column(window, FRAME_WEIGHT_TORQUE);
     result->power = result->torque.mean * scene->definition.rotation_rate;
-    result->torque_number = result->torque.mean / (bed_mass(&scene->spheres) * scene->definition.gravity * scene->drum.radius);
+    result->torque_number = result->torque.mean / (bed_mass(&scene->spheres) * scene->definition.gravity * scene->container.radius);
 }

@@ -33,7 +33,7 @@ enum { POINTS_A_CELL = 4 };
 
 size_t dem_fields_cells(const dem_scene *scene)
 {
-    return (size_t)dem_field_cells(2 * scene->drum.radius, mean_diameter(scene), (double)scene->definition.particle_count);
+    return (size_t)dem_field_cells(2 * scene->container.radius, mean_diameter(scene), (double)scene->definition.particle_count);
 }
 
 size_t dem_fields_size(const dem_scene *scene)
@@ -113,7 +113,7 @@ static void sphere_add(const dem_scene *scene, size_t i, footprint *f, int cells
 {
     const double *x = sphere_place(&scene->spheres, i);
     footprint_of(f, x, sphere_radius(&scene->spheres, i), size, cells);
-    const double weight = volume_of(scene, i) / (f->sum * size * size * scene->drum.length);
+    const double weight = volume_of(scene, i) / (f->sum * size * size * scene->container.length);
     for (int a = 0; a < f->count[0]; a++)
         for (int b = 0; b < f->count[1]; b++) {
             const int column = f->first[0] + a, row = f->first[1] + b;
@@ -127,7 +127,7 @@ static void sphere_add(const dem_scene *scene, size_t i, footprint *f, int cells
 dem_status dem_fields_add(const dem_scene *scene, double *sums)
 {
     const int cells = (int)dem_fields_cells(scene);
-    const double size = 2 * scene->drum.radius / cells;
+    const double size = 2 * scene->container.radius / cells;
     const size_t across = (size_t)(scene->spheres.largest_diameter / size) + 3;
     footprint f = { .share = array_create(across * across, sizeof *f.share) };
     if (!f.share) return DEM_NO_MEMORY;

@@ -9,7 +9,7 @@
 /* Radius of the inner surface that the bed would have spread evenly over the wall. */
 static double inner_radius(const dem_scene *scene)
 {
-    return scene->drum.radius * sqrt(fmax(0.0, 1 - scene->definition.fill_fraction));
+    return scene->container.radius * sqrt(fmax(0.0, 1 - scene->definition.fill_fraction));
 }
 
 /* Share of the cross-section that the bed takes up. Clusters pack looser, each shape in its own way, than the solid
@@ -70,10 +70,10 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
 {
     spheres *s = &scene->spheres;
     const double d = mean_diameter(scene), rate = scene->definition.rotation_rate, time = dem_scene_time(scene);
-    const double wall = scene->drum.inner_radius, inner = inner_radius(scene);
+    const double wall = scene->container.inner_radius, inner = inner_radius(scene);
     const double angle = frame[FRAME_SURFACE_FIT] * (DEM_PI / 180), c = cos(angle), sine = sin(angle);
     /* The chord that the fill makes in the frame of the surface: in flight is what is well above it without contact. */
-    const double chord = dem_circle_level(fmin(bed_fill(scene, frame[FRAME_SOLID_FRACTION]), 1.0)) * scene->drum.radius;
+    const double chord = dem_circle_level(fmin(bed_fill(scene, frame[FRAME_SOLID_FRACTION]), 1.0)) * scene->container.radius;
     const double sense = rate < 0 ? -1 : 1; /* in which the surface rises */
     mean wall_spin = { 0 }, flow = { 0 }, airborne = { 0 };
     bool bins[WALL_BINS] = { false };
@@ -92,7 +92,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
         /* Flow of the layer at the middle of the chord: downslope speed, over all that is there. What moves with the drum
          * counts as 0, so that a bed at rest has a flow, too: none. */
         const double along = c * x[0] + sine * x[1], downslope = sense * -(c * v[0] + sine * v[1]);
-        if (fabs(along) < 0.25 * scene->drum.radius) mean_add(&flow, fmax(downslope, 0.0));
+        if (fabs(along) < 0.25 * scene->container.radius) mean_add(&flow, fmax(downslope, 0.0));
     }
     frame[FRAME_AIRBORNE] = mean_of(&airborne);
     frame[FRAME_WALL_SLIP] = rate != 0 ? 1 - mean_of(&wall_spin) / rate : NAN;
@@ -146,7 +146,7 @@ void measure_regime_results(const dem_scene *scene, const frame_window *window, 
                             dem_regime_result *r)
 {
     const double rate = scene->definition.rotation_rate, g = scene->definition.gravity;
-    r->omega2_outer = rate * rate * scene->drum.radius / g;
+    r->omega2_outer = rate * rate * scene->container.radius / g;
     r->omega2_inner = rate * rate * inner_radius(scene) / g;
     const double tangent = tan(repose->angle[DEM_SURFACE_FIT].mean_deg * (DEM_PI / 180));
     r->predicted_stationary = regime_map_stationary(tangent);

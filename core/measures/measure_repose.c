@@ -51,7 +51,7 @@ static double level_frame(density_grid *grid, const dem_scene *scene, double sta
     for (int turn = 0; turn < MOST_TURNS; turn++) {
         density_grid_deposit(grid, scene, angle);
         density_grid_find_surface(grid);
-        *half_length = half_length_of(&grid->surface, scene->drum.radius);
+        *half_length = half_length_of(&grid->surface, scene->container.radius);
         const line_fit fit = fit_between(&grid->surface, -*half_length, *half_length);
         if (isnan(fit.slope) || fit.points < 4) return NAN;
         angle += atan(fit.slope);
@@ -94,7 +94,7 @@ static double theil_sen_angle(const dem_scene *scene, const int32_t *contacts, d
 static bool is_ring(const dem_scene *scene)
 {
     enum { SECTORS = 36 };
-    const double outer = scene->drum.inner_radius - mean_diameter(scene);
+    const double outer = scene->container.inner_radius - mean_diameter(scene);
     bool covered[SECTORS] = { false };
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
         const double *x = sphere_place(&scene->spheres, i);

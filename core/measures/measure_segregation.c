@@ -6,7 +6,7 @@
 
 static void size_extremes(const dem_scene *scene, int32_t *smallest, int32_t *largest)
 {
-    const dem_drum_definition *definition = &scene->definition;
+    const dem_scene_definition *definition = &scene->definition;
     *smallest = *largest = 0;
     for (size_t k = 1; k < definition->species_count; k++) {
         const double volume = dem_species_volume(&definition->species[k]);
@@ -30,7 +30,7 @@ double measure_radial_index(const dem_scene *scene)
         sum[species == largest] += hypot(x[0], x[1]);
         n[species == largest] += 1;
     }
-    return n[0] > 0 && n[1] > 0 ? (sum[1] / n[1] - sum[0] / n[0]) / scene->drum.radius : NAN;
+    return n[0] > 0 && n[1] > 0 ? (sum[1] / n[1] - sum[0] / n[0]) / scene->container.radius : NAN;
 }
 
 /* Number share of `species` in each of `cells` cells; variance between them, weighted by their particles, against
@@ -68,7 +68,7 @@ static mixing mixing_over_cells(const int64_t *cell_of, const spheres *s, int32_
 /* Cells three mean diameters wide across the section; whole slices, as many as along the axis, for the axial index. */
 static void assign_cells(const dem_scene *scene, bool slices, int64_t *cell_of)
 {
-    const double side = 3 * mean_diameter(scene), radius = scene->drum.radius, length = scene->drum.length;
+    const double side = 3 * mean_diameter(scene), radius = scene->container.radius, length = scene->container.length;
     const int across = slices ? 1 : (int)fmax(1, ceil(2 * radius / side)), along = slices ? (int)fmax(1, floor(length / side)) : 1;
     for (size_t p = 0; p < particles_count(&scene->spheres); p++) {
         const double *x = particle_place(&scene->spheres, p);

@@ -26,7 +26,7 @@ static int32_t *count_contacts(const dem_scene *scene)
     int32_t *of_spheres = array_create(s->mobile_count, sizeof *of_spheres);
     int32_t *of_particles = array_create(particles_count(s), sizeof *of_particles);
     if (of_spheres && of_particles) {
-        neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, NULL, of_spheres);
+        neighbor_list_count_contacts(&scene->neighbors, s, &scene->container, NULL, of_spheres);
         for (size_t i = 0; i < s->mobile_count; i++) of_particles[particle_of_sphere(s, i)] += of_spheres[i];
     } else {
         free(of_particles);
@@ -54,7 +54,7 @@ static double volume_of_sphere(const dem_scene *scene, size_t i)
 /* Who belongs to the mound: (particles). */
 static dem_status find_members(const dem_scene *scene, const int32_t *contacts, bool *is_member)
 {
-    if (scene->drum.kind == DEM_CYLINDER) return grounded_find(scene, mean_grain(scene), is_member);
+    if (scene->container.kind == DEM_CYLINDER) return grounded_find(scene, mean_grain(scene), is_member);
     for (size_t p = 0; p < particles_count(&scene->spheres); p++)
         is_member[p] = contacts[p] >= LEAST_CONTACTS && !particle_is_lost(scene, p);
     return DEM_OK;
@@ -174,7 +174,7 @@ dem_status dem_heap_frame_measure(dem_scene *scene, double *frame)
     frame[HEAP_COORDINATION] = standing.coordination_number;
     frame[HEAP_LOST] = (double)standing.lost;
     frame[HEAP_ENERGY] = standing.kinetic_energy;
-    frame[HEAP_TUBE] = scene->drum.wall[0].low;
+    frame[HEAP_TUBE] = scene->container.wall[0].low;
     frame[HEAP_AT_REST] = standing.at_rest;
     return DEM_OK;
 }

@@ -7,9 +7,9 @@
 
 enum { CACHE_LINE = 64, MOST_MEMBERS = MOST_PARTS };
 
-typedef struct turn {
+typedef struct round_counter {
     _Alignas(CACHE_LINE) atomic_uint_fast64_t count;
-} turn;
+} round_counter;
 
 typedef struct work_given {
     _Alignas(CACHE_LINE) atomic_uint_fast64_t count; /* how many pieces there have been */
@@ -22,16 +22,16 @@ typedef struct work_given {
 typedef struct team {
     int members, spins;
     work_given given;
-    turn done[MOST_MEMBERS]; /* how many of these each member has done its parts of */
+    round_counter done[MOST_MEMBERS]; /* how many of these each member has done its parts of */
 } team;
 
 /* Of the thread that leads one. */
 static _Thread_local team *led;
 
 /* Others come within a microsecond or two while they have a processor each; else somebody needs this one. */
-static void wait_for(const atomic_uint_fast64_t *turns, uint_fast64_t count, int spins)
+static void wait_for(const atomic_uint_fast64_t *rounds, uint_fast64_t count, int spins)
 {
-    while (atomic_load_explicit(turns, memory_order_acquire) < count) {
+    while (atomic_load_explicit(rounds, memory_order_acquire) < count) {
         if (spins-- > 0) __builtin_ia32_pause();
         else sched_yield();
     }

@@ -362,20 +362,20 @@ WIDE_INLINE wide wide_inverse_fourth_root(wide x)
 
 /* By how much reach^2 exceeds the square of a displacement, which is x, all in units of the ring. A displacement has up to
  * 32 bits, a float 24: the squares of its high bits are exact, and so is what they leave of reach^2 where the two are near. */
-WIDE_INLINE wide wide_ring_gap2(const wide_ring turned[3], wide reach, wide x[3])
+WIDE_INLINE wide wide_ring_gap2(const wide_ring apart[3], wide reach, wide x[3])
 {
     wide gap2 = reach * reach;
 #ifdef DEM_DOUBLE
     for (int c = 0; c < 3; c++) {
-        x[c] = turned[c];
+        x[c] = apart[c];
         gap2 = wide_fused(-x[c], x[c], gap2);
     }
 #else
     wide high[3], low[3];
     const int32_t of_low = (1 << RING_LOW_BITS) - 1;
     for (int c = 0; c < 3; c++) {
-        high[c] = __builtin_convertvector(turned[c] & ~of_low, wide);
-        low[c] = __builtin_convertvector(turned[c] & of_low, wide);
+        high[c] = __builtin_convertvector(apart[c] & ~of_low, wide);
+        low[c] = __builtin_convertvector(apart[c] & of_low, wide);
         x[c] = high[c] + low[c];
         gap2 = wide_fused(-high[c], high[c], gap2);
     }

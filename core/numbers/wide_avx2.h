@@ -52,7 +52,7 @@ WIDE_INLINE __m256 row_halves(const float *rows, int32_t i, int32_t j, int half)
 }
 
 /* LANES rows, of which vectors k have those of k and k + 4: front halves, then back halves. */
-WIDE_INLINE wide_rows rows_turned(const __m256 from[8])
+WIDE_INLINE wide_rows rows_transposed(const __m256 from[8])
 {
     __m256 front[4], back[4];
     transpose_halves(from, front);
@@ -69,7 +69,7 @@ WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
 {
     __m256 halves[8];
     for (int k = 0; k < 8; k++) halves[k] = row_halves(rows, i[k % 4], i[k % 4 + 4], k / 4);
-    return rows_turned(halves);
+    return rows_transposed(halves);
 }
 
 WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, const int32_t *b)
@@ -84,7 +84,7 @@ WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, con
         halves[k] = _mm256_blend_ps(sum, _mm256_castsi256_ps(turned), PLACES);
         halves[4 + k] = _mm256_fmadd_ps(row_halves(rows, a[k], a[k + 4], 1), sign, row_halves(rows, b[k], b[k + 4], 1));
     }
-    return rows_turned(halves);
+    return rows_transposed(halves);
 }
 
 /* LANES rows of 8: f, q, 0, 0. */

@@ -47,7 +47,7 @@ WIDE_INLINE __m512 two_rows(const void *rows, int32_t i, int32_t j)
 }
 
 /* LANES rows, of which vectors k and 4 + k have rows k and 4 + k, 8 + k and 12 + k, turned. */
-WIDE_INLINE wide_rows rows_turned(const __m512 from[8])
+WIDE_INLINE wide_rows rows_transposed(const __m512 from[8])
 {
     enum { EVEN_QUARTERS = 0x88, ODD_QUARTERS = 0xdd };
     __m512 low[4], high[4], front[4], back[4];
@@ -72,7 +72,7 @@ WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
         const int32_t *at = i + k / 4 * 8 + k % 4;
         two[k] = two_rows(rows, at[0], at[4]);
     }
-    return rows_turned(two);
+    return rows_transposed(two);
 }
 
 WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, const int32_t *b)
@@ -86,7 +86,7 @@ WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, con
         const __m512i sum = _mm512_castps_si512(_mm512_maskz_fmadd_ps(OTHERS, of_a, sign, of_b));
         two[k] = _mm512_castsi512_ps(_mm512_mask_sub_epi32(sum, PLACES, _mm512_castps_si512(of_b), _mm512_castps_si512(of_a)));
     }
-    return rows_turned(two);
+    return rows_transposed(two);
 }
 
 WIDE_INLINE wide wide_rint(wide x) { return (wide)_mm512_roundscale_ps((__m512)x, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC); }

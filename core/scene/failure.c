@@ -39,7 +39,7 @@ typedef struct bound {
 WIDE_INLINE bound bound_broken(const dem_scene *scene, size_t i)
 {
     const double *x = sphere_place(&scene->spheres, i);
-    const container *c = &scene->drum;
+    const container *c = &scene->container;
     const double rho2 = x[0] * x[0] + x[1] * x[1];
     /* Written so that a NaN fails each of them. */
     if (c->kind != DEM_TUBE_ON_PLATE && !(rho2 < c->radius * c->radius))
@@ -51,8 +51,7 @@ WIDE_INLINE bound bound_broken(const dem_scene *scene, size_t i)
         if (w->kind == WALL_PLANE && !(wall_seen_from(w, x).distance > 0))
             return (bound){ wall_seen_from(w, x).distance, 0,
                             c->kind == DEM_DRUM ? "distance before the end wall" : "height above the floor" };
-        if (w->kind == WALL_DISC && lost_came_through_plate(scene, i))
-            return (bound){ x[2], w->low, "height above the plate" };
+        if (w->kind == WALL_DISC && lost_came_through_plate(scene, i)) return (bound){ x[2], w->low, "height above the plate" };
         if (w->kind == WALL_BAR && rho2 > c->bars_from * c->bars_from && !(wall_seen_from(w, x).distance > 0))
             return (bound){ wall_seen_from(w, x).distance, 0, "distance before a lifter" };
     }
@@ -92,7 +91,8 @@ dem_status failure_check_places(dem_scene *scene)
         const double *x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
         bound broken = bound_broken(scene, i);
-        if (!broken.quantity) broken = (bound){ sqrt(x[0] * x[0] + x[1] * x[1]), scene->drum.radius, "distance from the axis" };
+        if (!broken.quantity)
+            broken = (bound){ sqrt(x[0] * x[0] + x[1] * x[1]), scene->container.radius, "distance from the axis" };
         const bool escaped =
             isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]) && isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]);
         const dem_failure what = {
@@ -103,7 +103,7 @@ dem_status failure_check_places(dem_scene *scene)
             .limit = broken.limit,
             .quantity = broken.quantity,
             .unit = "m",
-            .likely_cause = too_soft_for_speeds[scene->drum.kind],
+            .likely_cause = too_soft_for_speeds[scene->container.kind],
         };
         return fail(scene, &what);
     }
@@ -120,7 +120,7 @@ static dem_status overlap_failure(dem_scene *scene, int32_t i, int32_t j, double
         .limit = limit,
         .quantity = "overlap",
         .unit = "m",
-        .likely_cause = too_soft_for_loads[scene->drum.kind],
+        .likely_cause = too_soft_for_loads[scene->container.kind],
     };
     return fail(scene, &what);
 }
@@ -138,12 +138,12 @@ dem_status failure_check_overlaps(dem_scene *scene, double since)
     const dem_status places = failure_check_places(scene);
     if (places != DEM_OK) return places;
     const spheres *s = &scene->spheres;
-    const container *drum = &scene->drum;
+    const container *vessel = &scene->container;
     const contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
     for (size_t k = 0; k < pairs->count; k++) {
         const int32_t i = pairs->first[k], j = pairs->second[k];
         const vector4 a = place_before(s, i, since), b = place_before(s, j, since);
-        const double distance2 = squared_distance((const double *)&a, (const double *)&b, drum->period, drum->inverse_period);
+        const double distance2 = squared_distance((const double *)&a, (const double *)&b, vessel->period, vessel->inverse_period);
         const double overlap = sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j) - sqrt(distance2);
         const double limit = FAILURE_OVERLAP * fmin(s->full_radius[i], s->full_radius[j]);
         if (!(overlap <= limit)) return overlap_failure(scene, i, (size_t)j < s->mobile_count ? j : -1, overlap, limit);
@@ -152,7 +152,7 @@ dem_status failure_check_overlaps(dem_scene *scene, double since)
         const int32_t i = walls->first[k];
         const vector4 a = place_before(s, i, since);
         const double overlap =
-            sphere_radius(s, (size_t)i) - wall_seen_from(&drum->wall[walls->second[k]], (const double *)&a).distance;
+            sphere_radius(s, (size_t)i) - wall_seen_from(&vessel->wall[walls->second[k]], (const double *)&a).distance;
         const double limit = FAILURE_OVERLAP * s->full_radius[i];
         if (!(overlap <= limit)) return overlap_failure(scene, i, -1, overlap, limit);
     }

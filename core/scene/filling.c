@@ -47,7 +47,7 @@ static void set_extremes(spheres *s)
     for (size_t p = 0; p < particles_count(s); p++) s->largest_reach = fmax(s->largest_reach, particle_reach(s, p));
 }
 
-static void assign_species(spheres *s, const dem_drum_definition *definition)
+static void assign_species(spheres *s, const dem_scene_definition *definition)
 {
     size_t single = 0, body = 0, joined = s->single_count;
     for (size_t k = 0; k < definition->species_count; k++) {
@@ -65,7 +65,7 @@ static void assign_species(spheres *s, const dem_drum_definition *definition)
     set_extremes(s);
 }
 
-void filling_assign_in_order(spheres *s, const dem_drum_definition *definition, const int32_t *order)
+void filling_assign_in_order(spheres *s, const dem_scene_definition *definition, const int32_t *order)
 {
     size_t single = 0, body = 0, joined = s->single_count;
     for (size_t p = 0; p < definition->particle_count; p++) {
@@ -189,7 +189,7 @@ static bool place_one(placing *p, spheres *s, size_t i, const region *r, double 
     return false;
 }
 
-static void clusters_place_spheres(spheres *s, const container *drum)
+static void clusters_place_spheres(spheres *s, const container *vessel)
 {
     for (size_t b = 0; b < s->clusters.count; b++) {
         const cluster_body *body = &s->clusters.body[b];
@@ -199,7 +199,7 @@ static void clusters_place_spheres(spheres *s, const container *drum)
         for (size_t k = 0; k < shape->sphere_count; k++) {
             const vector4 r = cluster_offset(shape, k, a, s->scale);
             double x[3] = { body->x[0] + r[0], body->x[1] + r[1], body->x[2] + r[2] };
-            x[2] = wrap_axial(x[2], drum->period, drum->inverse_period);
+            x[2] = wrap_axial(x[2], vessel->period, vessel->inverse_period);
             sphere_set_place(s, (size_t)body->first_sphere + k, x);
         }
     }
@@ -209,12 +209,12 @@ static void clusters_place_spheres(spheres *s, const container *drum)
 enum { MOST_CELLS_A_SIDE = 512, MOST_CELLS_A_PARTICLE = 32 };
 
 /* Cells no smaller than `size`. Returns how many. */
-static size_t placing_cells(placing *p, const container *drum, double size)
+static size_t placing_cells(placing *p, const container *vessel, double size)
 {
     size_t cells = 1;
     for (int a = 0; a < 3; a++) {
-        const double side = drum->high[a] - drum->low[a];
-        p->low[a] = drum->low[a];
+        const double side = vessel->high[a] - vessel->low[a];
+        p->low[a] = vessel->low[a];
         p->cells[a] = (int)fmax(1.0, fmin(MOST_CELLS_A_SIDE, floor(side / size)));
         p->size[a] = side / p->cells[a];
         cells *= (size_t)p->cells[a];
@@ -222,12 +222,12 @@ static size_t placing_cells(placing *p, const container *drum, double size)
     return cells;
 }
 
-static dem_status placing_init(placing *p, const spheres *s, const container *drum)
+static dem_status placing_init(placing *p, const spheres *s, const container *vessel)
 {
-    *p = (placing){ .period = drum->period, .inverse_period = drum->inverse_period };
+    *p = (placing){ .period = vessel->period, .inverse_period = vessel->inverse_period };
     size_t cells;
     double size = 2 * s->largest_reach;
-    while ((cells = placing_cells(p, drum, size)) > MOST_CELLS_A_PARTICLE * particles_count(s)) size *= 1.26;
+    while ((cells = placing_cells(p, vessel, size)) > MOST_CELLS_A_PARTICLE * particles_count(s)) size *= 1.26;
     p->head = array_create(cells, sizeof *p->head);
     p->next = array_create(particles_count(s), sizeof *p->next);
     if (!p->head || !p->next) return DEM_NO_MEMORY;
@@ -236,7 +236,7 @@ static dem_status placing_init(placing *p, const spheres *s, const container *dr
 }
 
 /* The large first, since they find room the hardest. */
-static bool place_all(placing *p, spheres *s, const dem_drum_definition *definition, const region *region_of_centres, double scale,
+static bool place_all(placing *p, spheres *s, const dem_scene_definition *definition, const region *region_of_centres, double scale,
                       random_streams *random)
 {
     bool placed[DEM_MAXIMUM_SPECIES] = { false };
@@ -254,7 +254,7 @@ static bool place_all(placing *p, spheres *s, const dem_drum_definition *definit
 }
 
 /* Of the particles themselves, and of the spheres that hold them. */
-static double total_volume(const spheres *s, const dem_drum_definition *definition, double *held)
+static double total_volume(const spheres *s, const dem_scene_definition *definition, double *held)
 {
     double volume = 0.0;
     *held = 0.0;
@@ -267,7 +267,7 @@ static double total_volume(const spheres *s, const dem_drum_definition *definiti
 }
 
 /* Times and drags of growing and settling, from the time a particle takes to fall through a container of that size. */
-static void set_schedule(filling *f, const spheres *s, double size, const dem_drum_definition *definition)
+static void set_schedule(filling *f, const spheres *s, double size, const dem_scene_definition *definition)
 {
     const double fall = sqrt(size / definition->gravity);
     const double speed = 0.1 * size / fall;
@@ -283,7 +283,7 @@ static void set_schedule(filling *f, const spheres *s, double size, const dem_dr
 }
 
 /* m3 that particles can share: without the lining's layer and the bars. */
-static double free_volume(const container *c, const dem_drum_definition *definition)
+static double free_volume(const container *c, const dem_scene_definition *definition)
 {
     const double room = c->inner_radius,
                  bars = (double)definition->lifters.count * definition->lifters.height * definition->lifters.width;
@@ -300,21 +300,22 @@ static region region_of_share(const container *c, const spheres *s, double share
     return r;
 }
 
-dem_status filling_place(filling *f, spheres *s, const container *drum, const dem_drum_definition *definition)
+dem_status filling_place(filling *f, spheres *s, const container *vessel, const dem_scene_definition *definition)
 {
     assign_species(s, definition);
     double held;
-    const double volume = total_volume(s, definition, &held), fraction = volume / free_volume(drum, definition);
-    if (drum->bars_from < 3 * s->largest_reach || drum->inner_radius < 3 * s->largest_reach || fraction > dem_most_placed(definition))
+    const double volume = total_volume(s, definition, &held), fraction = volume / free_volume(vessel, definition);
+    if (vessel->bars_from < 3 * s->largest_reach || vessel->inner_radius < 3 * s->largest_reach
+        || fraction > dem_most_placed(definition))
         return DEM_DOES_NOT_FIT;
     const double share = fmin(1.0, fraction / REGION_FRACTION), region_fraction = fmax(REGION_FRACTION, fraction);
-    const region region_of_centres = region_of_share(drum, s, share);
+    const region region_of_centres = region_of_share(vessel, s, share);
 
     random_streams random;
     random_seed(&random.place, definition->seed);
     random_seed(&random.turn, ~definition->seed);
     placing p;
-    dem_status status = placing_init(&p, s, drum);
+    dem_status status = placing_init(&p, s, vessel);
     /* A region few diameters across holds fewer: try again with smaller spheres that grow further. */
     double target = PLACING_FRACTION;
     for (bool done = false; status == DEM_OK && !done; target *= 0.7) {
@@ -330,13 +331,13 @@ dem_status filling_place(filling *f, spheres *s, const container *drum, const de
     free(p.next);
     if (status != DEM_OK) return status;
     spheres_set_scale(s, f->start_scale);
-    clusters_place_spheres(s, drum);
-    set_schedule(f, s, drum->kind == DEM_DRUM ? definition->diameter : fmax(definition->diameter, region_of_centres.height),
+    clusters_place_spheres(s, vessel);
+    set_schedule(f, s, vessel->kind == DEM_DRUM ? definition->diameter : fmax(definition->diameter, region_of_centres.height),
                  definition);
     return DEM_OK;
 }
 
-void filling_leave_out(filling *f, spheres *s, const dem_drum_definition *definition)
+void filling_leave_out(filling *f, spheres *s, const dem_scene_definition *definition)
 {
     assign_species(s, definition);
     *f = (filling){ .start_scale = 1, .growing_steps = 1 };

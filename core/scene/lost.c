@@ -10,7 +10,7 @@ static double tray_pitch(const spheres *s) { return 2.5 * s->largest_reach; }
 /* Place of particle p on the tray: a lattice as wide as the plate, layer below layer. */
 static void tray_place(const dem_scene *scene, size_t p, double x[3])
 {
-    const container *c = &scene->drum;
+    const container *c = &scene->container;
     const double pitch = tray_pitch(&scene->spheres), width = c->high[0] - c->low[0];
     const size_t side = (size_t)fmax(1.0, floor(width / pitch));
     x[0] = c->low[0] + ((double)(p % side) + 0.5) * pitch;
@@ -44,7 +44,7 @@ static void lay_down(dem_scene *scene, size_t p)
 
 dem_status lost_init(dem_scene *scene)
 {
-    if (scene->drum.kind != DEM_TUBE_ON_PLATE) return DEM_OK;
+    if (scene->container.kind != DEM_TUBE_ON_PLATE) return DEM_OK;
     const size_t n = particles_count(&scene->spheres);
     scene->lost = array_create(n, sizeof *scene->lost);
     scene->is_lost = array_create(n, sizeof *scene->is_lost);

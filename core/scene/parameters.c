@@ -48,7 +48,7 @@ static bool are_lifters(const dem_lifters *l, double radius)
 }
 
 /* Nothing below is of use before species are known to be good. */
-static bool is_stream(const dem_drum_definition *d)
+static bool is_stream(const dem_scene_definition *d)
 {
     const double rate = d->stream.rate;
     if (rate == 0) return true;
@@ -57,13 +57,13 @@ static bool is_stream(const dem_drum_definition *d)
 }
 
 /* Beside the measures that every container has. */
-static bool is_container(const dem_drum_definition *d)
+static bool is_container(const dem_scene_definition *d)
 {
     const bool is_lined = d->lining.diameter != 0;
     switch (d->container) {
     case DEM_DRUM:
-        return (!d->ends.are_walls || are_frictions(d->ends.friction, d->ends.rolling_friction)) && are_lifters(&d->lifters, 0.5 * d->diameter)
-               && !(is_lined && d->lifters.count > 0);
+        return (!d->ends.are_walls || are_frictions(d->ends.friction, d->ends.rolling_friction))
+               && are_lifters(&d->lifters, 0.5 * d->diameter) && !(is_lined && d->lifters.count > 0);
     case DEM_CYLINDER: return are_frictions(d->ends.friction, d->ends.rolling_friction) && !is_lined && d->lifters.count == 0;
     case DEM_TUBE_ON_PLATE:
         return d->plate.diameter > d->diameter && isfinite(d->plate.diameter) && is_not_negative(d->plate.rim_height)
@@ -73,7 +73,7 @@ static bool is_container(const dem_drum_definition *d)
     return false;
 }
 
-static dem_status parameters_check(const dem_drum_definition *d)
+static dem_status parameters_check(const dem_scene_definition *d)
 {
     const dem_contact_parameters *c = &d->contact;
     bool good = is_positive(d->diameter) && is_positive(d->length) && isfinite(d->rotation_rate) && is_positive(d->gravity)
@@ -100,7 +100,7 @@ static dem_status parameters_check(const dem_drum_definition *d)
     return good && is_container(d) && is_stream(d) ? DEM_OK : DEM_BAD_PARAMETER;
 }
 
-dem_status parameters_complete(dem_drum_definition *d)
+dem_status parameters_complete(dem_scene_definition *d)
 {
     for (size_t k = 0; k < d->species_count && k < DEM_MAXIMUM_SPECIES; k++) {
         if (!is_cluster(&d->species[k].cluster)) return DEM_BAD_PARAMETER;

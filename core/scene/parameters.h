@@ -5,6 +5,6 @@
 #include "dem_types.h"
 
 /* Completes the clusters. Errors: DEM_BAD_PARAMETER. */
-dem_status parameters_complete(dem_drum_definition *definition);
+dem_status parameters_complete(dem_scene_definition *definition);
 
 #endif

@@ -6,7 +6,7 @@
 #include "parameters.h"
 #include "stream.h"
 
-dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **out)
+dem_status dem_scene_create(const dem_scene_definition *definition, dem_scene **out)
 {
     *out = NULL;
     arrays_prepare();
@@ -20,15 +20,15 @@ dem_status dem_scene_create(const dem_drum_definition *definition, dem_scene **o
         return status;
     }
     definition = &scene->definition;
-    scene->rotation_start = -1;
+    scene->run_start = -1;
     scene->surface = (surface_meter){ NAN, NAN };
-    container_init(&scene->drum, definition);
+    container_init(&scene->container, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
-    if (status == DEM_OK) spheres_set_period(&scene->spheres, definition, scene->drum.period);
+    if (status == DEM_OK) spheres_set_period(&scene->spheres, definition, scene->container.period);
     if (status == DEM_OK && definition->is_placed) filling_leave_out(&scene->filling, &scene->spheres, definition);
     else if (status == DEM_OK && has_stream(definition)) status = stream_init(scene);
-    else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->drum, definition);
-    if (status == DEM_OK) container_place_lining(&scene->drum, definition, &scene->spheres);
+    else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->container, definition);
+    if (status == DEM_OK) container_place_lining(&scene->container, definition, &scene->spheres);
     if (status == DEM_OK) status = lost_init(scene);
     if (status == DEM_OK) status = neighbor_list_init(&scene->neighbors, &scene->spheres, definition);
     if (status != DEM_OK) {
@@ -52,7 +52,7 @@ void dem_scene_free(dem_scene *scene)
 
 void scene_enter_phase(dem_scene *scene, dem_phase phase)
 {
-    const dem_drum_definition *definition = &scene->definition;
+    const dem_scene_definition *definition = &scene->definition;
     scene->phase = phase;
     scene->contact = definition->contact;
     /* Grown without friction, spheres slip into place instead of locking each other. */
@@ -60,9 +60,9 @@ void scene_enter_phase(dem_scene *scene, dem_phase phase)
         scene->contact.friction = scene->contact.wall_friction = 0.0;
         scene->contact.rolling_friction = scene->contact.wall_rolling_friction = 0.0;
     }
-    container_set_friction(&scene->drum, definition, phase != DEM_PHASE_GROWING);
-    container_move(&scene->drum, definition, phase == DEM_PHASE_ROTATING, scene_time_in_motion(scene));
-    container_turn_lining(&scene->drum, &scene->spheres);
+    container_set_friction(&scene->container, definition, phase != DEM_PHASE_GROWING);
+    container_move(&scene->container, definition, phase == DEM_PHASE_RUNNING, scene_time_in_motion(scene));
+    container_rotate_lining(&scene->container, &scene->spheres);
     neighbor_list_invalidate(&scene->neighbors);
 }
 
@@ -70,26 +70,26 @@ const dem_failure *dem_scene_failure(const dem_scene *scene) { return &scene->fa
 void dem_scene_set_profile(dem_scene *scene, dem_step_profile *profile) { scene->profile = profile; }
 dem_phase dem_scene_phase(const dem_scene *scene) { return scene->phase; }
 int64_t dem_scene_step_count(const dem_scene *scene) { return scene->step_count; }
-int64_t dem_scene_rotation_start(const dem_scene *scene) { return scene->rotation_start; }
+int64_t dem_scene_run_start(const dem_scene *scene) { return scene->run_start; }
 size_t dem_scene_particle_count(const dem_scene *scene) { return particles_count(&scene->spheres); }
 size_t dem_scene_sphere_count(const dem_scene *scene) { return scene->spheres.mobile_count; }
 size_t dem_scene_lost_count(const dem_scene *scene) { return scene->lost_count; }
 bool dem_scene_has_clusters(const dem_scene *scene) { return scene->spheres.clusters.count > 0; }
-double dem_scene_turned(const dem_scene *scene) { return scene->drum.angle; }
+double dem_scene_turned(const dem_scene *scene) { return scene->container.angle; }
 double dem_scene_kinetic_energy(const dem_scene *scene) { return spheres_kinetic_energy(&scene->spheres); }
 
 double dem_scene_time(const dem_scene *scene)
 {
     const double dt = scene->definition.time_step;
-    return scene->rotation_start >= 0 ? (double)(scene->step_count - scene->rotation_start) * dt : -(double)scene->step_count * dt;
+    return scene->run_start >= 0 ? (double)(scene->step_count - scene->run_start) * dt : -(double)scene->step_count * dt;
 }
 
 double dem_scene_maximum_overlap(const dem_scene *scene) { return scene->maximum_overlap / scene->spheres.smallest_diameter; }
 
 const char *dem_scene_phase_name(const dem_scene *scene)
 {
-    if (scene->phase != DEM_PHASE_ROTATING || scene->drum.kind == DEM_DRUM) return dem_phase_name(scene->phase);
-    return scene->drum.kind == DEM_CYLINDER ? "filling" : "lifting";
+    if (scene->phase != DEM_PHASE_RUNNING || scene->container.kind == DEM_DRUM) return dem_phase_name(scene->phase);
+    return scene->container.kind == DEM_CYLINDER ? "filling" : "lifting";
 }
 
 static void sphere_orientation(const spheres *s, size_t i, double wxyz[4])
@@ -114,5 +114,5 @@ void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arra
         if (arrays->cluster) arrays->cluster[id] = particle_id(s, particle_of_sphere(s, i));
         if (arrays->orientation) sphere_orientation(s, i, arrays->orientation + 4 * id);
     }
-    if (arrays->contacts) neighbor_list_count_contacts(&scene->neighbors, s, &scene->drum, s->id, arrays->contacts);
+    if (arrays->contacts) neighbor_list_count_contacts(&scene->neighbors, s, &scene->container, s->id, arrays->contacts);
 }

@@ -23,21 +23,21 @@ typedef struct surface_meter {
 } surface_meter;
 
 struct dem_scene {
-    dem_drum_definition definition;
+    dem_scene_definition definition;
     dem_contact_parameters contact; /* those of the present phase: friction waits until spheres have grown */
-    container drum;
+    container container;
     leap_frog leap; /* of the present step */
     spheres spheres;
     neighbor_list neighbors;
     filling filling;
     stream stream;
     dem_phase phase;
-    int64_t step_count, phase_start, rotation_start; /* rotation_start: -1 before */
-    int64_t steps_before;                            /* of rotation at the same rate, before the scene's own clock began */
-    double maximum_overlap;                          /* m since rotation began */
-    size_t lost_count;                               /* particles that fell off the plate */
-    int32_t *lost;                                   /* (lost_count of particles) who; NULL where none can be lost */
-    bool *is_lost;                                   /* (particles) */
+    int64_t step_count, phase_start, run_start; /* run_start: -1 before */
+    int64_t steps_before;                       /* of rotation at the same rate, before the scene's own clock began */
+    double maximum_overlap;                     /* m since rotation began */
+    size_t lost_count;                          /* particles that fell off the plate */
+    int32_t *lost;                              /* (lost_count of particles) who; NULL where none can be lost */
+    bool *is_lost;                              /* (particles) */
     torque_meter torque;
     surface_meter surface;
     energy_audit audit;
@@ -50,7 +50,7 @@ static inline bool particle_is_lost(const dem_scene *scene, size_t p) { return s
 /* s that the container has moved, those before the scene's own clock began included. */
 static inline double scene_time_in_motion(const dem_scene *scene)
 {
-    return (double)(scene->step_count - scene->rotation_start + scene->steps_before) * scene->definition.time_step;
+    return (double)(scene->step_count - scene->run_start + scene->steps_before) * scene->definition.time_step;
 }
 
 /* Everything that follows from the phase alone: friction, the drum's rate. */

@@ -122,13 +122,13 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     integers[STATE_PHASE] = (int64_t)scene->phase;
     integers[STATE_STEP] = scene->step_count;
     integers[STATE_PHASE_START] = scene->phase_start;
-    integers[STATE_ROTATION_START] = scene->rotation_start;
+    integers[STATE_RUN_START] = scene->run_start;
     integers[STATE_STEPS_BEFORE] = scene->steps_before;
     integers[STATE_LAW] = (int64_t)scene->definition.contact.law;
     numbers[STATE_OVERLAP] = scene->maximum_overlap;
     numbers[STATE_TORQUE_SUM] = scene->torque.sum;
     numbers[STATE_TORQUE_COUNT] = scene->torque.count;
-    numbers[STATE_ANGLE_BEFORE] = scene->drum.angle_before;
+    numbers[STATE_ANGLE_BEFORE] = scene->container.angle_before;
     numbers[STATE_RATE] = scene->definition.rotation_rate;
     numbers[STATE_TIME_STEP] = scene->definition.time_step;
     for (size_t p = 0; p < particles_count(s); p++) id[p] = particle_id(s, p);
@@ -183,7 +183,7 @@ static void restore_spheres(dem_scene *scene, const dem_state *state)
 {
     spheres *s = &scene->spheres;
     const int64_t grown = scene->phase == DEM_PHASE_GROWING ? scene->step_count - scene->phase_start : scene->filling.growing_steps;
-    spheres_set_period(s, &scene->definition, scene->drum.period);
+    spheres_set_period(s, &scene->definition, scene->container.period);
     spheres_set_scale(s, filling_scale(&scene->filling, grown));
     const double *x = state_find(state, "position", DEM_FLOAT64, 3)->data, *v = state_find(state, "velocity", DEM_FLOAT64, 3)->data,
                  *w = state_find(state, "angular_velocity", DEM_FLOAT64, 3)->data;
@@ -253,12 +253,12 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     if (!integers || !numbers || (bodies > 0 && !of_clusters) || (of_clusters && of_clusters->rows != bodies))
         return DEM_STATE_MISMATCH;
     const int64_t *counter = integers->data;
-    if (counter[STATE_PHASE] < DEM_PHASE_GROWING || counter[STATE_PHASE] > DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
+    if (counter[STATE_PHASE] < DEM_PHASE_GROWING || counter[STATE_PHASE] > DEM_PHASE_RUNNING) return DEM_STATE_MISMATCH;
 
     const size_t all = spheres_count(&scene->spheres);
     contact_list *pairs = &scene->neighbors.pairs, *walls = &scene->neighbors.walls;
     if (!contacts_fit(state, "pair", "pair_history", n, all)
-        || !contacts_fit(state, "wall_contact", "wall_history", n, (size_t)scene->drum.wall_count))
+        || !contacts_fit(state, "wall_contact", "wall_history", n, (size_t)scene->container.wall_count))
         return DEM_STATE_MISMATCH;
     if (contact_list_reserve(pairs, state_find(state, "pair", DEM_INT32, 2)->rows) != DEM_OK
         || contact_list_reserve(walls, state_find(state, "wall_contact", DEM_INT32, 2)->rows) != DEM_OK) {
@@ -272,12 +272,12 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
     restore_contacts(state, walls, "wall_contact", "wall_history");
     scene->step_count = counter[STATE_STEP];
     scene->phase_start = counter[STATE_PHASE_START];
-    scene->rotation_start = counter[STATE_ROTATION_START];
+    scene->run_start = counter[STATE_RUN_START];
     scene->steps_before = counter[STATE_STEPS_BEFORE];
     const double *number = numbers->data;
     scene->maximum_overlap = number[STATE_OVERLAP];
     scene->torque = (torque_meter){ .sum = number[STATE_TORQUE_SUM], .count = number[STATE_TORQUE_COUNT] };
-    scene->drum.angle_before = number[STATE_ANGLE_BEFORE];
+    scene->container.angle_before = number[STATE_ANGLE_BEFORE];
     scene->phase = (dem_phase)counter[STATE_PHASE];
     scene_enter_phase(scene, scene->phase);
     if (bodies > 0) restore_clusters(&scene->spheres.clusters, of_clusters->data);

@@ -9,7 +9,7 @@ enum {
     STATE_PHASE,
     STATE_STEP,
     STATE_PHASE_START,
-    STATE_ROTATION_START,
+    STATE_RUN_START,
     STATE_STEPS_BEFORE,
     STATE_LAW, /* for whoever goes on with another: what contacts remember is of this one */
     STATE_INTEGERS

@@ -7,9 +7,9 @@ enum { STEPS_BETWEEN_SORTS = 8192, LEAST = 1500, MOST_CELLS_A_SIDE = 512 };
 
 int64_t sorting_steps_left(const dem_scene *scene)
 {
-    if (scene->drum.kind != DEM_DRUM || scene->spheres.mobile_count < LEAST) return INT64_MAX;
-    const int64_t steps = scene->phase == DEM_PHASE_ROTATING ? scene->step_count - scene->rotation_start + scene->steps_before
-                                                             : scene->step_count - scene->phase_start;
+    if (scene->container.kind != DEM_DRUM || scene->spheres.mobile_count < LEAST) return INT64_MAX;
+    const int64_t steps = scene->phase == DEM_PHASE_RUNNING ? scene->step_count - scene->run_start + scene->steps_before
+                                                            : scene->step_count - scene->phase_start;
     return STEPS_BETWEEN_SORTS - steps % STEPS_BETWEEN_SORTS;
 }
 
@@ -27,15 +27,15 @@ typedef struct sorting_cells {
 
 static sorting_cells cells_of(const dem_scene *scene)
 {
-    const container *drum = &scene->drum;
-    sorting_cells cells = { .low = drum->low, .axis = { 0, 1, 2 } };
+    const container *vessel = &scene->container;
+    sorting_cells cells = { .low = vessel->low, .axis = { 0, 1, 2 } };
     for (int a = 0; a < 3; a++) {
-        const double side = drum->high[a] - drum->low[a];
+        const double side = vessel->high[a] - vessel->low[a];
         cells.count[a] = (int)fmax(1, fmin(MOST_CELLS_A_SIDE, floor(side / scene->spheres.largest_diameter)));
         cells.inverse_size[a] = cells.count[a] / side;
     }
     if (cells.count[2] > cells.count[0]) memcpy(cells.axis, (const int[]){ 2, 0, 1 }, sizeof cells.axis);
-    cells.is_folded = scene->spheres.in_waves && drum->period > 0 && cells.axis[0] == 2;
+    cells.is_folded = scene->spheres.in_waves && vessel->period > 0 && cells.axis[0] == 2;
     return cells;
 }
 
@@ -133,7 +133,7 @@ static void contacts_move(contact_list *to, const contact_list *from, const int3
                 const int32_t other = second;
                 second = first;
                 first = other;
-                contact_history_turn(&history);
+                contact_history_reverse(&history);
             }
             if (pass == 0) {
                 start[first + 1]++;

@@ -7,7 +7,7 @@
 /* The clock and what is counted by it begin here. */
 static void begin_anew(dem_scene *scene, double elapsed)
 {
-    scene->step_count = scene->phase_start = scene->rotation_start = 0;
+    scene->step_count = scene->phase_start = scene->run_start = 0;
     scene->maximum_overlap = 0.0;
     scene->torque = (torque_meter){ .sum = 0 };
     scene->surface = (surface_meter){ NAN, NAN };
@@ -18,12 +18,12 @@ static void begin_anew(dem_scene *scene, double elapsed)
  * from before, which gives the same bits; else from here. */
 static void keep_angle(dem_scene *scene, const int64_t *counter, const double *number)
 {
-    const int64_t steps = counter[STATE_STEP] - counter[STATE_ROTATION_START] + counter[STATE_STEPS_BEFORE];
+    const int64_t steps = counter[STATE_STEP] - counter[STATE_RUN_START] + counter[STATE_STEPS_BEFORE];
     const bool alike =
         number[STATE_RATE] == scene->definition.rotation_rate && number[STATE_TIME_STEP] == scene->definition.time_step;
     scene->steps_before = alike ? steps : 0;
-    scene->drum.angle_before = number[STATE_ANGLE_BEFORE];
-    if (!alike) scene->drum.angle_before += number[STATE_RATE] * ((double)steps * number[STATE_TIME_STEP]);
+    scene->container.angle_before = number[STATE_ANGLE_BEFORE];
+    if (!alike) scene->container.angle_before += number[STATE_RATE] * ((double)steps * number[STATE_TIME_STEP]);
 }
 
 static void forget_contacts(contact_list *list)
@@ -38,16 +38,16 @@ dem_status dem_scene_continue(dem_scene *scene, const dem_state *state)
     if (!counters || !numbers) return DEM_STATE_MISMATCH;
     const int64_t *counter = counters->data;
     const double *number = numbers->data;
-    if (counter[STATE_PHASE] != DEM_PHASE_ROTATING) return DEM_STATE_MISMATCH;
+    if (counter[STATE_PHASE] != DEM_PHASE_RUNNING) return DEM_STATE_MISMATCH;
     const dem_status status = dem_scene_restore(scene, state);
     if (status != DEM_OK) return status;
-    begin_anew(scene, (double)(counter[STATE_STEP] - counter[STATE_ROTATION_START]) * number[STATE_TIME_STEP]);
+    begin_anew(scene, (double)(counter[STATE_STEP] - counter[STATE_RUN_START]) * number[STATE_TIME_STEP]);
     keep_angle(scene, counter, number);
     if (counter[STATE_LAW] != (int64_t)scene->definition.contact.law) {
         forget_contacts(&scene->neighbors.pairs);
         forget_contacts(&scene->neighbors.walls);
     }
-    scene_enter_phase(scene, DEM_PHASE_ROTATING);
+    scene_enter_phase(scene, DEM_PHASE_RUNNING);
     return scene_update_neighbors(scene);
 }
 
@@ -65,7 +65,7 @@ static void place_sphere(const placing_arrays *to, size_t i, const dem_placed_pa
     memcpy(to->spin + 3 * i, particle->angular_velocity, sizeof particle->angular_velocity);
 }
 
-static void place_cluster(const placing_arrays *to, const spheres *s, const container *drum, size_t b,
+static void place_cluster(const placing_arrays *to, const spheres *s, const container *vessel, size_t b,
                           const dem_placed_particle *particle)
 {
     const cluster_body *body = &s->clusters.body[b];
@@ -88,7 +88,7 @@ static void place_cluster(const placing_arrays *to, const spheres *s, const cont
             sphere.position[c] += r[c];
             sphere.velocity[c] += w[d] * r[e] - w[e] * r[d];
         }
-        sphere.position[2] = wrap_axial(sphere.position[2], drum->period, drum->inverse_period);
+        sphere.position[2] = wrap_axial(sphere.position[2], vessel->period, vessel->inverse_period);
         place_sphere(to, (size_t)body->first_sphere + k, &sphere);
     }
 }
@@ -109,9 +109,9 @@ static bool place_all(const dem_scene *scene, const placing_arrays *to, const de
         if (species < 0 || (size_t)species >= scene->definition.species_count || next[species] >= end[species]) return false;
         const size_t p = next[species]++;
         dem_placed_particle wrapped = particles[k];
-        wrapped.position[2] = wrap_axial(wrapped.position[2], scene->drum.period, scene->drum.inverse_period);
+        wrapped.position[2] = wrap_axial(wrapped.position[2], scene->container.period, scene->container.inverse_period);
         if (p < s->single_count) place_sphere(to, p, &wrapped);
-        else place_cluster(to, s, &scene->drum, p - s->single_count, &wrapped);
+        else place_cluster(to, s, &scene->container, p - s->single_count, &wrapped);
     }
     return true;
 }
@@ -130,8 +130,8 @@ dem_status dem_scene_place(dem_scene *scene, const dem_placed_particle *particle
     const placing_arrays to = { numbers_of(&state, "position", 3), numbers_of(&state, "velocity", 3),
                                 numbers_of(&state, "angular_velocity", 3), numbers_of(&state, "cluster", CLUSTER_NUMBERS) };
     int64_t *counter = state_find(&state, "counters", DEM_INT64, STATE_INTEGERS)->data;
-    counter[STATE_PHASE] = DEM_PHASE_ROTATING;
-    counter[STATE_STEP] = counter[STATE_PHASE_START] = counter[STATE_ROTATION_START] = counter[STATE_STEPS_BEFORE] = 0;
+    counter[STATE_PHASE] = DEM_PHASE_RUNNING;
+    counter[STATE_STEP] = counter[STATE_PHASE_START] = counter[STATE_RUN_START] = counter[STATE_STEPS_BEFORE] = 0;
     numbers_of(&state, "numbers", STATE_NUMBERS)[STATE_ANGLE_BEFORE] = turned;
     status = place_all(scene, &to, particles, count) ? dem_scene_restore(scene, &state) : DEM_STATE_MISMATCH;
     dem_state_clear(&state);

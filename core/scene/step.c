@@ -23,7 +23,7 @@
 dem_status scene_update_neighbors(dem_scene *scene)
 {
     bool looked;
-    const dem_status status = neighbor_list_update(&scene->neighbors, &scene->spheres, &scene->drum, &scene->contact,
+    const dem_status status = neighbor_list_update(&scene->neighbors, &scene->spheres, &scene->container, &scene->contact,
                                                    scene->definition.time_step, scene->definition.threads, &looked);
     if (status != DEM_OK) return failure_of_memory(scene);
     return looked ? failure_check_places(scene) : DEM_OK;
@@ -39,16 +39,16 @@ static dem_status step_neighbors(dem_scene *scene)
 
 static bool torque_is_due(const dem_scene *scene)
 {
-    return scene->phase == DEM_PHASE_ROTATING && (scene->step_count - scene->rotation_start) % STEPS_BETWEEN_TORQUES == 0;
+    return scene->phase == DEM_PHASE_RUNNING && (scene->step_count - scene->run_start) % STEPS_BETWEEN_TORQUES == 0;
 }
 
 /* While the places are those of the forces: with a lining once all loads are there, else from the walls alone. */
 static void look_at_torque(dem_scene *scene, bool has_loads)
 {
     const bool is_due = torque_is_due(scene), is_lined = scene->spheres.lining_count > 0;
-    if (is_lined != has_loads || (!is_due && !(scene->audit.is_on && scene->phase == DEM_PHASE_ROTATING))) return;
+    if (is_lined != has_loads || (!is_due && !(scene->audit.is_on && scene->phase == DEM_PHASE_RUNNING))) return;
     const double torque = is_lined ? energy_torque_of_loads(&scene->spheres) : wall_torque(&scene->neighbors);
-    if (scene->audit.is_on) scene->audit.wall_work += scene->definition.time_step * scene->drum.rotation_rate * torque;
+    if (scene->audit.is_on) scene->audit.wall_work += scene->definition.time_step * scene->container.rotation_rate * torque;
     if (!is_due) return;
     scene->torque.sum += torque;
     scene->torque.count += 1;
@@ -68,11 +68,11 @@ static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4
     neighbor_list *list = &scene->neighbors;
     spheres *s = &scene->spheres;
     const bool walls_first = !leap || torque_is_due(scene);
-    double largest = walls_first ? contact_forces_with_walls(list, s, &scene->drum, &scene->contact, dt) : 0.0;
+    double largest = walls_first ? contact_forces_with_walls(list, s, &scene->container, &scene->contact, dt) : 0.0;
     step_profile_lap(scene->profile, DEM_PART_WALLS);
     if (walls_first) look_at_torque(scene, false);
     const double between =
-        contact_forces_between_spheres(list, s, walls_first ? NULL : &scene->drum, &scene->contact, dt, leap, strayed);
+        contact_forces_between_spheres(list, s, walls_first ? NULL : &scene->container, &scene->contact, dt, leap, strayed);
     step_profile_lap(scene->profile, DEM_PART_PAIRS);
     return look_at_overlaps(scene, fmax(largest, between), leap ? dt : 0.0);
 }
@@ -85,12 +85,12 @@ static void audit_half_step(dem_scene *scene, const row8 *load)
 
 static body_forces forces_of_phase(const dem_scene *scene)
 {
-    const container *const drum = &scene->drum;
+    const container *const vessel = &scene->container;
     body_forces body = { .gravity = scene->definition.gravity,
                          .scale = 1,
-                         .up = drum->up,
-                         .period = drum->period,
-                         .inverse_period = drum->inverse_period };
+                         .up = vessel->up,
+                         .period = vessel->period,
+                         .inverse_period = vessel->inverse_period };
     switch (scene->phase) {
     case DEM_PHASE_GROWING:
         body.gravity = 0.0;
@@ -98,24 +98,24 @@ static body_forces forces_of_phase(const dem_scene *scene)
         body.scale = filling_scale(&scene->filling, scene->step_count + 1 - scene->phase_start);
         break;
     case DEM_PHASE_SETTLING: body.drag = scene->filling.settling_drag; break;
-    case DEM_PHASE_ROTATING: break;
+    case DEM_PHASE_RUNNING: break;
     }
     return body;
 }
 
 static void move_container(dem_scene *scene)
 {
-    if (scene->phase != DEM_PHASE_ROTATING) return;
-    const bool another_velocity = container_move(&scene->drum, &scene->definition, true, scene_time_in_motion(scene));
+    if (scene->phase != DEM_PHASE_RUNNING) return;
+    const bool another_velocity = container_move(&scene->container, &scene->definition, true, scene_time_in_motion(scene));
     if (another_velocity) neighbor_list_invalidate(&scene->neighbors);
-    container_turn_lining(&scene->drum, &scene->spheres);
+    container_rotate_lining(&scene->container, &scene->spheres);
 }
 
 static void next_phase(dem_scene *scene, dem_phase phase)
 {
     scene->phase_start = scene->step_count;
-    if (phase == DEM_PHASE_ROTATING) {
-        scene->rotation_start = scene->step_count;
+    if (phase == DEM_PHASE_RUNNING) {
+        scene->run_start = scene->step_count;
         scene->maximum_overlap = 0.0;
     }
     scene_enter_phase(scene, phase);
@@ -127,7 +127,7 @@ static dem_status continue_settling(dem_scene *scene)
     const int64_t steps = scene->step_count - scene->phase_start;
     if (steps < f->settling_steps_least || steps % STEPS_BETWEEN_RESTS) return DEM_OK;
     const double energy = spheres_kinetic_energy(&scene->spheres);
-    if (energy < f->rest_energy) next_phase(scene, DEM_PHASE_ROTATING);
+    if (energy < f->rest_energy) next_phase(scene, DEM_PHASE_RUNNING);
     else if (steps > f->settling_steps_most) return failure_of_settling(scene, energy);
     return DEM_OK;
 }
@@ -142,7 +142,7 @@ static dem_status continue_phase(dem_scene *scene)
         if (steps >= f->growing_steps) next_phase(scene, DEM_PHASE_SETTLING);
         return DEM_OK;
     case DEM_PHASE_SETTLING: return continue_settling(scene);
-    case DEM_PHASE_ROTATING: break;
+    case DEM_PHASE_RUNNING: break;
     }
     return DEM_OK;
 }
@@ -196,14 +196,14 @@ __attribute__((noinline)) static dem_status several_steps(dem_scene *scene, int 
     const double dt = scene->definition.time_step;
     const bool walls_first = torque_is_due(scene);
     const double of_walls =
-        walls_first ? contact_forces_with_walls(&scene->neighbors, &scene->spheres, &scene->drum, &scene->contact, dt) : 0.0;
+        walls_first ? contact_forces_with_walls(&scene->neighbors, &scene->spheres, &scene->container, &scene->contact, dt) : 0.0;
     look_at_torque(scene, false);
     wave w;
     wave_begin(&w, scene, steps, walls_first);
     wave_run(&w);
     dem_status status = DEM_OK;
     for (int k = 0; k < steps && status == DEM_OK; k++) {
-        if (k == w.whole) neighbor_list_doubt(&scene->neighbors, steps - w.whole);
+        if (k == w.whole) neighbor_list_expire(&scene->neighbors, steps - w.whole);
         if (k >= w.whole) {
             status = scene_update_neighbors(scene);
             if (status != DEM_OK) break;
@@ -226,7 +226,7 @@ static dem_status advance_scene(void *context)
 {
     const advance *a = context;
     dem_scene *const scene = a->scene;
-    for (int64_t k = 0; k < a->steps && !(a->to_rotation && scene->phase == DEM_PHASE_ROTATING);) {
+    for (int64_t k = 0; k < a->steps && !(a->to_rotation && scene->phase == DEM_PHASE_RUNNING);) {
         step_profile_begin(scene->profile);
         dem_status status = sorting_look(scene) == DEM_OK ? step_neighbors(scene) : failure_of_memory(scene);
         if (status != DEM_OK) return status;
@@ -247,7 +247,7 @@ dem_status dem_scene_advance(dem_scene *scene, int64_t steps)
     return team_gather(scene->definition.threads, advance_scene, &(advance){ scene, steps, false });
 }
 
-dem_status dem_scene_advance_to_rotation(dem_scene *scene, int64_t steps)
+dem_status dem_scene_advance_to_run(dem_scene *scene, int64_t steps)
 {
     return team_gather(scene->definition.threads, advance_scene, &(advance){ scene, steps, true });
 }

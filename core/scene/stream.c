@@ -6,7 +6,7 @@
 
 enum { TRIES_A_STEP = 50, MOST_AT_INLET = 1024 };
 
-void stream_complete_species(dem_drum_definition *definition)
+void stream_complete_species(dem_scene_definition *definition)
 {
     bool has_clusters = false;
     for (size_t k = 0; k < definition->species_count; k++)
@@ -20,7 +20,7 @@ void stream_complete_species(dem_drum_definition *definition)
 }
 
 /* The species of each particle in turn: shuffled (Fisher & Yates). */
-static int32_t *shuffled_species(const dem_drum_definition *definition)
+static int32_t *shuffled_species(const dem_scene_definition *definition)
 {
     int32_t *order = array_create(definition->particle_count, sizeof *order);
     if (!order) return NULL;
@@ -128,7 +128,7 @@ static void put_cluster(spheres *s, cluster_body *body, const double x[3], vecto
 /* The next particle, if there is room for it now. */
 static bool enter_one(dem_scene *scene)
 {
-    const dem_drum_definition *definition = &scene->definition;
+    const dem_scene_definition *definition = &scene->definition;
     spheres *s = &scene->spheres;
     const size_t p = inside(scene);
     const double reach = scene->stream.has_clusters ? s->clusters.shape[s->clusters.body[p].species].reach : s->full_radius[p];
@@ -168,9 +168,9 @@ dem_status stream_init(dem_scene *scene)
 void stream_begin(dem_scene *scene)
 {
     scene->spheres.single_count = scene->spheres.clusters.count = scene->spheres.mobile_count = 0;
-    scene->rotation_start = 0;
+    scene->run_start = 0;
     enter_one(scene);
-    scene_enter_phase(scene, DEM_PHASE_ROTATING);
+    scene_enter_phase(scene, DEM_PHASE_RUNNING);
 }
 
 dem_status stream_restore(dem_scene *scene, size_t sphere_count)

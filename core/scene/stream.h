@@ -9,10 +9,10 @@
 
 #include "scene.h"
 
-static inline bool has_stream(const dem_drum_definition *definition) { return definition->stream.rate > 0; }
+static inline bool has_stream(const dem_scene_definition *definition) { return definition->stream.rate > 0; }
 
 /* Where spheres and clusters are mixed, the spheres become clusters of one: the order then is one for all. */
-void stream_complete_species(dem_drum_definition *definition);
+void stream_complete_species(dem_scene_definition *definition);
 /* Species in the stream in proportion, in random order. Errors: DEM_NO_MEMORY. */
 dem_status stream_init(dem_scene *scene);
 /* All are outside but the first, and the test begins. */

@@ -3,7 +3,7 @@
 #include "failure.h"
 #include "sorting.h"
 
-enum { TURNS = 200 }; /* of a stage, between those of the others: of a million spheres, each a layer or so */
+enum { VISITS = 200 }; /* of a stage, between those of the others: of a million spheres, each a layer or so */
 
 /* ---- which steps ---- */
 
@@ -12,8 +12,8 @@ static int64_t until_next(int64_t count, int64_t every) { return every - count %
 static bool is_possible(const dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
-    const container *c = &scene->drum;
-    const bool turns = scene->phase == DEM_PHASE_ROTATING;
+    const container *c = &scene->container;
+    const bool turns = scene->phase == DEM_PHASE_RUNNING;
     return s->in_waves && scene->definition.threads == 1 && scene->phase != DEM_PHASE_GROWING && s->single_count == s->mobile_count
            && s->lining_count == 0 && c->kind == DEM_DRUM && c->bar_count == 0
            && c->rotation_rate == (turns ? scene->definition.rotation_rate : 0.0) && !scene->profile && !scene->audit.is_on;
@@ -23,8 +23,8 @@ int wave_length(const dem_scene *scene, int64_t left)
 {
     if (!is_possible(scene)) return 1;
     const neighbor_list *list = &scene->neighbors;
-    const bool turns = scene->phase == DEM_PHASE_ROTATING;
-    const int64_t looks = turns ? until_next(scene->step_count - scene->rotation_start, STEPS_BETWEEN_TORQUES)
+    const bool turns = scene->phase == DEM_PHASE_RUNNING;
+    const int64_t looks = turns ? until_next(scene->step_count - scene->run_start, STEPS_BETWEEN_TORQUES)
                                 : until_next(scene->step_count - scene->phase_start, STEPS_BETWEEN_RESTS);
     const int64_t bounds[] = { left, looks, sorting_steps_left(scene), list->safe_steps - list->steps_since_pick };
     int64_t steps = HORIZON;
@@ -40,20 +40,20 @@ void wave_begin(wave *w, dem_scene *scene, int steps, bool are_walls_done)
     w->spheres = &scene->spheres;
     w->steps = w->whole = steps;
     w->overlap_limit = failure_least_overlap(scene);
-    pair_work_begin(&w->work, w->list, w->spheres, &scene->drum, &scene->contact, scene->definition.time_step, &scene->leap);
+    pair_work_begin(&w->work, w->list, w->spheres, &scene->container, &scene->contact, scene->definition.time_step, &scene->leap);
     for (int k = 0; k < steps; k++) {
         wave_stage *const stage = &w->stage[k];
-        stage->turn = part_turn_of(&w->work, 0, &w->block);
+        stage->cursor = list_cursor_begin(&w->work, 0, &w->block);
         stage->ready = 0;
     }
-    if (are_walls_done) w->stage[0].turn.walls_end = 0;
+    if (are_walls_done) w->stage[0].cursor.walls_end = 0;
 }
 
-double wave_largest_overlap(const wave *w, int k) { return wide_largest_lane(w->stage[k].turn.largest); }
+double wave_largest_overlap(const wave *w, int k) { return wide_largest_lane(w->stage[k].cursor.largest); }
 
 double wave_deviation(const wave *w, int k)
 {
-    const vector4 v = w->stage[k].turn.strayed;
+    const vector4 v = w->stage[k].cursor.strayed;
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
@@ -62,25 +62,25 @@ static void look_ahead(wave *w, int k)
 {
     const neighbor_list *const list = w->list;
     wave_stage *const stage = &w->stage[k];
-    const size_t n = w->spheres->mobile_count, complete = w->stage[k - 1].turn.complete;
+    const size_t n = w->spheres->mobile_count, complete = w->stage[k - 1].cursor.complete;
     while (stage->ready < n && list->outer.farthest[stage->ready / STRETCH] < complete) stage->ready += STRETCH;
     if (complete == n) stage->ready = n + 1;
-    stage->turn.walls_end = list->wall_start[complete];
+    stage->cursor.walls_end = list->wall_start[complete];
 }
 
 static void go_on(wave *w, int k)
 {
     wave_stage *const stage = &w->stage[k];
-    part_turn *const turn = &stage->turn;
+    list_cursor *const cursor = &stage->cursor;
     const size_t n = w->spheres->mobile_count;
     if (k) look_ahead(w, k);
     else stage->ready = n + 1;
-    for (size_t b = 0; b <= turn->end / TURNS && turn->next < turn->end; b++) {
-        const size_t last = turn->next + 1 < turn->end ? (size_t)w->list->pairs.first[(turn->next + 1) * BLOCK] : n;
+    for (size_t b = 0; b <= cursor->end / VISITS && cursor->next < cursor->end; b++) {
+        const size_t last = cursor->next + 1 < cursor->end ? (size_t)w->list->pairs.first[(cursor->next + 1) * BLOCK] : n;
         if (last >= stage->ready) return;
-        part_turn_next_block(turn);
+        list_cursor_next_block(cursor);
     }
-    if (turn->next == turn->end && stage->ready > n) part_turn_complete(turn, n);
+    if (cursor->next == cursor->end && stage->ready > n) list_cursor_complete(cursor, n);
 }
 
 /* Steps that the list holds for, by how far spheres have come; the one with too large an overlap is the last. */
@@ -99,12 +99,12 @@ static int steps_that_hold(const wave *w)
 static void keep_place(const wave *w, wave_stage *stage)
 {
     const contact_list *const pairs = &w->list->pairs, *const walls = &w->list->walls;
-    const part_turn *const turn = &stage->turn;
-    const size_t done = turn->next * BLOCK < pairs->count ? turn->next * BLOCK : pairs->count;
+    const list_cursor *const cursor = &stage->cursor;
+    const size_t done = cursor->next * BLOCK < pairs->count ? cursor->next * BLOCK : pairs->count;
     stage->first = done ? pairs->first[done - 1] : -1;
     stage->second = done ? pairs->second[done - 1] : -1;
-    const size_t begin = w->list->wall_start[turn->complete];
-    stage->wall_count = turn->walls > begin ? turn->walls - begin : 0;
+    const size_t begin = w->list->wall_start[cursor->complete];
+    stage->wall_count = cursor->walls > begin ? cursor->walls - begin : 0;
     memcpy(stage->wall_first, walls->first + begin, stage->wall_count * sizeof *walls->first);
     memcpy(stage->wall_second, walls->second + begin, stage->wall_count * sizeof *walls->second);
     memcpy(stage->wall_row, walls->row + begin, stage->wall_count * sizeof *walls->row);
@@ -113,9 +113,9 @@ static void keep_place(const wave *w, wave_stage *stage)
 void wave_run(wave *w)
 {
     const size_t n = w->spheres->mobile_count;
-    while (w->stage[w->whole - 1].turn.complete < n)
+    while (w->stage[w->whole - 1].cursor.complete < n)
         for (int k = 0; k < w->whole; k++) {
-            if (w->stage[k].turn.complete == n) continue;
+            if (w->stage[k].cursor.complete == n) continue;
             go_on(w, k);
             w->whole = steps_that_hold(w);
         }
@@ -151,21 +151,21 @@ void wave_resume(wave *w, int k)
 {
     wave_stage *const stage = &w->stage[k];
     const neighbor_list *const list = w->list;
-    const size_t n = w->spheres->mobile_count, complete = stage->turn.complete, last_wall = stage->wall_count;
-    part_turn *const turn = &stage->turn;
-    turn->strayed = (vector4){ 0 };
-    turn->end = list->parts.block[1];
+    const size_t n = w->spheres->mobile_count, complete = stage->cursor.complete, last_wall = stage->wall_count;
+    list_cursor *const cursor = &stage->cursor;
+    cursor->strayed = (vector4){ 0 };
+    cursor->end = list->parts.block[1];
     const size_t slot = slot_behind(&list->pairs, stage->first, stage->second);
-    turn->next = slot / BLOCK;
-    turn->walls_end = list->wall_start[n];
-    turn->walls = list->wall_start[complete];
+    cursor->next = slot / BLOCK;
+    cursor->walls_end = list->wall_start[n];
+    cursor->walls = list->wall_start[complete];
     if (last_wall) {
         const size_t end = slot_behind(&list->walls, stage->wall_first[last_wall - 1], stage->wall_second[last_wall - 1]);
-        put_rows_back(w, stage, turn->walls, end);
-        turn->walls = end;
+        put_rows_back(w, stage, cursor->walls, end);
+        cursor->walls = end;
     }
-    if (slot < list->pairs.count && slot % BLOCK) part_turn_rest_of_block(turn, slot % BLOCK);
-    else if (slot % BLOCK) turn->next++;
-    while (turn->next < turn->end) part_turn_next_block(turn);
-    if (turn->complete < n) part_turn_complete(turn, n);
+    if (slot < list->pairs.count && slot % BLOCK) list_cursor_rest_of_block(cursor, slot % BLOCK);
+    else if (slot % BLOCK) cursor->next++;
+    while (cursor->next < cursor->end) list_cursor_next_block(cursor);
+    if (cursor->complete < n) list_cursor_complete(cursor, n);
 }

@@ -17,7 +17,7 @@
 #include "scene.h"
 
 typedef struct wave_stage {
-    part_turn turn;
+    list_cursor cursor;
     size_t ready; /* spheres before it, and all that these might touch, have taken the step before */
     /* where it stopped; of contacts with walls, those that have a row which is in no load yet */
     int32_t first, second; /* of the last pair that was computed; -1: none was */

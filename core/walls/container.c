@@ -24,7 +24,7 @@ static void add_shell(container *c, double radius, double height)
 }
 
 /* Walls of a drum: its own first, then the ends, then the bars. */
-static void drum_walls(container *c, const dem_drum_definition *definition)
+static void drum_walls(container *c, const dem_scene_definition *definition)
 {
     add_wall(c, WALL_CYLINDER, 0)->radius = c->radius;
     if (definition->ends.are_walls) {
@@ -45,7 +45,7 @@ static void drum_walls(container *c, const dem_drum_definition *definition)
 }
 
 /* A tube first, then the plate, then its rim. The tube has no upper edge, which would carry what lies across it up for ever. */
-static void tube_walls(container *c, const dem_drum_definition *definition)
+static void tube_walls(container *c, const dem_scene_definition *definition)
 {
     add_shell(c, c->radius, INFINITY);
     container_wall *plate = add_wall(c, WALL_DISC, 0);
@@ -60,7 +60,7 @@ static void set_box(container *c, double radius, double low, double high)
     c->high[2] = high;
 }
 
-void container_init(container *c, const dem_drum_definition *definition)
+void container_init(container *c, const dem_scene_definition *definition)
 {
     *c = (container){ .kind = definition->container, .radius = 0.5 * definition->diameter, .length = definition->length };
     c->inner_radius = c->bars_from = c->radius;
@@ -88,7 +88,7 @@ void container_init(container *c, const dem_drum_definition *definition)
     container_set_friction(c, definition, true);
 }
 
-static double wall_friction(const container *c, const dem_drum_definition *definition, int k)
+static double wall_friction(const container *c, const dem_scene_definition *definition, int k)
 {
     switch (c->wall[k].kind) {
     case WALL_PLANE: return definition->ends.friction;
@@ -101,14 +101,14 @@ static double wall_friction(const container *c, const dem_drum_definition *defin
 }
 
 /* Ends, and a plate with its rim, have their own; lifters and all others have the wall's. */
-static double wall_rolling_friction(const container *c, const dem_drum_definition *definition, int k)
+static double wall_rolling_friction(const container *c, const dem_scene_definition *definition, int k)
 {
     const bool is_plate = c->wall[k].kind == WALL_DISC || (c->wall[k].kind == WALL_SHELL && k > 0);
     if (c->wall[k].kind == WALL_PLANE) return definition->ends.rolling_friction;
     return is_plate ? definition->plate.rolling_friction : definition->contact.wall_rolling_friction;
 }
 
-void container_set_friction(container *c, const dem_drum_definition *definition, bool has_friction)
+void container_set_friction(container *c, const dem_scene_definition *definition, bool has_friction)
 {
     for (int k = 0; k < c->wall_count; k++) {
         c->wall[k].friction = has_friction ? wall_friction(c, definition, k) : 0.0;
@@ -142,7 +142,7 @@ static bool raise_tube(container *c, const dem_lift *lift, bool has_begun, doubl
     return changes;
 }
 
-bool container_move(container *c, const dem_drum_definition *definition, bool has_begun, double time)
+bool container_move(container *c, const dem_scene_definition *definition, bool has_begun, double time)
 {
     switch (c->kind) {
     case DEM_DRUM: return turn_drum(c, has_begun ? definition->rotation_rate : 0.0, has_begun ? time : 0.0);
@@ -160,27 +160,27 @@ double container_overlap(const container *c, const double x[3], double radius)
 }
 
 /* Centres lie half a diameter inside the wall, so the lining touches it from within. */
-static double lining_radius(const dem_drum_definition *definition)
+static double lining_radius(const dem_scene_definition *definition)
 {
     return 0.5 * (definition->diameter - definition->lining.diameter);
 }
 
-static size_t lining_around(const dem_drum_definition *definition)
+static size_t lining_around(const dem_scene_definition *definition)
 {
     return (size_t)floor(2 * DEM_PI * lining_radius(definition) / definition->lining.pitch + 1e-9);
 }
 
-static size_t lining_along(const dem_drum_definition *definition)
+static size_t lining_along(const dem_scene_definition *definition)
 {
     return (size_t)floor(definition->length / definition->lining.pitch + 1e-9);
 }
 
-size_t container_lining_count(const dem_drum_definition *definition)
+size_t container_lining_count(const dem_scene_definition *definition)
 {
     return definition->lining.diameter > 0 ? lining_around(definition) * lining_along(definition) : 0;
 }
 
-void container_place_lining(const container *drum, const dem_drum_definition *definition, spheres *s)
+void container_place_lining(const container *vessel, const dem_scene_definition *definition, spheres *s)
 {
     if (s->lining_count == 0) return;
     const size_t around = lining_around(definition), along = lining_along(definition);
@@ -189,20 +189,20 @@ void container_place_lining(const container *drum, const dem_drum_definition *de
         vector4 *place = &s->lining_place[k];
         (*place)[0] = lining_radius(definition) * cos(angle);
         (*place)[1] = lining_radius(definition) * sin(angle);
-        (*place)[2] = drum->length * (((double)(k % along) + 0.5) / (double)along - 0.5);
+        (*place)[2] = vessel->length * (((double)(k % along) + 0.5) / (double)along - 0.5);
         s->rest[s->mobile_count + k].radius = (real)(0.5 * definition->lining.diameter);
         s->full_radius[s->mobile_count + k] = s->rest[s->mobile_count + k].radius;
     }
-    container_turn_lining(drum, s);
+    container_rotate_lining(vessel, s);
 }
 
-void container_turn_lining(const container *drum, spheres *s)
+void container_rotate_lining(const container *vessel, spheres *s)
 {
-    const double c = cos(drum->angle), sine = sin(drum->angle);
+    const double c = cos(vessel->angle), sine = sin(vessel->angle);
     for (size_t k = 0; k < s->lining_count; k++) {
         const vector4 place = s->lining_place[k];
         const vector4 x = { c * place[0] - sine * place[1], sine * place[0] + c * place[1], place[2] };
-        sphere_set(s, s->mobile_count + k, x, (vector4){ -drum->rotation_rate * x[1], drum->rotation_rate * x[0] },
-                   (vector4){ 0, 0, drum->rotation_rate });
+        sphere_set(s, s->mobile_count + k, x, (vector4){ -vessel->rotation_rate * x[1], vessel->rotation_rate * x[0] },
+                   (vector4){ 0, 0, vessel->rotation_rate });
     }
 }

@@ -24,20 +24,20 @@ typedef struct container {
     container_wall wall[MOST_WALLS];
 } container;
 
-void container_init(container *container, const dem_drum_definition *definition);
+void container_init(container *container, const dem_scene_definition *definition);
 /* The walls as they are, at rest (has_begun false) or `time` after the container began to move: places, velocities.
  * True when a wall's velocity is another than before, which lists of contacts in reach do not foresee. */
-bool container_move(container *container, const dem_drum_definition *definition, bool has_begun, double time);
+bool container_move(container *container, const dem_scene_definition *definition, bool has_begun, double time);
 /* Friction of every wall; none while particles grow. */
-void container_set_friction(container *container, const dem_drum_definition *definition, bool has_friction);
+void container_set_friction(container *container, const dem_scene_definition *definition, bool has_friction);
 /* Nearest of all walls, as a sphere of that radius at x would overlap it, m; negative: apart. */
 double container_overlap(const container *container, const double x[3], double radius);
 
 /* Lining spheres that fit with the pitch asked for: whole numbers around and along. */
-size_t container_lining_count(const dem_drum_definition *definition);
-void container_place_lining(const container *drum, const dem_drum_definition *definition, spheres *spheres);
+size_t container_lining_count(const dem_scene_definition *definition);
+void container_place_lining(const container *vessel, const dem_scene_definition *definition, spheres *spheres);
 /* Turn the lining to the drum's angle, with the velocity of its place there. */
-void container_turn_lining(const container *drum, spheres *spheres);
+void container_rotate_lining(const container *vessel, spheres *spheres);
 
 /* z brought into [-length/2, length/2): a function of z alone, so that wrapping gives the same bits whenever done. */
 static inline double wrap_axial(double z, double length, double inverse_length) { return z - length * rint(z * inverse_length); }

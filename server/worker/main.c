@@ -52,7 +52,7 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "\n"                                                                                                                           \
     "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"        \
     "of another SPEC in DIR are never overwritten.\n"                                                                              \
-    "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk,\n"               \
+    "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk,\n"          \
     "6 memory, descriptors or the like that the machine did not give.\n"
 
 static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE "repose COMMAND --help | --help | --version\n" HELP_EXIT;
@@ -99,16 +99,11 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' },
-        { "threads", required_argument, NULL, 't' },
-        { "attempt", required_argument, NULL, 'a' },
-        { "checkpoint-seconds", required_argument, NULL, 'c' },
-        { "json", no_argument, NULL, 'j' },
-        { "profile", no_argument, NULL, 'p' },
-        { "data", required_argument, NULL, 'd' },
-        { "isa", required_argument, NULL, 'i' },
-        { "help", no_argument, NULL, 'h' },
-        { NULL, 0, NULL, 0 },
+        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },          { "profile", no_argument, NULL, 'p' },
+        { "data", required_argument, NULL, 'd' },    { "isa", required_argument, NULL, 'i' },
+        { "help", no_argument, NULL, 'h' },          { NULL, 0, NULL, 0 },
     };
     *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
     bool good = true;
@@ -221,9 +216,8 @@ static json_t *check_document(const json_t *document, const calibration *machine
     job_spec spec;
     if (!job_spec_parse_with(&start_files, NULL, document, random_seed(), &spec, problems)) return NULL;
     const job_estimate estimate = job_spec_estimate(&spec, machine);
-    json_t *report = json_pack("{s:o, s:o, s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate",
-                               job_estimate_to_json(&estimate), "understood", job_spec_understood(&spec, machine), "warnings",
-                               job_spec_warnings(&spec, machine));
+    json_t *report = json_pack("{s:o, s:o, s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate),
+                               "understood", job_spec_understood(&spec, machine), "warnings", job_spec_warnings(&spec, machine));
     job_spec_clear(&spec);
     return report;
 }
@@ -316,7 +310,7 @@ static enum worker_exit run(int argc, char **argv, char *word)
         job_spec_clear(&spec);
         return exit;
     }
-    if (line.threads) spec.threads = spec.drum.threads = line.threads;
+    if (line.threads) spec.threads = spec.scene.threads = line.threads;
     line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;
     worker_log_only_warnings(line.run.on_terminal && isatty(STDERR_FILENO));
     hdf_init();

@@ -27,14 +27,14 @@ static inline void give_up(const char *what, const char *why)
     exit(1);
 }
 
-static inline dem_drum_definition bed_definition(const char *inputs)
+static inline dem_scene_definition bed_definition(const char *inputs)
 {
     problem_list problems;
     job_spec spec;
     problem_list_init(&problems);
     json_t *request = json_pack("{s:o}", "inputs", json_loads(inputs, 0, NULL));
     if (!job_spec_parse("drum", request, 1, &spec, &problems)) give_up(inputs, json_dumps(problems.errors, 0));
-    const dem_drum_definition drum = spec.drum;
+    const dem_scene_definition drum = spec.scene;
     job_spec_clear(&spec);
     problem_list_clear(&problems);
     json_decref(request);
@@ -47,7 +47,7 @@ static inline void bed_advance(dem_scene *scene, int64_t steps)
     if (status != DEM_OK) give_up("a scene failed", dem_status_text(status));
 }
 
-static inline dem_scene *bed_create(const dem_drum_definition *drum)
+static inline dem_scene *bed_create(const dem_scene_definition *drum)
 {
     dem_scene *scene;
     const dem_status status = dem_scene_create(drum, &scene);
@@ -146,16 +146,16 @@ static inline void bed_number(dem_state_array *array, size_t count)
 static inline void bed_sort(dem_state *state)
 {
     int64_t *counter = bed_array(state, "counters")->data;
-    counter[STATE_ROTATION_START] = counter[STATE_STEP];
+    counter[STATE_RUN_START] = counter[STATE_STEP];
     counter[STATE_STEPS_BEFORE] = 0;
 }
 
 /* A scene of `copies` times this bed of spheres, one behind the other, with so many threads. */
-static inline dem_scene *bed_repeat(const dem_scene *scene, const dem_drum_definition *drum, size_t copies, int threads)
+static inline dem_scene *bed_repeat(const dem_scene *scene, const dem_scene_definition *drum, size_t copies, int threads)
 {
     dem_state state;
     if (dem_scene_save(scene, &state) != DEM_OK) give_up("saving", "no memory");
-    dem_drum_definition large = *drum;
+    dem_scene_definition large = *drum;
     large.length *= (double)copies;
     large.particle_count *= copies;
     large.threads = threads;

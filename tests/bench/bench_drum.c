@@ -26,9 +26,9 @@ static int ascending(const void *a, const void *b)
 
 static double argument(int argc, char **argv, int k, double otherwise) { return argc > k ? atof(argv[k]) : otherwise; }
 
-static dem_drum_definition paper_drum(int argc, char **argv)
+static dem_scene_definition paper_drum(int argc, char **argv)
 {
-    dem_drum_definition d = { .diameter = 0.126, .gravity = 9.81, .fill_fraction = 0.5, .species_count = 1, .seed = 1 };
+    dem_scene_definition d = { .diameter = 0.126, .gravity = 9.81, .fill_fraction = 0.5, .species_count = 1, .seed = 1 };
     d.particle_count = (size_t)argument(argc, argv, 1, 2500);
     d.species[0] = (dem_species){ .diameter = argument(argc, argv, 2, 3.78) * 1e-3, .density = 2500, .share = 1.0 };
     d.threads = (int)argument(argc, argv, 3, 1);
@@ -55,7 +55,7 @@ static int report_failure(const dem_scene *scene, dem_status status)
 
 int main(int argc, char **argv)
 {
-    const dem_drum_definition d = paper_drum(argc, argv);
+    const dem_scene_definition d = paper_drum(argc, argv);
     const int windows = (int)argument(argc, argv, 6, 7);
     dem_scene *scene;
     dem_status status = dem_scene_create(&d, &scene);
@@ -64,7 +64,7 @@ int main(int argc, char **argv)
         return 1;
     }
     const double start = now();
-    while (dem_scene_phase(scene) != DEM_PHASE_ROTATING)
+    while (dem_scene_phase(scene) != DEM_PHASE_RUNNING)
         if ((status = dem_scene_advance(scene, 100)) != DEM_OK) return report_failure(scene, status);
     const double settled = now();
     const int64_t settling_steps = dem_scene_step_count(scene);

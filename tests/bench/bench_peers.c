@@ -38,9 +38,9 @@ int main(int argc, char **argv)
     const double diameter = copies ? 0.003 : 0.00378, length = copies ? 0.011338 : 0.017388;
     char inputs[600], path[4096];
     snprintf(inputs, sizeof inputs, DRUM, length, diameter);
-    const dem_drum_definition drum = bed_definition(inputs);
+    const dem_scene_definition drum = bed_definition(inputs);
     dem_scene *small = bed_create(&drum);
-    while (dem_scene_phase(small) != DEM_PHASE_ROTATING) bed_advance(small, 100);
+    while (dem_scene_phase(small) != DEM_PHASE_RUNNING) bed_advance(small, 100);
     bed_advance(small, (int64_t)(FLOWING_SECONDS / drum.time_step));
     dem_scene *scene = copies > 1 ? bed_repeat(small, &drum, copies, 1) : small;
     for (int types = 1; types <= 2; types++) {

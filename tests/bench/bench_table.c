@@ -19,7 +19,7 @@ enum { ROUNDS = 7, BEDS = 9 };
 typedef struct bed {
     const char *name, *length, *rate, *particle, *law, *friction;
     double rotation; /* s before the flow is steady */
-    dem_drum_definition drum;
+    dem_scene_definition drum;
     dem_scene *scene;
     double settling_wall, rotation_wall; /* s it took */
 } bed;
@@ -89,7 +89,7 @@ static void make_bed(bed *b)
     b->drum = bed_definition(inputs);
     b->scene = bed_create(&b->drum);
     const double begin = now();
-    while (dem_scene_phase(b->scene) != DEM_PHASE_ROTATING) bed_advance(b->scene, 100);
+    while (dem_scene_phase(b->scene) != DEM_PHASE_RUNNING) bed_advance(b->scene, 100);
     b->settling_wall = now() - begin;
     bed_advance(b->scene, (int64_t)(b->rotation / b->drum.time_step));
     b->rotation_wall = now() - begin - b->settling_wall;
@@ -153,7 +153,7 @@ static void print_case(bench_case *c)
            "\"sphere_steps_per_second\": {\"minimum\": %.5g, \"median\": %.5g, \"maximum\": %.5g}, "
            "\"bed\": {\"settling_seconds\": %.3g, \"settling_steps\": %lld}, \"resident_bytes\": %.0f}\n",
            c->name, count, c->threads, b->drum.time_step, touching_a_sphere(c->scene), c->speed[0], c->speed[ROUNDS / 2],
-           c->speed[ROUNDS - 1], b->settling_wall, (long long)dem_scene_rotation_start(b->scene), resident_most());
+           c->speed[ROUNDS - 1], b->settling_wall, (long long)dem_scene_run_start(b->scene), resident_most());
 }
 
 static bool is_wanted(const bench_case *c, int argc, char **argv)

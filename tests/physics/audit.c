@@ -29,7 +29,7 @@ static double motion_and_height(const dem_scene *scene, double mass)
 int main(int argc, char **argv)
 {
     read_named_numbers(argc, argv, asked);
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.rotation_rate = of(RATE);
     d.contact.friction = of(MU);
     d.seed = (uint64_t)of(SEED);
@@ -42,7 +42,7 @@ int main(int argc, char **argv)
     follow_rules(&d, 0.03);
     dem_scene *scene = drum_scene(&d);
     const double mass = dem_species_mass(&d.species[0]);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     const double before = motion_and_height(scene, mass);
     scene->audit.is_on = true;
     run(scene, (int64_t)(of(REVOLUTIONS) * 2 * M_PI / fabs(d.rotation_rate) / d.time_step));

@@ -16,10 +16,10 @@ static double of(int which) { return asked[which].value; }
 /* J: sum of K1 alpha^2/2 over pairs, nearest image, and the wall. */
 static double spring_energy(const dem_scene *scene, const double *x, const double *radius, size_t n)
 {
-    const double length = scene->drum.length, k_1 = scene->definition.contact.stiffness;
+    const double length = scene->container.length, k_1 = scene->definition.contact.stiffness;
     double sum = 0;
     for (size_t i = 0; i < n; i++) {
-        const double alpha = hypot(x[3 * i], x[3 * i + 1]) + radius[i] - scene->drum.radius;
+        const double alpha = hypot(x[3 * i], x[3 * i + 1]) + radius[i] - scene->container.radius;
         if (alpha > 0) sum += 0.5 * k_1 * alpha * alpha;
         for (size_t j = i + 1; j < n; j++) {
             const double dx = x[3 * i] - x[3 * j], dy = x[3 * i + 1] - x[3 * j + 1],
@@ -47,7 +47,7 @@ static void stir(dem_scene *scene, size_t n)
     dem_state state;
     assert_int_equal(dem_scene_save(scene, &state), DEM_OK);
     int64_t *counters = state_array(&state, "counters")->data;
-    counters[0] = DEM_PHASE_ROTATING;
+    counters[0] = DEM_PHASE_RUNNING;
     counters[3] = counters[1]; /* rotation begins now, in a drum that does not turn */
     double *v = state_array(&state, "velocity")->data;
     dice own = { (uint64_t)of(SEED) };
@@ -64,7 +64,7 @@ static int ascending(const void *a, const void *b)
 }
 
 /* From the places a to the places b. */
-static void print_moves(const double *a, const double *b, size_t n, const dem_drum_definition *d)
+static void print_moves(const double *a, const double *b, size_t n, const dem_scene_definition *d)
 {
     double *move = calloc(n, sizeof *move), centre[3] = { 0 };
     for (size_t i = 0; i < n; i++) {
@@ -86,7 +86,7 @@ int main(int argc, char **argv)
 {
     read_named_numbers(argc, argv, asked);
     const bool bed = of(WEIGHT) > 0;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.rotation_rate = 0;
     d.seed = (uint64_t)of(SEED);
     d.particle_count = (size_t)of(PARTICLES);
@@ -102,7 +102,7 @@ int main(int argc, char **argv)
     double *x = calloc(7 * n, sizeof *x), *y = x + 3 * n, *radius = x + 6 * n;
     const int64_t steps = (int64_t)of(STEPS);
     if (bed) {
-        run_to_phase(scene, DEM_PHASE_ROTATING);
+        run_to_phase(scene, DEM_PHASE_RUNNING);
         run(scene, (int64_t)(0.2 / d.time_step)); /* contacts ring until then */
         dem_scene_particles(scene, &(dem_particle_arrays){ .position = x });
         run(scene, steps);

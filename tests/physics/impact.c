@@ -48,9 +48,9 @@ static named_number asked[] = {
 
 static double of(int which) { return asked[which].value; }
 
-static dem_drum_definition definition(void)
+static dem_scene_definition definition(void)
 {
-    dem_drum_definition d = hand_definition(of(PAIR) > 0 ? 2 : 1);
+    dem_scene_definition d = hand_definition(of(PAIR) > 0 ? 2 : 1);
     d.species[0].diameter = 2 * of(RADIUS);
     d.species[0].density = of(DENSITY);
     d.diameter = 40 * of(RADIUS);
@@ -71,8 +71,8 @@ static dem_drum_definition definition(void)
 static void place(dem_scene *scene)
 {
     const double lead = of(LEAD) * of(V_N) * of(STEP), r = scene->spheres.full_radius[0];
-    const double x = of(PAIR) > 0 ? 5 * r : scene->drum.radius - r - lead;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    const double x = of(PAIR) > 0 ? 5 * r : scene->container.radius - r - lead;
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ x, 0, 0, x + 2 * r + lead, 0, 0 },
                                        .velocity = (double[]){ of(V_N), 0, of(V_T), 0, 0, 0 },
                                        .spin = (double[]){ 0, of(SPIN), 0, 0, 0, 0 } });
@@ -81,7 +81,7 @@ static void place(dem_scene *scene)
 int main(int argc, char **argv)
 {
     read_named_numbers(argc, argv, asked);
-    const dem_drum_definition d = definition();
+    const dem_scene_definition d = definition();
     dem_scene *scene = weightless_scene(&d);
     place(scene);
     const double mass = species_mass(&d.species[0]);

@@ -31,12 +31,12 @@ static double overlap_under(double force)
     return of(LAW) == DEM_HERTZ_MINDLIN ? pow(3 * force / (4 * e_star * sqrt(of(RADIUS))), 2.0 / 3) : force / of(STIFFNESS);
 }
 
-static dem_scene *sphere_on_the_wall(const dem_drum_definition *d)
+static dem_scene *sphere_on_the_wall(const dem_scene_definition *d)
 {
     dem_scene *scene = hand_scene(d);
     const double alpha = overlap_under(species_mass(&d->species[0]) * d->gravity * cos(of(ANGLE)));
-    const double rho = scene->drum.radius - scene->spheres.full_radius[0] + alpha;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    const double rho = scene->container.radius - scene->spheres.full_radius[0] + alpha;
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ rho * sin(of(ANGLE)), -rho * cos(of(ANGLE)), 0 },
                                        .velocity = (double[]){ 0, 0, of(V_Z) },
                                        .spin = (double[]){ of(SPIN), 0, 0 } });
@@ -53,7 +53,7 @@ static void print_list(const char *name, const double *list, size_t n, const cha
 int main(int argc, char **argv)
 {
     read_named_numbers(argc, argv, asked);
-    dem_drum_definition d = hand_definition(1);
+    dem_scene_definition d = hand_definition(1);
     d.species[0].diameter = 2 * of(RADIUS);
     d.diameter = 2 * of(DRUM_RADIUS);
     d.length = 5 * of(DRUM_RADIUS); /* the parked spheres fall beside it, and reach the wall after sqrt(2 R/g) */

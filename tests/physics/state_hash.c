@@ -19,10 +19,10 @@ static named_number asked[] = {
 
 static double of(int which) { return asked[which].value; }
 
-static dem_drum_definition drum_asked(void)
+static dem_scene_definition drum_asked(void)
 {
     const int number = (int)of(CASE);
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     if (number == 1 || number == 5) {
         d.species_count = 2;
         d.species[0].share = 0.7;
@@ -78,9 +78,9 @@ static uint64_t state_hash(const dem_scene *scene)
 int main(int argc, char **argv)
 {
     read_named_numbers(argc, argv, asked);
-    const dem_drum_definition d = drum_asked();
+    const dem_scene_definition d = drum_asked();
     dem_scene *scene = drum_scene(&d);
-    if (of(SETTLING) > 0) run_to_phase(scene, DEM_PHASE_ROTATING);
+    if (of(SETTLING) > 0) run_to_phase(scene, DEM_PHASE_RUNNING);
     const int64_t settled = dem_scene_step_count(scene);
     run(scene, (int64_t)of(STEPS));
     printf("{\"hash\": \"%016" PRIx64 "\", \"isa\": \"%s\", \"precision\": \"%s\", \"particles\": %zu, \"settled\": %" PRId64

@@ -65,7 +65,7 @@ static void spin_up(cluster_body *body, const double inertia[3], const double om
 
 static dem_scene *scene_of(const dem_cluster *cluster)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.diameter = 0.2;
     d.length = 0.2;
     d.species[0].cluster = *cluster;
@@ -76,7 +76,7 @@ static dem_scene *scene_of(const dem_cluster *cluster)
     dem_state state; /* goes on at full size and rotating, without a bed being made first */
     assert_int_equal(dem_scene_save(scene, &state), DEM_OK);
     int64_t *counters = state_array(&state, "counters")->data;
-    counters[0] = DEM_PHASE_ROTATING;
+    counters[0] = DEM_PHASE_RUNNING;
     counters[3] = 0;
     assert_int_equal(dem_scene_restore(scene, &state), DEM_OK);
     dem_state_clear(&state);

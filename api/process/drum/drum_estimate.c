@@ -20,14 +20,14 @@
 #define FIELD_CELL_SECONDS 2.5e-6
 
 /* diameter: m, of the mean volume. */
-static double interface_numbers(const dem_drum_definition *drum, double spheres, double diameter)
+static double interface_numbers(const dem_scene_definition *drum, double spheres, double diameter)
 {
     const double columns = FRAME_NUMBERS_PER_DIAMETER * drum->diameter / diameter;
     const double of_sphere = FRAME_NUMBERS_PER_DIAMETER * (dem_largest_sphere(drum) + diameter) / diameter + 2.0;
     return fmin(columns, 2.0 * spheres * of_sphere);
 }
 
-static double lining_spheres(const dem_drum_definition *drum)
+static double lining_spheres(const dem_scene_definition *drum)
 {
     if (!(drum->lining.diameter > 0.0)) return 0.0;
     return DEM_PI * drum->diameter * drum->length / (drum->lining.pitch * drum->lining.pitch);
@@ -35,7 +35,7 @@ static double lining_spheres(const dem_drum_definition *drum)
 
 job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
 {
-    const dem_drum_definition *drum = &spec->drum;
+    const dem_scene_definition *drum = &spec->scene;
     const double particles = (double)drum->particle_count, spheres = particles * scene_spheres_a_particle(drum);
     const double diameter = cbrt(6.0 / DEM_PI * dem_mean_volume(drum->species, drum->species_count));
     const double side = dem_field_cells(drum->diameter, diameter, particles), field_cells = side * side;

@@ -19,7 +19,7 @@
 #define LEAST_LENGTH_DIAMETERS 3.0 /* below, a particle would feel its own periodic image */
 
 /* Asked for by revolutions, seconds, or by the error wanted. */
-static void derive_duration(drum_inputs *inputs, job_spec *spec, problem_list *problems)
+static void derive_duration(scene_inputs *inputs, job_spec *spec, problem_list *problems)
 {
     enum { USUAL_MOST_REVOLUTIONS = 10 };
     const double revolution = 2.0 * DEM_PI / fabs(inputs->rotation_rate);
@@ -37,7 +37,7 @@ static void derive_duration(drum_inputs *inputs, job_spec *spec, problem_list *p
     spec->duration = isnan(inputs->revolutions) ? inputs->seconds : inputs->revolutions * revolution;
 }
 
-static void derive_rate(drum_inputs *inputs)
+static void derive_rate(scene_inputs *inputs)
 {
     if (!isnan(inputs->rotation_rate_rpm)) inputs->rotation_rate = rotation_of_rpm(inputs->rotation_rate_rpm);
     inputs->rate_was_rpm = inputs->rotation_rate_rpm;
@@ -50,15 +50,15 @@ static void derive_rate(drum_inputs *inputs)
 static void mirror(job_spec *spec)
 {
     spec->is_mirrored = spec->inputs.rotation_rate < 0.0;
-    for (size_t s = 0; spec->is_mirrored && s < spec->drum.species_count; s++) {
-        dem_cluster *cluster = &spec->drum.species[s].cluster;
+    for (size_t s = 0; spec->is_mirrored && s < spec->scene.species_count; s++) {
+        dem_cluster *cluster = &spec->scene.species[s].cluster;
         for (size_t k = 0; k < cluster->sphere_count; k++) cluster->sphere[k].position[2] = -cluster->sphere[k].position[2];
     }
 }
 
-static bool has_end_walls(const drum_inputs *inputs) { return inputs->drum_ends == 1.0; }
+static bool has_end_walls(const scene_inputs *inputs) { return inputs->drum_ends == 1.0; }
 
-static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_t seed_if_missing)
+static void set_dependent_defaults(scene_inputs *inputs, double duration, uint64_t seed_if_missing)
 {
     if (isnan(inputs->end_friction) && has_end_walls(inputs)) inputs->end_friction = inputs->wall_friction;
     if (isnan(inputs->end_rolling_friction) && has_end_walls(inputs)) inputs->end_rolling_friction = inputs->wall_rolling_friction;
@@ -72,7 +72,7 @@ static void set_dependent_defaults(drum_inputs *inputs, double duration, uint64_
     }
 }
 
-static void check_sizes(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+static void check_sizes(const scene_inputs *inputs, const dem_scene_definition *drum, problem_list *problems)
 {
     const double largest = scene_of_species(drum, scene_species_width, true);
     if (inputs->drum_diameter < LEAST_DRUM_DIAMETERS * largest)
@@ -89,7 +89,7 @@ static void check_sizes(const drum_inputs *inputs, const dem_drum_definition *dr
     scene_check_size_ratio(drum, problems);
 }
 
-static void check_lining(const drum_inputs *inputs, problem_list *problems)
+static void check_lining(const scene_inputs *inputs, problem_list *problems)
 {
     const double most = inputs->drum_diameter / LEAST_DRUM_DIAMETERS;
     if (inputs->lining_diameter > most)
@@ -116,7 +116,7 @@ static void check_lining(const drum_inputs *inputs, problem_list *problems)
                          inputs->lining_pitch, spheres, SCENE_MOST_PARTICLES);
 }
 
-static void check_ends(const drum_inputs *inputs, problem_list *problems)
+static void check_ends(const scene_inputs *inputs, problem_list *problems)
 {
     const struct {
         const char *pointer;
@@ -130,7 +130,7 @@ static void check_ends(const drum_inputs *inputs, problem_list *problems)
 }
 
 /* Bars whose corners are within the drum, apart from each other, and which leave the largest particle its room. */
-static bool check_lifters(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+static bool check_lifters(const scene_inputs *inputs, const dem_scene_definition *drum, problem_list *problems)
 {
     const size_t before = json_array_size(problems->errors);
     const double radius = 0.5 * inputs->drum_diameter, top = radius - inputs->lifter_height;
@@ -152,14 +152,14 @@ static bool check_lifters(const drum_inputs *inputs, const dem_drum_definition *
 }
 
 /* Share of the drum that bars take up. */
-static double share_of_lifters(const dem_drum_definition *drum)
+static double share_of_lifters(const dem_scene_definition *drum)
 {
     const dem_lifters *l = &drum->lifters;
     return (double)l->count * l->height * l->width / (0.25 * DEM_PI * drum->diameter * drum->diameter);
 }
 
 /* Share of the drum that is not behind a lining of touching spheres, whose hollows take up little. */
-static double share_within_lining(const dem_drum_definition *drum)
+static double share_within_lining(const dem_scene_definition *drum)
 {
     if (!(drum->lining.diameter > 0.0)) return 1.0;
     const double covered = fmin(1.0, drum->lining.diameter / drum->lining.pitch);
@@ -169,20 +169,20 @@ static double share_within_lining(const dem_drum_definition *drum)
 
 /* Fill up to which all particles find a place at the start. A lining takes its whole layer from it, however wide its pitch; the
  * numbers of each species are rounded, so that one particle may come on top. */
-static double most_placed(const dem_drum_definition *drum)
+static double most_placed(const dem_scene_definition *drum)
 {
     const double within = 1.0 - drum->lining.diameter / (0.5 * drum->diameter);
     const double room = within * within - share_of_lifters(drum);
     return dem_most_placed(drum) / DEM_BED_SOLID_FRACTION * room * (1.0 - 1.0 / fmax(2.0, (double)drum->particle_count));
 }
 
-static double most_fill(const dem_drum_definition *drum)
+static double most_fill(const dem_scene_definition *drum)
 {
     const double filled = dem_most_solid(drum->species, drum->species_count) / DEM_BED_SOLID_FRACTION;
     return fmin(filled * (1.0 - share_of_lifters(drum)) * share_within_lining(drum), most_placed(drum));
 }
 
-static void check_room(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+static void check_room(const scene_inputs *inputs, const dem_scene_definition *drum, problem_list *problems)
 {
     const double fill = drum->fill_fraction, most = most_fill(drum);
     if (fill <= MOST_FILL && fill > most * (1.0 + 1e-9))
@@ -192,7 +192,7 @@ static void check_room(const drum_inputs *inputs, const dem_drum_definition *dru
                          drum->lining.diameter > 0.0 ? " within this lining" : "");
 }
 
-static void check_least(const drum_inputs *inputs, double count, problem_list *problems)
+static void check_least(const scene_inputs *inputs, double count, problem_list *problems)
 {
     const bool starts = !isnan(inputs->start.given);
     if (starts && isnan(count) && isnan(inputs->fill_fraction) && problem_list_is_empty(problems))
@@ -203,7 +203,7 @@ static void check_least(const drum_inputs *inputs, double count, problem_list *p
                          SCENE_MOST_PARTICLES);
 }
 
-static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+static void derive_particle_count(const scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
 {
     if (start_count_particles(inputs, drum, problems)) return;
     double count = inputs->particle_count;
@@ -232,7 +232,7 @@ static void derive_particle_count(const drum_inputs *inputs, dem_drum_definition
     drum->particle_count = count >= 0.0 && count <= SCENE_MOST_PARTICLES ? (size_t)count : 0;
 }
 
-static double largest_impact(const drum_inputs *inputs, const dem_drum_definition *drum)
+static double largest_impact(const scene_inputs *inputs, const dem_scene_definition *drum)
 {
     const double rolling =
         dem_impact_speed(drum->diameter, scene_of_species(drum, dem_species_diameter, true), drum->gravity,
@@ -242,9 +242,9 @@ static double largest_impact(const drum_inputs *inputs, const dem_drum_definitio
 }
 
 /* Returns what scene_derive_contact does. */
-static double derive_drum(drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+static double derive_drum(scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
 {
-    *drum = (dem_drum_definition){
+    *drum = (dem_scene_definition){
         .diameter = inputs->drum_diameter,
         .length = inputs->drum_length,
         .rotation_rate = fabs(inputs->rotation_rate),
@@ -270,20 +270,20 @@ static double derive_drum(drum_inputs *inputs, dem_drum_definition *drum, proble
 
 void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
-    drum_inputs *inputs = &spec->inputs;
+    scene_inputs *inputs = &spec->inputs;
     json_t *origin = start_find(spec, problems);
     derive_rate(inputs);
     derive_duration(inputs, spec, problems);
     if (inputs->start.particle_count == 0) scene_share_out(inputs, problems);
     set_dependent_defaults(inputs, spec->duration, seed_if_missing);
-    spec->expected_overlap = derive_drum(inputs, &spec->drum, problems);
+    spec->expected_overlap = derive_drum(inputs, &spec->scene, problems);
     scene_set_common(spec);
     scene_check_amounts(spec,
                         spec->until_standard_error > 0.0 ? "/inputs/duration/at_most_revolutions"
                         : isnan(inputs->revolutions)     ? "/inputs/duration/seconds"
                                                          : "/inputs/duration/revolutions",
                         problems);
-    start_check_particles(inputs, &spec->drum, problems);
+    start_check_particles(inputs, &spec->scene, problems);
     start_compare(spec, origin, problems);
     json_decref(origin);
     mirror(spec);

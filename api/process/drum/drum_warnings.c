@@ -11,7 +11,7 @@
 
 static double froude_of(const job_spec *spec)
 {
-    return froude_number(spec->inputs.rotation_rate, 0.5 * spec->drum.diameter, spec->drum.gravity);
+    return froude_number(spec->inputs.rotation_rate, 0.5 * spec->scene.diameter, spec->scene.gravity);
 }
 
 /* Revolutions a minute taken for radians a second make nine times the rate. */
@@ -32,7 +32,7 @@ static void warn_of_rate(const job_spec *spec, problem_list *warnings)
 /* What its result will say, too, in its verdict. */
 static void warn_of_what_cannot_be_told(const job_spec *spec, problem_list *warnings)
 {
-    const dem_drum_definition *drum = &spec->drum;
+    const dem_scene_definition *drum = &spec->scene;
     const double revolutions = spec->duration * fabs(drum->rotation_rate) / (2.0 * DEM_PI);
     const double grain = cbrt(6.0 / DEM_PI * dem_mean_volume(drum->species, drum->species_count));
     const double layers = dem_bed_layers(drum->diameter, fmin(drum->fill_fraction, 1.0), grain);

@@ -19,7 +19,7 @@
 /* A particle that is hit on the bed by the next one is pressed by more than a single impact on the floor. */
 #define IMPACT_ON_OTHERS 1.25
 
-static void derive_stream(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+static void derive_stream(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
     fill_inputs *fill = &inputs->fill;
     const double widest = dem_stream_widest(scene), least_speed = dem_stream_least_impact_speed(scene);
@@ -39,7 +39,7 @@ static void derive_stream(drum_inputs *inputs, dem_drum_definition *scene, probl
 }
 
 /* rate or mass_rate as given; a few per cent of the stream where neither is. */
-static void derive_rate(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+static void derive_rate(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
     fill_inputs *fill = &inputs->fill;
     double mass = 0.0;
@@ -61,7 +61,7 @@ static void derive_rate(drum_inputs *inputs, dem_drum_definition *scene, problem
 }
 
 /* As dense as beds in a wide cylinder are, at the least. */
-static void check_bed(const drum_inputs *inputs, const dem_drum_definition *scene, problem_list *problems)
+static void check_bed(const scene_inputs *inputs, const dem_scene_definition *scene, problem_list *problems)
 {
     const double solid = dem_stream_usual_fraction(scene), height = inputs->fill.cylinder_height;
     const double needed = dem_stream_height(scene, (double)scene->particle_count, solid);
@@ -74,7 +74,7 @@ static void check_bed(const drum_inputs *inputs, const dem_drum_definition *scen
 /* A bed of much friction is looser, and its top may stand over the cylinder's. */
 static void warn(const job_spec *spec, problem_list *warnings)
 {
-    const dem_drum_definition *scene = &spec->drum;
+    const dem_scene_definition *scene = &spec->scene;
     const double solid = dem_poured_solid(scene), needed = dem_stream_height(scene, (double)scene->particle_count, solid);
     if (needed > spec->inputs.fill.cylinder_height)
         problem_list_add(warnings, "/inputs/cylinder/height",
@@ -84,7 +84,7 @@ static void warn(const job_spec *spec, problem_list *warnings)
     scene_warn(spec, warnings);
 }
 
-static void derive_cylinder(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+static void derive_cylinder(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
     scene->container = DEM_CYLINDER;
     scene->diameter = inputs->fill.cylinder_diameter;
@@ -104,7 +104,7 @@ static void derive_cylinder(drum_inputs *inputs, dem_drum_definition *scene, pro
 }
 
 /* The input to be named where there is too much to simulate. */
-static const char *what_makes_it_long(const drum_inputs *inputs, const dem_drum_definition *scene)
+static const char *what_makes_it_long(const scene_inputs *inputs, const dem_scene_definition *scene)
 {
     if ((double)scene->particle_count / scene->stream.rate < inputs->fill.settling_seconds)
         return "/inputs/duration/settling_seconds";
@@ -113,8 +113,8 @@ static const char *what_makes_it_long(const drum_inputs *inputs, const dem_drum_
 
 static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
-    drum_inputs *inputs = &spec->inputs;
-    dem_drum_definition *scene = &spec->drum;
+    scene_inputs *inputs = &spec->inputs;
+    dem_scene_definition *scene = &spec->scene;
     standing_derive_scene(inputs, scene, seed_if_missing, problems);
     derive_cylinder(inputs, scene, problems);
     const double weight = SPEED_OF_WEIGHT * sqrt(scene->gravity * dem_stream_level(scene, (double)scene->particle_count));
@@ -126,7 +126,7 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
 
 static job_estimate estimate(const job_spec *spec, const calibration *machine)
 {
-    const double filling = (double)spec->drum.particle_count / spec->drum.stream.rate;
+    const double filling = (double)spec->scene.particle_count / spec->scene.stream.rate;
     const double settling = fmin(SETTLING_EXPECTED, spec->inputs.fill.settling_seconds);
     /* While it fills, half of the particles are inside on average. */
     return standing_estimate(spec, machine, filling + settling, 0.0, (0.5 * filling + settling) / (filling + settling));
@@ -135,7 +135,7 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
 static void understand(const job_spec *spec, json_t *words)
 {
     char filling[TIME_IN_WORDS_SIZE], settling[TIME_IN_WORDS_SIZE];
-    time_in_words((double)spec->drum.particle_count / spec->drum.stream.rate, filling);
+    time_in_words((double)spec->scene.particle_count / spec->scene.stream.rate, filling);
     time_in_words(spec->inputs.fill.settling_seconds, settling);
     scene_understand(spec, words);
     json_object_set_new(words, "duration", json_sprintf("%s of filling, then at most %s to come to rest", filling, settling));

@@ -6,26 +6,26 @@ static const spec_field fields[] = {
     { SPEC_INPUTS, "tube", FIELD_OBJECT, SPEC_TUBE, .required = true,
       .meaning = "the tube, or straw, that stands on the plate full of particles and is raised" },
     { SPEC_TUBE, "diameter", FIELD_REAL, .required = true, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(heap.tube_diameter),
-      USUAL(0.003, 1.0), SLIP("cm", 0.01), COLUMN("tube_diameter", REAL, drum.diameter), LISTED, IN_LIST(80, "tube Ø ", 1, NULL),
+      USUAL(0.003, 1.0), SLIP("cm", 0.01), COLUMN("tube_diameter", REAL, scene.diameter), LISTED, IN_LIST(80, "tube Ø ", 1, NULL),
       IN_VIEW(100), .meaning = "inner diameter; at least 5 of the largest particle diameters, or they jam" },
     { SPEC_TUBE, "height", FIELD_REAL, .unit = "m", RANGE(0.001, 20.0), .fallback = NAN, AT(heap.tube_height), USUAL(0.001, 5.0),
       SLIP("cm", 0.01),
       .meaning = "of the part of the tube that the bed is made in; the wall goes on above it. Default: what the particles need" },
     { SPEC_TUBE, "lift_speed", FIELD_REAL, .unit = "m/s", OPEN_RANGE(0.0, 10.0), .fallback = NAN, AT(heap.lift_speed),
-      COLUMN("lift_speed", REAL, drum.lift.speed), LISTED, IN_LIST(90, "", 1e3, " mm/s"), IN_VIEW(110),
+      COLUMN("lift_speed", REAL, scene.lift.speed), LISTED, IN_LIST(90, "", 1e3, " mm/s"), IN_VIEW(110),
       .meaning = "at which it is raised. Default: slowly, a fiftieth of sqrt(gravity * diameter)" },
 
     { SPEC_INPUTS, "plate", FIELD_OBJECT, SPEC_PLATE, .meaning = "the level disc below, whose middle is on the tube's axis" },
     { SPEC_PLATE, "diameter", FIELD_REAL, .unit = "m", RANGE(0.001, 50.0), .fallback = NAN, AT(heap.plate_diameter),
-      USUAL(0.003, 3.0), SLIP("cm", 0.01), COLUMN("plate_diameter", REAL, drum.plate.diameter), LISTED,
+      USUAL(0.003, 3.0), SLIP("cm", 0.01), COLUMN("plate_diameter", REAL, scene.plate.diameter), LISTED,
       IN_LIST(100, "plate Ø ", 1, NULL), IN_VIEW(120),
       .meaning = "of the disc: what rolls off it is lost. Default: 2 of the tube's diameters" },
     { SPEC_PLATE, "rim_height", FIELD_REAL, .unit = "m", RANGE(0.0, 1.0), .fallback = NAN, AT(heap.rim_height), USUAL(0.0, 0.1),
-      SLIP("cm", 0.01), COLUMN("rim_height", REAL, drum.plate.rim_height), IN_VIEW(130),
+      SLIP("cm", 0.01), COLUMN("rim_height", REAL, scene.plate.rim_height), IN_VIEW(130),
       .meaning = "of the rim around it; 0: none. Default: half the largest particle diameter, which keeps the lowest layer "
                  "from rolling off" },
     { SPEC_PLATE, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(heap.plate_friction), USUAL(0.0, 1.5),
-      COLUMN("plate_friction", REAL, drum.plate.friction), IN_VIEW(140),
+      COLUMN("plate_friction", REAL, scene.plate.friction), IN_VIEW(140),
       .meaning = "coefficient of friction between a particle and the plate or its rim" },
     { SPEC_PLATE, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(heap.plate_rolling_friction),
       .meaning = "coefficient of rolling friction between a particle and the plate or its rim. Default: none" },
@@ -33,7 +33,7 @@ static const spec_field fields[] = {
     FIELDS_OF_PARTICLES,
 
     { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height",
-      AT(particle_count), COLUMN("particles", COUNT, drum.particle_count), LISTED, IN_LIST(110, "", 1, NULL),
+      AT(particle_count), COLUMN("particles", COUNT, scene.particle_count), LISTED, IN_LIST(110, "", 1, NULL),
       .meaning = "number of particles, instead of fill_height" },
     { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, AT(fill_height), USUAL(0.0, 3.0),
       SLIP("cm", 0.01), .meaning = "of the bed in the tube, at a solid fraction of 0.6. Default: twice the tube's diameter" },
@@ -42,10 +42,10 @@ static const spec_field fields[] = {
 
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall of the tube" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction), USUAL(0.0, 1.5),
-      COLUMN("wall_friction", REAL, drum.contact.wall_friction), LISTED, IN_VIEW(240),
+      COLUMN("wall_friction", REAL, scene.contact.wall_friction), LISTED, IN_VIEW(240),
       .meaning = "coefficient of friction between a particle and the tube" },
     { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
-      COLUMN("wall_rolling_friction", REAL, drum.contact.wall_rolling_friction), IN_VIEW(260),
+      COLUMN("wall_rolling_friction", REAL, scene.contact.wall_rolling_friction), IN_VIEW(260),
       .meaning = "coefficient of rolling friction between a particle and the tube. Default: none" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, COLUMN("duration", REAL, duration), LISTED, IN_VIEW(310), .unit = "s",
@@ -56,7 +56,7 @@ static const spec_field fields[] = {
 
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
-      SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, drum.gravity), IN_VIEW(160),
+      SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),
       .meaning = "acceleration of gravity, down the axis" },
 };
 const spec_table heap_fields = { fields, sizeof fields / sizeof fields[0] };

@@ -29,17 +29,17 @@ static const struct {
 #define ROLLING_SPEED_SHARE 0.06
 
 /* m, of a tube with room for the bed at a share of the height that it has at DEM_BED_SOLID_FRACTION, and for two particles. */
-static double height_of_tube(const dem_drum_definition *scene, double over_bed)
+static double height_of_tube(const dem_scene_definition *scene, double over_bed)
 {
     return over_bed * standing_bed_height(scene) + 2.0 * scene_of_species(scene, scene_species_width, true);
 }
 
-static double height_of_loose_tube(const dem_drum_definition *scene)
+static double height_of_loose_tube(const dem_scene_definition *scene)
 {
     return height_of_tube(scene, fmax(TUBE_OVER_BED, DEM_BED_SOLID_FRACTION / dem_poured_solid(scene)));
 }
 
-static void derive_tube(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+static void derive_tube(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
     heap_inputs *heap = &inputs->heap;
     scene->container = DEM_TUBE_ON_PLATE;
@@ -60,7 +60,7 @@ static void derive_tube(drum_inputs *inputs, dem_drum_definition *scene, problem
     scene->lift = (dem_lift){ .speed = heap->lift_speed };
 }
 
-static void derive_plate(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+static void derive_plate(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
     heap_inputs *heap = &inputs->heap;
     const double widest = scene_of_species(scene, scene_species_width, true);
@@ -80,7 +80,7 @@ static void derive_plate(drum_inputs *inputs, dem_drum_definition *scene, proble
 
 /* What falls down the height of the bed in the tube, as in a rough drum of that size: the tube makes a smooth bed as
  * high as a rough one. */
-static double largest_impact(const drum_inputs *inputs, const dem_drum_definition *scene)
+static double largest_impact(const scene_inputs *inputs, const dem_scene_definition *scene)
 {
     const double falling = dem_impact_speed(fmax(standing_bed_height(scene), scene->diameter),
                                             scene_of_species(scene, dem_species_diameter, true), scene->gravity, 1.0, 0.0);
@@ -89,8 +89,8 @@ static double largest_impact(const drum_inputs *inputs, const dem_drum_definitio
 
 static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
-    drum_inputs *inputs = &spec->inputs;
-    dem_drum_definition *scene = &spec->drum;
+    scene_inputs *inputs = &spec->inputs;
+    dem_scene_definition *scene = &spec->scene;
     standing_derive_scene(inputs, scene, seed_if_missing, problems);
     derive_tube(inputs, scene, problems);
     derive_plate(inputs, scene, problems);
@@ -103,7 +103,7 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
 /* Until the tube is clear of a cone of that volume. */
 static job_estimate estimate(const job_spec *spec, const calibration *machine)
 {
-    const dem_drum_definition *scene = &spec->drum;
+    const dem_scene_definition *scene = &spec->scene;
     const double bed = standing_bed_height(scene), volume = DEM_PI / 4.0 * scene->diameter * scene->diameter * bed;
     const double cone = cbrt(3.0 * volume * SLOPE_EXPECTED * SLOPE_EXPECTED / DEM_PI);
     const double height = fmin(cone, 0.5 * SLOPE_EXPECTED * scene->plate.diameter);
@@ -120,18 +120,18 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
 /* A loose bed stands above the height given, where the wall goes on; a tube that is pulled away lets its particles fall. */
 static void warn(const job_spec *spec, problem_list *warnings)
 {
-    const double loose = height_of_loose_tube(&spec->drum);
-    if (spec->drum.length < loose * (1.0 - 1e-9))
+    const double loose = height_of_loose_tube(&spec->scene);
+    if (spec->scene.length < loose * (1.0 - 1e-9))
         problem_list_add(warnings, "/inputs/tube/height",
                          "is %g m, over which the bed may stand, where the wall goes on: particles of these shapes with much "
                          "friction make a loose bed, which needs %.4g m",
-                         spec->drum.length, loose);
-    const double fast = FAST_LIFT_SHARE * sqrt(spec->drum.gravity * spec->drum.diameter);
-    if (spec->drum.lift.speed > fast)
+                         spec->scene.length, loose);
+    const double fast = FAST_LIFT_SHARE * sqrt(spec->scene.gravity * spec->scene.diameter);
+    if (spec->scene.lift.speed > fast)
         problem_list_add(
             warnings, "/inputs/tube/lift_speed",
             "is %.4g m/s, at which the bed falls rather than flows out; the heap is that of a slow lift up to %.3g m/s here",
-            spec->drum.lift.speed, fast);
+            spec->scene.lift.speed, fast);
     scene_warn(spec, warnings);
 }
 

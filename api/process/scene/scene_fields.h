@@ -15,7 +15,7 @@ static const char *const share_choices[] = { "number", "volume", "mass", NULL };
 _Static_assert(sizeof shape_choices / sizeof *shape_choices == DEM_NAMED_SHAPES + 1, "each shape has a name");
 _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2, "each basis has a name");
 
-#define AT(member) .offset = offsetof(drum_inputs, member)
+#define AT(member) .offset = offsetof(scene_inputs, member)
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
 #define AT_SPHERE(member) .offset = offsetof(dem_cluster_sphere, member)
 
@@ -23,8 +23,8 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
 /* clang-format off */
 #define FIELDS_OF_PARTICLES \
     { SPEC_INPUTS, "particles", FIELD_LIST, SPEC_PARTICLES, .required = true, RANGE(1, DEM_MAXIMUM_SPECIES), AT(species), \
-      .count_offset = offsetof(drum_inputs, species_count), .entry_size = sizeof(species_inputs), \
-      COLUMN("species", COUNT, drum.species_count), LISTED, IN_LIST(120, "of ", 1, " kinds"), .list_above = 1, IN_VIEW(190), \
+      .count_offset = offsetof(scene_inputs, species_count), .entry_size = sizeof(species_inputs), \
+      COLUMN("species", COUNT, scene.species_count), LISTED, IN_LIST(120, "of ", 1, " kinds"), .list_above = 1, IN_VIEW(190), \
       .meaning = "the kinds of particles" }, \
     { SPEC_PARTICLES, "shape", FIELD_CHOICE_OR_OBJECT, SPEC_SHAPE, .unit = "", .choices = shape_choices, AT_SPECIES(shape), \
       COLUMN("shape", WORD, inputs.species[0].shape), IN_VIEW(50), \
@@ -40,12 +40,12 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     { SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .spared_by = "shape", .unit = "m", RANGE(1e-5, 1.0), \
       .fallback = NAN, AT_SPECIES(diameter), \
       USUAL(1e-4, 0.05), SLIP("cm", 0.01), \
-      COLUMN("diameter", REAL, drum.species[0].diameter), LISTED, IN_LIST(130, "× ", 1, NULL), IN_VIEW(200), \
+      COLUMN("diameter", REAL, scene.species[0].diameter), LISTED, IN_LIST(130, "× ", 1, NULL), IN_VIEW(200), \
       .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
                  "cluster has its own" }, \
     { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), \
       USUAL(30.0, 23000.0), SLIP("g/cm3", 1000.0), \
-      COLUMN("density", REAL, drum.species[0].density), LISTED, IN_VIEW(210), \
+      COLUMN("density", REAL, scene.species[0].density), LISTED, IN_VIEW(210), \
       .meaning = "density of the particle itself, not of the bed" }, \
     { SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share), \
       FREE_OF_BED, .meaning = "share of the particles, by what share_by says; all shares sum to 1. Default: equal shares" }, \
@@ -59,15 +59,15 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
       USUAL(0.0, 1.5), \
-      COLUMN("friction", REAL, drum.contact.friction), LISTED, IN_LIST(10, "μ ", 1, NULL), IN_VIEW(220), \
+      COLUMN("friction", REAL, scene.contact.friction), LISTED, IN_LIST(10, "μ ", 1, NULL), IN_VIEW(220), \
       .meaning = "coefficient of friction between particles" }, \
     { SPEC_CONTACT, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(rolling_friction), \
-      COLUMN("rolling_friction", REAL, drum.contact.rolling_friction), IN_VIEW(250), \
+      COLUMN("rolling_friction", REAL, scene.contact.rolling_friction), IN_VIEW(250), \
       .meaning = "coefficient of rolling friction between particles: a contact bears a moment of it times the normal force " \
                  "times the effective radius. Default: none" }, \
     { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.1, 1.0), .fallback = 0.8, \
       .excludes = "unloading_slope", AT(restitution), \
-      COLUMN("restitution", REAL, drum.contact.restitution), LISTED, IN_VIEW(230), \
+      COLUMN("restitution", REAL, scene.contact.restitution), LISTED, IN_VIEW(230), \
       .meaning = "coefficient of normal restitution; with variable unloading: of the hardest impact expected" }, \
     { SPEC_CONTACT, "unloading", FIELD_CHOICE, .unit = "", .choices = unloading_choices, AT(unloading), \
       .meaning = "of walton-braun. constant: one unloading stiffness K2 for all loads, one restitution for all speeds; " \
@@ -81,14 +81,14 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
                  "it had before. Piles come to rest by it; a collision by itself has none of it. 0: none" }, \
     { SPEC_CONTACT, "tangential_stiffness_ratio", FIELD_REAL, .unit = "", RANGE(0.05, 1.5), .fallback = 0.8, \
       AT(tangential_stiffness_ratio), \
-      COLUMN("tangential_stiffness_ratio", REAL, drum.contact.tangential_stiffness_ratio), IN_VIEW(270), \
+      COLUMN("tangential_stiffness_ratio", REAL, scene.contact.tangential_stiffness_ratio), IN_VIEW(270), \
       .meaning = "initial tangential over normal loading stiffness" }, \
     { SPEC_CONTACT, "maximum_overlap", FIELD_REAL, .unit = "", RANGE(0.0005, 0.05), .fallback = 0.01, .excludes = "stiffness", \
       .excludes_too = "youngs_modulus", AT(maximum_overlap), \
       .meaning = "largest overlap wanted, as a share of the smallest diameter: the stiffness is chosen for it" }, \
     { SPEC_CONTACT, "stiffness", FIELD_REAL, .unit = "N/m", RANGE(1e-3, 1e9), .fallback = NAN, .excludes = "maximum_overlap", \
       .excludes_too = "youngs_modulus", AT(stiffness), \
-      COLUMN("stiffness", REAL, drum.contact.stiffness), LISTED, IN_VIEW(280), \
+      COLUMN("stiffness", REAL, scene.contact.stiffness), LISTED, IN_VIEW(280), \
       .meaning = "normal loading stiffness, instead of maximum_overlap; not for hertz-mindlin" }, \
     { SPEC_CONTACT, "youngs_modulus", FIELD_REAL, .unit = "Pa", RANGE(1e3, 1e13), .fallback = NAN, .excludes = "maximum_overlap", \
       AT(youngs_modulus), .meaning = "of particles and wall, instead of maximum_overlap; for hertz-mindlin alone" }, \
@@ -109,7 +109,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     { SPEC_INPUTS, "threads", FIELD_INTEGER, .unit = "", RANGE(1, 256), .fallback = 1, AT(threads), \
       .meaning = "threads of the worker; results do not depend on it" }, \
     { SPEC_INPUTS, "integration", FIELD_OBJECT, SPEC_INTEGRATION, \
-      COLUMN("time_step", REAL, drum.time_step), IN_VIEW(300), .unit = "s", \
+      COLUMN("time_step", REAL, scene.time_step), IN_VIEW(300), .unit = "s", \
       .meaning = "how motion is stepped through time" }, \
     { SPEC_INTEGRATION, "corrector_passes", FIELD_INTEGER, .unit = "", RANGE(1, 10), .fallback = 1, AT(corrector_passes), \
       .meaning = "corrector passes of Euler's equations for the spin of clusters (Eqns 9-10); more do not raise the order" }, \

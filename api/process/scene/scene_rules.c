@@ -18,7 +18,7 @@
 #define LEAST_RESTITUTION 0.1        /* as restitution's own range has it */
 #define MOST_OVERLAP 0.25            /* of the smallest diameter: beyond half a radius a run is stopped */
 
-double scene_spheres_a_particle(const dem_drum_definition *scene)
+double scene_spheres_a_particle(const dem_scene_definition *scene)
 {
     double mean = 0.0;
     for (size_t s = 0; s < scene->species_count; s++)
@@ -26,7 +26,7 @@ double scene_spheres_a_particle(const dem_drum_definition *scene)
     return mean;
 }
 
-double scene_of_species(const dem_drum_definition *scene, double (*number)(const dem_species *), bool largest)
+double scene_of_species(const dem_scene_definition *scene, double (*number)(const dem_species *), bool largest)
 {
     double found = NAN;
     for (size_t s = 0; s < scene->species_count; s++) {
@@ -38,7 +38,7 @@ double scene_of_species(const dem_drum_definition *scene, double (*number)(const
 
 double scene_species_width(const dem_species *species) { return 2.0 * dem_species_reach(species); }
 
-void scene_share_out(drum_inputs *inputs, problem_list *problems)
+void scene_share_out(scene_inputs *inputs, problem_list *problems)
 {
     size_t given = 0;
     double sum = 0.0;
@@ -59,7 +59,7 @@ void scene_share_out(drum_inputs *inputs, problem_list *problems)
 }
 
 /* Shares by volume or mass into shares by number: a species of large particles has few of them. */
-static void shares_to_numbers(const drum_inputs *inputs, dem_drum_definition *scene)
+static void shares_to_numbers(const scene_inputs *inputs, dem_scene_definition *scene)
 {
     double sum = 0.0;
     for (size_t s = 0; s < scene->species_count; s++) {
@@ -71,7 +71,7 @@ static void shares_to_numbers(const drum_inputs *inputs, dem_drum_definition *sc
     for (size_t s = 0; s < scene->species_count; s++) scene->species[s].share /= sum;
 }
 
-void scene_check_every_species(const drum_inputs *inputs, const dem_drum_definition *scene, double count, problem_list *problems)
+void scene_check_every_species(const scene_inputs *inputs, const dem_scene_definition *scene, double count, problem_list *problems)
 {
     if (count < 8.0 || inputs->species_count == 1) return; /* that is then what is wrong, or nothing can be */
     for (size_t s = 0; s < inputs->species_count; s++) {
@@ -84,7 +84,7 @@ void scene_check_every_species(const drum_inputs *inputs, const dem_drum_definit
     }
 }
 
-void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, problem_list *problems)
+void scene_derive_species(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
     scene->species_count = inputs->species_count;
     for (size_t s = 0; s < inputs->species_count; s++) {
@@ -103,7 +103,7 @@ void scene_derive_species(drum_inputs *inputs, dem_drum_definition *scene, probl
     shares_to_numbers(inputs, scene);
 }
 
-void scene_check_size_ratio(const dem_drum_definition *scene, problem_list *problems)
+void scene_check_size_ratio(const dem_scene_definition *scene, problem_list *problems)
 {
     const double largest_sphere = scene_of_species(scene, dem_species_largest_sphere, true);
     const double smallest_sphere = scene_of_species(scene, dem_species_smallest_sphere, false);
@@ -122,7 +122,7 @@ typedef struct collision {
     double fastest;            /* m/s, that or what two particles of the start can meet at: the step must do for it */
 } collision;
 
-static void check_unloading(const drum_inputs *inputs, problem_list *problems)
+static void check_unloading(const scene_inputs *inputs, problem_list *problems)
 {
     if (!isnan(inputs->unloading_slope) && inputs->unloading == 0.0)
         problem_list_add(problems, "/inputs/contact/unloading_slope",
@@ -135,7 +135,8 @@ static void check_unloading(const drum_inputs *inputs, problem_list *problems)
 }
 
 /* S of variable unloading and the restitution of the hardest impact, one from the other: e^2 = K1/K2 = 1/(1 + S alpha_max). */
-static void derive_unloading(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+static void derive_unloading(const scene_inputs *inputs, const collision *worst, dem_scene_definition *scene,
+                             problem_list *problems)
 {
     const double overlap = worst->speed * sqrt(worst->heaviest / scene->contact.stiffness);
     if (isnan(inputs->unloading_slope)) {
@@ -162,7 +163,7 @@ static double least_restitution(const dem_contact_parameters *contact, const col
 }
 
 /* Loading stiffness K1, and from it the time step. Returns the largest overlap expected, as a share of the smallest diameter. */
-static double derive_linear(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+static double derive_linear(const scene_inputs *inputs, const collision *worst, dem_scene_definition *scene, problem_list *problems)
 {
     const double least = dem_stiffness_for_overlap(worst->speed, worst->heaviest, MOST_OVERLAP * worst->smallest);
     if (inputs->stiffness < least)
@@ -185,7 +186,8 @@ static double derive_linear(const drum_inputs *inputs, const collision *worst, d
 
 /* Young's modulus E, the same for particles and wall, hence E* = E/(2 (1 - nu^2)); and from it the time step. What is
  * reported as stiffness is the chord of the Hertzian curve up to the largest overlap expected. */
-static double derive_hertzian(const drum_inputs *inputs, const collision *worst, dem_drum_definition *scene, problem_list *problems)
+static double derive_hertzian(const scene_inputs *inputs, const collision *worst, dem_scene_definition *scene,
+                              problem_list *problems)
 {
     const double radius = 0.5 * worst->largest, plane_strain = 2 * (1 - inputs->poissons_ratio * inputs->poissons_ratio);
     const double least =
@@ -219,7 +221,7 @@ static double fastest_meeting(const start_inputs *start)
     return first + second;
 }
 
-double scene_derive_contact(const drum_inputs *inputs, double impact_speed, dem_drum_definition *scene, problem_list *problems)
+double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem_scene_definition *scene, problem_list *problems)
 {
     const dem_contact_law law =
         inputs->contact_law > 0.0 ? (dem_contact_law)inputs->contact_law : DEM_WALTON_BRAUN; /* not of NaN */
@@ -260,20 +262,20 @@ void scene_check_amounts(const job_spec *spec, const char *duration, problem_lis
         problem_list_add(problems, duration,
                          "makes %.3g steps of %.3g s; must make at most %.3g: shorten the "
                          "duration or allow a larger overlap",
-                         estimate.steps, spec->drum.time_step, MOST_STEPS);
-    if (spec->duration < SCENE_SAMPLES_PER_RUN * spec->drum.time_step)
+                         estimate.steps, spec->scene.time_step, MOST_STEPS);
+    if (spec->duration < SCENE_SAMPLES_PER_RUN * spec->scene.time_step)
         problem_list_add(problems, duration, "is %.3g s; must be at least %.3g s, %g time steps", spec->duration,
-                         SCENE_SAMPLES_PER_RUN * spec->drum.time_step, SCENE_SAMPLES_PER_RUN);
-    else if (spec->sample_interval < spec->drum.time_step)
+                         SCENE_SAMPLES_PER_RUN * spec->scene.time_step, SCENE_SAMPLES_PER_RUN);
+    else if (spec->sample_interval < spec->scene.time_step)
         problem_list_add(problems, "/inputs/samples/interval", "is %g s; must be at least the time step, %.3g s",
-                         spec->sample_interval, spec->drum.time_step);
+                         spec->sample_interval, spec->scene.time_step);
     const double samples = spec->duration / spec->sample_interval;
     if (samples > MOST_SAMPLES)
         problem_list_add(problems, "/inputs/samples/interval", "is %g s, %.3g samples in all; must make at most %.0f",
                          spec->sample_interval, samples, MOST_SAMPLES);
-    if (spec->snapshot_interval > 0.0 && spec->snapshot_interval < spec->drum.time_step)
+    if (spec->snapshot_interval > 0.0 && spec->snapshot_interval < spec->scene.time_step)
         problem_list_add(problems, "/inputs/snapshots/interval", "is %g s; must be 0 or at least the time step, %.3g s",
-                         spec->snapshot_interval, spec->drum.time_step);
+                         spec->snapshot_interval, spec->scene.time_step);
     if (estimate.snapshots > MOST_SNAPSHOTS)
         problem_list_add(problems, "/inputs/snapshots/interval",
                          "is %g s, %.3g snapshots in all; must make at most "
@@ -288,10 +290,10 @@ void scene_check_amounts(const job_spec *spec, const char *duration, problem_lis
 
 void scene_set_common(job_spec *spec)
 {
-    const drum_inputs *inputs = &spec->inputs;
+    const scene_inputs *inputs = &spec->inputs;
     spec->maximum_overlap = isnan(inputs->maximum_overlap) ? 0.0 : inputs->maximum_overlap;
     spec->sample_interval = inputs->sample_interval;
     spec->snapshot_interval = inputs->snapshot_interval;
-    spec->threads = spec->drum.threads;
-    spec->drum.corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes;
+    spec->threads = spec->scene.threads;
+    spec->scene.corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes;
 }

@@ -23,12 +23,12 @@ void rotation_understand(double rotation_rate, double froude, json_t *words)
 void scene_understand(const job_spec *spec, json_t *words)
 {
     json_object_set_new(words, "diameter_ratio",
-                        json_real(spec->drum.diameter / scene_of_species(&spec->drum, scene_species_width, true)));
+                        json_real(spec->scene.diameter / scene_of_species(&spec->scene, scene_species_width, true)));
 }
 
 void scene_warn(const job_spec *spec, problem_list *warnings)
 {
-    const drum_inputs *inputs = &spec->inputs;
+    const scene_inputs *inputs = &spec->inputs;
     const double overlap = spec->expected_overlap;
     if (isnan(inputs->maximum_overlap) && overlap > SOFT_OVERLAP)
         problem_list_add(warnings, isnan(inputs->stiffness) ? "/inputs/contact/youngs_modulus" : "/inputs/contact/stiffness",

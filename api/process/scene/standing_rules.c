@@ -9,10 +9,10 @@
 #define SNAPSHOT_PARTICLE_BYTES 60.0
 #define FRAME_BYTES 100.0
 
-void standing_derive_scene(drum_inputs *inputs, dem_drum_definition *scene, uint64_t seed_if_missing, problem_list *problems)
+void standing_derive_scene(scene_inputs *inputs, dem_scene_definition *scene, uint64_t seed_if_missing, problem_list *problems)
 {
     if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & LARGEST_WHOLE_NUMBER);
-    *scene = (dem_drum_definition){
+    *scene = (dem_scene_definition){
         .gravity = inputs->gravity,
         .corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes,
         .seed = isnan(inputs->seed) ? 0 : (uint64_t)inputs->seed,
@@ -23,15 +23,15 @@ void standing_derive_scene(drum_inputs *inputs, dem_drum_definition *scene, uint
     scene_check_size_ratio(scene, problems);
 }
 
-static double particles_a_meter(const dem_drum_definition *scene)
+static double particles_a_meter(const dem_scene_definition *scene)
 {
     const double area = DEM_PI / 4.0 * scene->diameter * scene->diameter;
     return DEM_BED_SOLID_FRACTION * area / dem_mean_volume(scene->species, scene->species_count);
 }
 
-double standing_bed_height(const dem_drum_definition *scene) { return (double)scene->particle_count / particles_a_meter(scene); }
+double standing_bed_height(const dem_scene_definition *scene) { return (double)scene->particle_count / particles_a_meter(scene); }
 
-void standing_derive_count(drum_inputs *inputs, dem_drum_definition *scene, double usual_height, double least,
+void standing_derive_count(scene_inputs *inputs, dem_scene_definition *scene, double usual_height, double least,
                            problem_list *problems)
 {
     if (isnan(inputs->particle_count) && isnan(inputs->fill_height)) inputs->fill_height = usual_height;
@@ -55,7 +55,7 @@ void standing_derive_count(drum_inputs *inputs, dem_drum_definition *scene, doub
 
 void standing_complete(job_spec *spec, const char *duration, problem_list *problems)
 {
-    drum_inputs *inputs = &spec->inputs;
+    scene_inputs *inputs = &spec->inputs;
     if (isnan(inputs->sample_interval))
         inputs->sample_interval = fmin(SCENE_SAMPLE_INTERVAL_MOST, spec->duration / SCENE_SAMPLES_PER_RUN);
     scene_set_common(spec);
@@ -64,7 +64,7 @@ void standing_complete(job_spec *spec, const char *duration, problem_list *probl
 
 job_estimate standing_estimate(const job_spec *spec, const calibration *machine, double seconds, double before, double share_inside)
 {
-    const dem_drum_definition *scene = &spec->drum;
+    const dem_scene_definition *scene = &spec->scene;
     const double particles = (double)scene->particle_count, spheres = particles * scene_spheres_a_particle(scene);
     job_estimate estimate = {
         .particles = particles,

@@ -6,14 +6,14 @@
 #include "scene_rules.h"
 
 /* A scene with everything that does not depend on the container: gravity, species, seed. */
-void standing_derive_scene(drum_inputs *inputs, dem_drum_definition *scene, uint64_t seed_if_missing, problem_list *problems);
+void standing_derive_scene(scene_inputs *inputs, dem_scene_definition *scene, uint64_t seed_if_missing, problem_list *problems);
 
 /* Particles from fill_height, which becomes usual_height where neither is given, or particle_count. The scene's diameter
  * and species must be derived. least: particles below which there is nothing to measure. */
-void standing_derive_count(drum_inputs *inputs, dem_drum_definition *scene, double usual_height, double least,
+void standing_derive_count(scene_inputs *inputs, dem_scene_definition *scene, double usual_height, double least,
                            problem_list *problems);
 /* m: of the bed that so many particles make at a solid fraction of 0.6. */
-double standing_bed_height(const dem_drum_definition *scene);
+double standing_bed_height(const dem_scene_definition *scene);
 
 /* What goes by the duration, which must be set: intervals, threads, amounts. duration: pointer to the input that bounds it. */
 void standing_complete(job_spec *spec, const char *duration, problem_list *problems);

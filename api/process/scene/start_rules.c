@@ -67,7 +67,7 @@ static json_t *look_up(const job_spec *spec, double *particles, problem_list *pr
 
 json_t *start_find(job_spec *spec, problem_list *problems)
 {
-    drum_inputs *inputs = &spec->inputs;
+    scene_inputs *inputs = &spec->inputs;
     inputs->start.bed_particles = NAN;
     if (isnan(inputs->start.given) || !check_choice(&inputs->start, problems) || inputs->start.particle_count > 0) return NULL;
     double particles = NAN;
@@ -86,7 +86,7 @@ static void refuse_species(size_t particle, double species, size_t kinds, proble
     problem_list_add(problems, pointer, "is %g; must be in [0, %zu]: particles has %zu kinds", species, kinds - 1, kinds);
 }
 
-bool start_count_particles(const drum_inputs *inputs, dem_drum_definition *drum, problem_list *problems)
+bool start_count_particles(const scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
 {
     const start_inputs *start = &inputs->start;
     const double count = (double)start->particle_count;
@@ -115,14 +115,14 @@ bool start_count_particles(const drum_inputs *inputs, dem_drum_definition *drum,
 }
 
 /* Not one that was refused. */
-static bool has_place(const start_particle *particle, const dem_drum_definition *drum)
+static bool has_place(const start_particle *particle, const dem_scene_definition *drum)
 {
     return !isnan(particle->position[0] + particle->position[1] + particle->position[2])
            && particle->species < (double)drum->species_count;
 }
 
 /* Every sphere of every particle that has a place, for free(); NULL: no memory. */
-static placed_sphere *all_spheres(const start_inputs *start, const dem_drum_definition *drum, size_t *count)
+static placed_sphere *all_spheres(const start_inputs *start, const dem_scene_definition *drum, size_t *count)
 {
     size_t room = 1;
     for (size_t p = 0; p < start->particle_count; p++)
@@ -149,7 +149,7 @@ static placed_sphere *all_spheres(const start_inputs *start, const dem_drum_defi
     return spheres;
 }
 
-static void check_inside(const placed_sphere *s, const dem_drum_definition *drum, problem_list *problems)
+static void check_inside(const placed_sphere *s, const dem_scene_definition *drum, problem_list *problems)
 {
     const double most = MOST_START_OVERLAP * 2 * s->radius, from_axis = sqrt(s->x[0] * s->x[0] + s->x[1] * s->x[1]);
     const double room = 0.5 * drum->diameter - s->radius + most;
@@ -168,7 +168,7 @@ static void check_inside(const placed_sphere *s, const dem_drum_definition *drum
 }
 
 /* m that a sphere is in the bar that overlaps it most; below 0: outside. Bars stand about the angles 2 pi k/count at first. */
-static double depth_in_bars(const double x[2], double radius, const dem_drum_definition *drum)
+static double depth_in_bars(const double x[2], double radius, const dem_scene_definition *drum)
 {
     const dem_lifters *bars = &drum->lifters;
     double deepest = -INFINITY;
@@ -184,7 +184,7 @@ static double depth_in_bars(const double x[2], double radius, const dem_drum_def
 }
 
 /* The same of the lining's spheres, rows of them around the wall: the one that is nearest. */
-static double depth_in_lining(const placed_sphere *s, const double x[2], const dem_drum_definition *drum)
+static double depth_in_lining(const placed_sphere *s, const double x[2], const dem_scene_definition *drum)
 {
     const dem_lining *lining = &drum->lining;
     const double at = 0.5 * (drum->diameter - lining->diameter);
@@ -197,7 +197,7 @@ static double depth_in_lining(const placed_sphere *s, const double x[2], const d
 }
 
 /* rate: of rotation as asked for; below 0 bars and lining are the mirror image, too. */
-static void check_beside_wall(const placed_sphere *s, const dem_drum_definition *drum, double rate, problem_list *problems)
+static void check_beside_wall(const placed_sphere *s, const dem_scene_definition *drum, double rate, problem_list *problems)
 {
     const double x[2] = { rate < 0.0 ? -s->x[0] : s->x[0], s->x[1] };
     const double in_bars = drum->lifters.count ? depth_in_bars(x, s->radius, drum) : -INFINITY;
@@ -223,7 +223,7 @@ static void tell_overlap(const placed_pair *pair, problem_list *problems)
                      pair->low, pair->overlap, pair->most, MOST_START_OVERLAP);
 }
 
-static void check_overlaps(placed_sphere *spheres, size_t count, const dem_drum_definition *drum, problem_list *problems)
+static void check_overlaps(placed_sphere *spheres, size_t count, const dem_scene_definition *drum, problem_list *problems)
 {
     placed_pair pair[ENOUGH_OVERLAPS + 1];
     const double period = !drum->ends.are_walls && drum->length > 0.0 ? drum->length : 0.0;
@@ -233,7 +233,7 @@ static void check_overlaps(placed_sphere *spheres, size_t count, const dem_drum_
         problem_list_add(problems, "/inputs/start/particles", "overlap in more than these %d pairs", ENOUGH_OVERLAPS);
 }
 
-void start_check_particles(const drum_inputs *inputs, const dem_drum_definition *drum, problem_list *problems)
+void start_check_particles(const scene_inputs *inputs, const dem_scene_definition *drum, problem_list *problems)
 {
     size_t count;
     const size_t before = json_array_size(problems->errors);
@@ -291,7 +291,7 @@ void start_compare(const job_spec *spec, const json_t *origin, problem_list *pro
 {
     static const char *const compared[] = { "drum", "particles", "wall" };
     const json_t *then = json_object_get(origin, "inputs");
-    const double asked = (double)spec->drum.particle_count, there = spec->inputs.start.bed_particles;
+    const double asked = (double)spec->scene.particle_count, there = spec->inputs.start.bed_particles;
     if (asked > there || asked < there)
         problem_list_add(problems, isnan(spec->inputs.particle_count) ? "/inputs/fill_fraction" : "/inputs/particle_count",
                          "makes %.0f particles; must be left out, or make %.0f, as many as the bed that it starts from has", asked,

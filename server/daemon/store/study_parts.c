@@ -74,7 +74,7 @@ static bool put_part(study_parts *parts, const job_spec *spec, const void *input
     return number > 0 && json_object_set_new(object, "particles", json_sprintf("part %lld", (long long)number)) == 0;
 }
 
-static size_t spheres_of(const drum_inputs *inputs)
+static size_t spheres_of(const scene_inputs *inputs)
 {
     size_t spheres = 0;
     for (size_t s = 0; s < inputs->species_count; s++) spheres += 1 + inputs->species[s].sphere_count;
@@ -84,7 +84,7 @@ static size_t spheres_of(const drum_inputs *inputs)
 char *study_parts_write(study_parts *parts, const job_spec *spec)
 {
     if (spec->type->inputs_at != offsetof(job_spec, inputs)) return job_spec_to_text(spec);
-    const drum_inputs *inputs = &spec->inputs;
+    const scene_inputs *inputs = &spec->inputs;
     const bool long_species = spheres_of(inputs) > MOST_SPHERES_WITH_JOB, placed = inputs->start.particle_count > 0;
     if (!long_species && !placed) return job_spec_to_text(spec);
     job_spec *brief = malloc(sizeof *brief);

@@ -73,7 +73,7 @@ static void mirror_fields(const dem_field_arrays *fields, size_t cells)
     mirror_vectors(fields->velocity, cells * cells);
 }
 
-bool fields_file_write(const dem_scene *scene, bool is_mirrored, const double *sums, const dem_drum_definition *drum,
+bool fields_file_write(const dem_scene *scene, bool is_mirrored, const double *sums, const dem_scene_definition *drum,
                        const char *params)
 {
     const size_t cells = dem_fields_cells(scene), n = cells * cells;

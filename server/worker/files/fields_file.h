@@ -8,7 +8,7 @@
 
 /* sums: of dem_fields_add. params: the canonical spec. False: the disk, or no memory
  * (logged). */
-bool fields_file_write(const dem_scene *scene, bool is_mirrored, const double *sums, const dem_drum_definition *drum,
+bool fields_file_write(const dem_scene *scene, bool is_mirrored, const double *sums, const dem_scene_definition *drum,
                        const char *params);
 
 #endif

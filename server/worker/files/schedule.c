@@ -15,7 +15,7 @@ static int64_t count_until(double steps_between, int64_t end, int strictly_befor
 
 schedule schedule_of(const job_spec *spec)
 {
-    const double dt = spec->drum.time_step;
+    const double dt = spec->scene.time_step;
     schedule plan = {
         .steps_per_sample = spec->sample_interval / dt,
         .steps_per_snapshot = spec->snapshot_interval / dt,

@@ -51,7 +51,7 @@ static json_t *find_file(void *context, const start_inputs *start, double *parti
     }
     /* A bed that was itself placed particle by particle does not tell its number here: the spec must. */
     if (problem_list_init(&none) && job_spec_parse(NULL, origin, 0, &made_by, &none)) {
-        *particles = (double)made_by.drum.particle_count;
+        *particles = (double)made_by.scene.particle_count;
         job_spec_clear(&made_by);
     }
     problem_list_clear(&none);
@@ -150,7 +150,8 @@ static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const
         p.velocity[c] = (double)s->velocity[3 * i + (size_t)c];
         p.angular_velocity[c] = (double)s->spin[3 * i + (size_t)c];
     }
-    for (int c = 0; c < 4 && species->cluster.sphere_count; c++) p.orientation[c] = s->orientation ? (double)s->orientation[4 * i + (size_t)c] : p.orientation[c];
+    for (int c = 0; c < 4 && species->cluster.sphere_count; c++)
+        p.orientation[c] = s->orientation ? (double)s->orientation[4 * i + (size_t)c] : p.orientation[c];
     if (is_mirrored) mirror_particle(&p);
     if (species->cluster.sphere_count == 0) return p;
     dem_turn(p.orientation, species->cluster.sphere[0].position, r);
@@ -165,7 +166,7 @@ static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const
 
 static dem_status place_snapshot(const snapshot_arrays *s, const job_spec *spec, dem_scene *scene)
 {
-    const dem_drum_definition *drum = &spec->drum;
+    const dem_scene_definition *drum = &spec->scene;
     dem_placed_particle *particles = calloc(s->count ? s->count : 1, sizeof *particles);
     size_t count = 0;
     if (!particles) return DEM_NO_MEMORY;

@@ -30,8 +30,8 @@
     " \"duration\": {\"revolutions\": 1}, \"seed\": 1}}"
 #define DRUM_DIAMETER 0.0756
 #define AS_USUAL 0.01
-#define CLUSTERS_USUAL 0.02 /* as in the paper's rows of clusters */
-#define FLOWING_SECONDS 0.2 /* of rotation, until the bed flows */
+#define CLUSTERS_USUAL 0.02     /* as in the paper's rows of clusters */
+#define FLOWING_SECONDS 0.2     /* of rotation, until the bed flows */
 #define GROWING_BY_FLOWING 1.35 /* cost of a flowing bed by that of one that grows */
 
 #define IN_PART ", in part" /* behind the program's name: so it is no current calibration, and measured again */
@@ -45,7 +45,7 @@ static double processor_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static bool define(double diameter, double length, const char *shape, const char *law, double overlap, dem_drum_definition *drum)
+static bool define(double diameter, double length, const char *shape, const char *law, double overlap, dem_scene_definition *drum)
 {
     char text[600];
     problem_list problems;
@@ -55,7 +55,7 @@ static bool define(double diameter, double length, const char *shape, const char
     json_t *request = json_loads(text, 0, NULL);
     const bool good = request && job_spec_parse("drum", request, 1, &spec, &problems);
     if (good) {
-        *drum = spec.drum;
+        *drum = spec.scene;
         job_spec_clear(&spec);
     }
     json_decref(request);
@@ -71,8 +71,8 @@ static bool advance(dem_scene *scene, int64_t steps)
     bool good = true;
     for (int64_t done = 0; good && done < steps; done += STEPS_BETWEEN_LOOKS) {
         const int64_t rest = steps - done;
-        good = measuring_time_is_left()
-               && dem_scene_advance(scene, rest < STEPS_BETWEEN_LOOKS ? rest : STEPS_BETWEEN_LOOKS) == DEM_OK;
+        good =
+            measuring_time_is_left() && dem_scene_advance(scene, rest < STEPS_BETWEEN_LOOKS ? rest : STEPS_BETWEEN_LOOKS) == DEM_OK;
     }
     return good;
 }
@@ -105,25 +105,24 @@ static void forget_contacts(dem_state *state)
 }
 
 /* A bed that flows, of which others start. */
-static bool make_bed(const dem_drum_definition *drum, dem_state *state)
+static bool make_bed(const dem_scene_definition *drum, dem_state *state)
 {
     dem_scene *scene;
     if (dem_scene_create(drum, &scene) != DEM_OK) return false;
     bool good = true;
-    while (good && dem_scene_phase(scene) != DEM_PHASE_ROTATING) good = advance(scene, 100);
+    while (good && dem_scene_phase(scene) != DEM_PHASE_RUNNING) good = advance(scene, 100);
     good = good && advance(scene, (int64_t)(FLOWING_SECONDS / drum->time_step)) && dem_scene_save(scene, state) == DEM_OK;
     dem_scene_free(scene);
     if (good) forget_contacts(state);
     return good;
 }
 
-static double cost_from_bed(const dem_drum_definition *drum, const dem_state *state)
+static double cost_from_bed(const dem_scene_definition *drum, const dem_state *state)
 {
     dem_scene *scene;
     double cost = 0.0;
     if (dem_scene_create(drum, &scene) != DEM_OK) return 0.0;
-    if (dem_scene_restore(scene, state) == DEM_OK && advance(scene, WARMING_STEPS))
-        cost = cost_of(scene, MEASURED_STEPS, advance);
+    if (dem_scene_restore(scene, state) == DEM_OK && advance(scene, WARMING_STEPS)) cost = cost_of(scene, MEASURED_STEPS, advance);
     dem_scene_free(scene);
     return cost;
 }
@@ -131,7 +130,7 @@ static double cost_from_bed(const dem_drum_definition *drum, const dem_state *st
 /* Each law's cost in one bed of this shape; laws from 0 to `laws`. */
 static bool measure_laws(const char *shape, double length, double overlap, int laws, double cost[CALIBRATION_LAWS])
 {
-    dem_drum_definition drum;
+    dem_scene_definition drum;
     dem_state state = { .array_count = 0 };
     bool good = define(DRUM_DIAMETER, length, shape, contact_law_names[0], overlap, &drum) && make_bed(&drum, &state);
     for (int law = 0; good && law < laws; law++) {
@@ -145,7 +144,7 @@ static bool measure_laws(const char *shape, double length, double overlap, int l
 
 static double cost_of_growing(double diameter, double length, int64_t steps, double *spheres)
 {
-    dem_drum_definition drum;
+    dem_scene_definition drum;
     dem_scene *scene;
     if (!define(diameter, length, "sphere", contact_law_names[0], AS_USUAL, &drum)) return 0.0;
     if (dem_scene_create(&drum, &scene) != DEM_OK) return 0.0;
@@ -224,7 +223,8 @@ static bool measure(calibration *machine, bool *whole)
     *whole = measure_laws("sphere", 0.0252, AS_USUAL, CALIBRATION_LAWS, better.sphere)
              && measure_laws("tetrahedron", 0.0264, CLUSTERS_USUAL, 1, better.cluster);
     /* Joining spheres costs the same with any law. */
-    for (int law = 1; law < CALIBRATION_LAWS; law++) better.cluster[law] = better.cluster[0] + better.sphere[law] - better.sphere[0];
+    for (int law = 1; law < CALIBRATION_LAWS; law++)
+        better.cluster[law] = better.cluster[0] + better.sphere[law] - better.sphere[0];
     if (*whole) *machine = better;
     else snprintf(machine->program + strlen(machine->program), CALIBRATION_TEXT - strlen(machine->program), IN_PART);
     return true;

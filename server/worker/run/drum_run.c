@@ -25,13 +25,13 @@ static dem_status end_when_known(const scene_run *run, const char **ended_by)
 /* Fields are of a bed that has begun to flow: from a quarter of a revolution on, or of the run where that is shorter. */
 static dem_status add_fields(const scene_run *run, double *tally)
 {
-    const double rate = fabs(run->spec->drum.rotation_rate), quarter = rate > 0 ? asin(1) / rate : 0.0;
+    const double rate = fabs(run->spec->scene.rotation_rate), quarter = rate > 0 ? asin(1) / rate : 0.0;
     return dem_scene_time(run->scene) < fmin(quarter, 0.25 * run->spec->duration) ? DEM_OK : dem_fields_add(run->scene, tally);
 }
 
 static bool write_fields(const scene_run *run)
 {
-    return fields_file_write(run->scene, run->spec->is_mirrored, run->tally, &run->spec->drum, run->params);
+    return fields_file_write(run->scene, run->spec->is_mirrored, run->tally, &run->spec->scene, run->params);
 }
 
 static const char *ended_by_time(const job_spec *spec)

@@ -23,8 +23,8 @@ double monotonic_seconds(void)
 void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *scene, double earlier_seconds)
 {
     const job_estimate estimate = job_spec_estimate(spec, NULL);
-    const double now = monotonic_seconds(), settling = dem_settling_time(&spec->drum) / spec->drum.time_step;
-    const bool may_end_early = spec->drum.container != DEM_DRUM;
+    const double now = monotonic_seconds(), settling = dem_settling_time(&spec->scene) / spec->scene.time_step;
+    const bool may_end_early = spec->scene.container != DEM_DRUM;
     *run = (progress){
         .started = now,
         .last_report = now,
@@ -39,17 +39,14 @@ void progress_init(progress *run, const job_spec *spec, const schedule *plan, co
 
 /* Share of a part of the run of which so many of the steps expected are done: nine tenths as the estimate has it, and
  * what takes longer comes ever nearer to the end of its part. */
-static double share_of_expected(double done)
-{
-    return done < 0.9 ? done : 1.0 - 0.1 * exp(-(done - 0.9) / 0.1);
-}
+static double share_of_expected(double done) { return done < 0.9 ? done : 1.0 - 0.1 * exp(-(done - 0.9) / 0.1); }
 
 /* A number between 0 and 1 that follows from the scene's phase and step alone and grows with them, whatever the bed really
  * took: making the bed and the rest of the run have the shares of the whole that they are estimated to have. */
 static double share_done(const progress *run, const dem_scene *scene)
 {
     const double whole = run->settling_steps + run->rotation_steps, of_settling = run->settling_steps / whole;
-    const double step = (double)dem_scene_step_count(scene), start = (double)dem_scene_rotation_start(scene);
+    const double step = (double)dem_scene_step_count(scene), start = (double)dem_scene_run_start(scene);
     if (start < 0) return run->settling_steps > 0 ? of_settling * share_of_expected(step / run->settling_steps) : 0.0;
     const double done = (step - start) / run->rotation_steps;
     return of_settling + (1.0 - of_settling) * (run->may_end_early ? share_of_expected(done) : fmin(done, 1.0));

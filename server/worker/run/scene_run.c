@@ -47,14 +47,14 @@ static enum worker_exit fail(scene_run *r, dem_status status)
 static enum worker_exit fail_for_disk(scene_run *r, const char *name) { return failure_report_disk(r->events, name); }
 
 /* Steps since rotation began. */
-static int64_t rotation_step(const scene_run *r) { return dem_scene_step_count(r->scene) - dem_scene_rotation_start(r->scene); }
+static int64_t rotation_step(const scene_run *r) { return dem_scene_step_count(r->scene) - dem_scene_run_start(r->scene); }
 
-static bool is_rotating(const scene_run *r) { return dem_scene_phase(r->scene) == DEM_PHASE_ROTATING; }
+static bool is_rotating(const scene_run *r) { return dem_scene_phase(r->scene) == DEM_PHASE_RUNNING; }
 
 static dem_status advance(scene_run *r)
 {
     int64_t steps = progress_short_run(&r->progress);
-    if (!is_rotating(r)) return dem_scene_advance_to_rotation(r->scene, steps);
+    if (!is_rotating(r)) return dem_scene_advance_to_run(r->scene, steps);
     int64_t due = r->plan.rotation_steps;
     if (r->next_sample < r->plan.samples && schedule_sample_step(&r->plan, r->next_sample) < due)
         due = schedule_sample_step(&r->plan, r->next_sample);
@@ -103,7 +103,7 @@ static bool write_series(scene_run *r, bool now)
 {
     if (!now && r->next_snapshot >= SERIES_ALWAYS_BELOW && monotonic_seconds() - r->last_series < SERIES_SECONDS) return true;
     r->last_series = monotonic_seconds();
-    return snapshot_series_write(&r->plan, r->spec->drum.time_step, r->next_snapshot);
+    return snapshot_series_write(&r->plan, r->spec->scene.time_step, r->next_snapshot);
 }
 
 static enum worker_exit take_snapshot(scene_run *r)
@@ -168,8 +168,8 @@ static enum worker_exit save_checkpoint(scene_run *r)
         .next_sample = r->next_sample,
         .next_snapshot = r->next_snapshot,
         .wall_seconds = progress_wall_seconds(&r->progress),
-        .time_step = r->spec->drum.time_step,
-        .stiffness = r->spec->drum.contact.stiffness,
+        .time_step = r->spec->scene.time_step,
+        .stiffness = r->spec->scene.contact.stiffness,
         .frames = r->frames,
         .frame_width = r->frame_width,
     };
@@ -228,7 +228,7 @@ static enum worker_exit run_to_the_end(scene_run *r)
 
 run_facts scene_run_facts(const scene_run *r)
 {
-    const dem_drum_definition *drum = &r->spec->drum;
+    const dem_scene_definition *drum = &r->spec->scene;
     const double spheres = (double)dem_scene_sphere_count(r->scene);
     const double steps = (double)dem_scene_step_count(r->scene), wall = progress_wall_seconds(&r->progress);
     return (run_facts){
@@ -237,7 +237,7 @@ run_facts scene_run_facts(const scene_run *r)
         .steps = steps,
         .time_step = drum->time_step,
         .simulated_seconds = dem_scene_time(r->scene),
-        .settling_seconds = (double)dem_scene_rotation_start(r->scene) * drum->time_step,
+        .settling_seconds = (double)dem_scene_run_start(r->scene) * drum->time_step,
         .wall_seconds = wall,
         .particle_steps_per_second = spheres * steps / wall,
         .maximum_overlap = dem_scene_maximum_overlap(r->scene),
@@ -290,7 +290,7 @@ static file_state resume(scene_run *r, const char *name, double *earlier_seconds
     const file_state state = checkpoint_read(&saved, name, r->params);
     if (state != FILE_WHOLE) return state;
     /* Another version of the program may derive other numbers from the same inputs. */
-    const bool fits = saved.time_step == r->spec->drum.time_step && saved.stiffness == r->spec->drum.contact.stiffness
+    const bool fits = saved.time_step == r->spec->scene.time_step && saved.stiffness == r->spec->scene.contact.stiffness
                       && saved.frame_width == r->frame_width && saved.next_sample <= r->plan.samples && saved.next_snapshot >= 0
                       && saved.next_snapshot <= r->plan.snapshots && restore_tally(r, &saved.state);
     const dem_status status = fits ? dem_scene_restore(r->scene, &saved.state) : DEM_STATE_MISMATCH;
@@ -313,8 +313,8 @@ static dem_status prepare_scene(scene_run *r, bool with_start)
     free(r->frames);
     free(r->tally);
     r->frames = r->tally = NULL;
-    dem_status status = dem_scene_create(&r->spec->drum, &r->scene);
-    if (status == DEM_OK && r->spec->drum.is_placed && with_start) status = start_scene(r->spec, r->scene);
+    dem_status status = dem_scene_create(&r->spec->scene, &r->scene);
+    if (status == DEM_OK && r->spec->scene.is_placed && with_start) status = start_scene(r->spec, r->scene);
     if (status != DEM_OK) return status;
     r->frame_width = r->test->frame_width(r->scene);
     r->frames = calloc((size_t)r->plan.samples, r->frame_width * sizeof *r->frames);
@@ -368,10 +368,10 @@ static enum worker_exit begin(scene_run *r)
     const job_estimate estimate = job_spec_estimate(r->spec, NULL);
     worker_log("attempt %d %s step %lld, %s: %zu particles, time step %.3g s, about %.3g steps, threads %d, %s, %s precision",
                r->options->attempt, resumed ? "goes on from" : "starts at", (long long)dem_scene_step_count(r->scene),
-               dem_scene_phase_name(r->scene), dem_scene_particle_count(r->scene), r->spec->drum.time_step, estimate.steps,
-               r->spec->drum.threads, dem_build_isa(), dem_build_precision());
+               dem_scene_phase_name(r->scene), dem_scene_particle_count(r->scene), r->spec->scene.time_step, estimate.steps,
+               r->spec->scene.threads, dem_build_isa(), dem_build_precision());
     json_t *event = json_pack("{s:i, s:b, s:I, s:f, s:I}", "attempt", r->options->attempt, "resumed", resumed, "particles",
-                              (json_int_t)dem_scene_particle_count(r->scene), "time_step", r->spec->drum.time_step, "total_steps",
+                              (json_int_t)dem_scene_particle_count(r->scene), "time_step", r->spec->scene.time_step, "total_steps",
                               (json_int_t)estimate.steps);
     if (!add_event(r, "start", event)) return WORKER_DISK;
     return resumed ? end_again(r) : WORKER_DONE;
@@ -388,7 +388,7 @@ enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
                     .plan = schedule_of(job->spec) };
     enum worker_exit exit = begin(&r);
     if (exit == WORKER_DONE) exit = run_to_the_end(&r);
-    if (exit == WORKER_DONE && job->spec->drum.container == DEM_DRUM)
+    if (exit == WORKER_DONE && job->spec->scene.container == DEM_DRUM)
         exit = save_checkpoint(&r); /* another run may start from here */
     if (exit == WORKER_DONE && !write_profile(&r)) exit = fail_for_disk(&r, JOB_PROFILE_FILE);
     if (exit == WORKER_DONE) exit = write_result(&r);

@@ -101,16 +101,16 @@ static void a_minimal_request_gets_every_default(void **state)
     (void)state;
     job_spec spec = parse_or_fail(load(minimal));
     assert_string_equal(spec.process, "drum");
-    assert_true(spec.drum.fill_fraction == 0.5 && spec.drum.gravity == 9.81);
-    assert_true(spec.drum.contact.friction == 0.3 && spec.drum.contact.wall_friction == 0.5);
-    assert_true(spec.drum.contact.restitution == 0.8 && spec.drum.contact.tangential_stiffness_ratio == 0.8);
+    assert_true(spec.scene.fill_fraction == 0.5 && spec.scene.gravity == 9.81);
+    assert_true(spec.scene.contact.friction == 0.3 && spec.scene.contact.wall_friction == 0.5);
+    assert_true(spec.scene.contact.restitution == 0.8 && spec.scene.contact.tangential_stiffness_ratio == 0.8);
     assert_true(spec.maximum_overlap == 0.01 && spec.snapshot_interval == 0.1);
-    assert_true(spec.drum.species[0].density == 2500 && spec.drum.species[0].share == 1);
-    assert_true(spec.drum.lining.diameter == 0);
-    assert_int_equal(spec.drum.threads, 1);
-    assert_int_equal(spec.drum.seed, 42);
+    assert_true(spec.scene.species[0].density == 2500 && spec.scene.species[0].share == 1);
+    assert_true(spec.scene.lining.diameter == 0);
+    assert_int_equal(spec.scene.threads, 1);
+    assert_int_equal(spec.scene.seed, 42);
     /* 0.5 x pi/4 x 0.05^2 x 0.02 m3 at a solid fraction of 0.6, over pi/6 x 0.005^3 m3: 180 */
-    assert_int_equal(spec.drum.particle_count, 180);
+    assert_int_equal(spec.scene.particle_count, 180);
     /* 1.25 revolutions at 3 rad/s */
     assert_true(fabs(spec.duration - 1.25 * 2 * 3.14159265358979 / 3) < 1e-12);
     assert_true(spec.sample_interval > 0 && spec.sample_interval <= 0.05);
@@ -145,7 +145,7 @@ static void a_canonical_spec_is_read_and_written_with_the_same_bytes(void **stat
         job_spec second = parse_or_fail(load(text));
         char *again = job_spec_to_text(&second);
         assert_string_equal(text, again);
-        assert_memory_equal(&first.drum, &second.drum, sizeof first.drum);
+        assert_memory_equal(&first.scene, &second.scene, sizeof first.scene);
         assert_true(first.duration == second.duration && first.sample_interval == second.sample_interval);
         free(text);
         free(again);
@@ -238,15 +238,15 @@ static void a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own(vo
 {
     (void)state;
     job_spec spec = parse_or_fail(minimal_with("drum/ends", "\"walls\""));
-    assert_true(spec.drum.ends.are_walls);
-    assert_true(spec.drum.ends.friction == spec.drum.contact.wall_friction);
-    assert_true(spec.drum.ends.rolling_friction == 0);
-    assert_true(spec.drum.lifters.count == 0);
+    assert_true(spec.scene.ends.are_walls);
+    assert_true(spec.scene.ends.friction == spec.scene.contact.wall_friction);
+    assert_true(spec.scene.ends.rolling_friction == 0);
+    assert_true(spec.scene.lifters.count == 0);
     job_spec_clear(&spec);
     spec = parse_or_fail(minimal_with("drum/lifters", "{\"count\": 6, \"height\": 0.004, \"width\": 0.003, \"friction\": 0.7}"));
-    assert_false(spec.drum.ends.are_walls);
-    assert_int_equal(spec.drum.lifters.count, 6);
-    assert_true(spec.drum.lifters.height == 0.004 && spec.drum.lifters.width == 0.003 && spec.drum.lifters.friction == 0.7);
+    assert_false(spec.scene.ends.are_walls);
+    assert_int_equal(spec.scene.lifters.count, 6);
+    assert_true(spec.scene.lifters.height == 0.004 && spec.scene.lifters.width == 0.003 && spec.scene.lifters.friction == 0.7);
     job_spec_clear(&spec);
 
     expect_problem(
@@ -289,7 +289,7 @@ static void a_cluster_of_named_or_given_spheres_is_one_particle(void **state)
         "{\"position\": [0, 0.0025, 0]}]}}]";
     for (int k = 0; k < 2; k++) {
         job_spec spec = parse_or_fail(minimal_with("particles", k ? by_default : given));
-        const dem_cluster *cluster = &spec.drum.species[0].cluster;
+        const dem_cluster *cluster = &spec.scene.species[0].cluster;
         assert_int_equal(cluster->sphere_count, 2);
         assert_true(fabs(cluster->volume - 3.14159265358979 / 6 * (8e-9 + 27e-9)) < 1e-20);
         assert_true(fabs(cluster->reach - 0.0025 * 27 / 35 - 0.001) < 1e-12); /* the centre divides the distance 27 : 8 */
@@ -298,7 +298,7 @@ static void a_cluster_of_named_or_given_spheres_is_one_particle(void **state)
         job_spec second = parse_or_fail(again);
         char *text_again = job_spec_to_text(&second);
         assert_string_equal(text, text_again); /* canonical */
-        assert_memory_equal(&spec.drum, &second.drum, sizeof spec.drum);
+        assert_memory_equal(&spec.scene, &second.scene, sizeof spec.scene);
         free(text);
         free(text_again);
         job_spec_clear(&spec);
@@ -307,8 +307,8 @@ static void a_cluster_of_named_or_given_spheres_is_one_particle(void **state)
     /* a fill counts bodies, by their volume; stiffness grows with their mass */
     job_spec sphere = parse_or_fail(minimal_with("particles", "[{\"diameter\": 0.002}]"));
     job_spec cube = parse_or_fail(minimal_with("particles", "[{\"diameter\": 0.002, \"shape\": \"cube\"}]"));
-    assert_true(fabs((double)sphere.drum.particle_count / (double)cube.drum.particle_count - 8) < 0.05);
-    assert_true(cube.drum.contact.stiffness > 8 * sphere.drum.contact.stiffness);
+    assert_true(fabs((double)sphere.scene.particle_count / (double)cube.scene.particle_count - 8) < 0.05);
+    assert_true(cube.scene.contact.stiffness > 8 * sphere.scene.contact.stiffness);
     job_spec_clear(&sphere);
     job_spec_clear(&cube);
 }
@@ -374,11 +374,11 @@ static void each_law_takes_its_own_elasticity(void **state)
                    "(N/m) or maximum_overlap; youngs_modulus is for hertz-mindlin\n");
     job_spec spec =
         parse_or_fail(minimal_with("contact", "{\"law\": \"hertz-mindlin\", \"youngs_modulus\": 5e7, \"poissons_ratio\": 0.25}"));
-    assert_true(spec.drum.contact.law == DEM_HERTZ_MINDLIN && spec.drum.contact.particle.youngs_modulus > 4.999e7
-                && spec.drum.contact.particle.youngs_modulus < 5.001e7 && spec.drum.contact.wall.poissons_ratio == 0.25);
+    assert_true(spec.scene.contact.law == DEM_HERTZ_MINDLIN && spec.scene.contact.particle.youngs_modulus > 4.999e7
+                && spec.scene.contact.particle.youngs_modulus < 5.001e7 && spec.scene.contact.wall.poissons_ratio == 0.25);
     job_spec_clear(&spec);
     spec = parse_or_fail(minimal_with("contact", "{\"law\": \"spring-dashpot\"}"));
-    assert_true(spec.drum.contact.law == DEM_SPRING_DASHPOT);
+    assert_true(spec.scene.contact.law == DEM_SPRING_DASHPOT);
     job_spec_clear(&spec);
 }
 
@@ -391,10 +391,10 @@ static void one_of_two_alternatives_is_enough_and_both_are_too_much(void **state
     assert_string_equal(problems, "/inputs/contact/stiffness: is given beside maximum_overlap; give one of the two\n");
     free(problems);
     job_spec spec = parse_or_fail(minimal_with("contact/stiffness", "4000"));
-    assert_true(spec.drum.contact.stiffness == 4000 && spec.maximum_overlap == 0);
+    assert_true(spec.scene.contact.stiffness == 4000 && spec.maximum_overlap == 0);
     job_spec_clear(&spec);
     spec = parse_or_fail(minimal_with("particle_count", "180"));
-    assert_true(fabs(spec.drum.fill_fraction - 0.5) < 1e-9); /* as the minimal drum half full has 180 */
+    assert_true(fabs(spec.scene.fill_fraction - 0.5) < 1e-9); /* as the minimal drum half full has 180 */
     job_spec_clear(&spec);
 }
 
@@ -532,7 +532,7 @@ static void the_estimate_of_settling_follows_how_few_grains_there_are(void **sta
                  runs[k].drum, runs[k].particles);
         job_spec spec = parse_or_fail(load(text));
         const double settling = job_spec_estimate(&spec, NULL).simulated_seconds - 0.1;
-        assert_true(fabs(settling / sqrt(spec.drum.diameter / spec.drum.gravity) / runs[k].falls - 1) < 0.2);
+        assert_true(fabs(settling / sqrt(spec.scene.diameter / spec.scene.gravity) / runs[k].falls - 1) < 0.2);
         job_spec_clear(&spec);
     }
 }
@@ -613,8 +613,8 @@ static void shares_by_volume_and_mass_become_shares_by_number(void **state)
                                                     " {\"diameter\": 0.002, \"density\": 1000, \"share\": 0.5}]");
         json_object_set_new(json_object_get(request, "inputs"), "share_by", json_loads(by[k], JSON_DECODE_ANY, NULL));
         job_spec spec = parse_or_fail(request);
-        assert_true(fabs(spec.drum.species[0].share - few[k]) < 1e-15);
-        assert_true(fabs(spec.drum.species[1].share - (1 - few[k])) < 1e-15);
+        assert_true(fabs(spec.scene.species[0].share - few[k]) < 1e-15);
+        assert_true(fabs(spec.scene.species[1].share - (1 - few[k])) < 1e-15);
         job_spec_clear(&spec);
     }
     /* of the 180 particles of the minimal bed */
@@ -631,15 +631,15 @@ static void variable_unloading_takes_its_slope_from_the_restitution_or_the_other
 {
     (void)state;
     job_spec constant = parse_or_fail(load(minimal));
-    assert_true(constant.drum.contact.unloading_slope == 0);
+    assert_true(constant.scene.contact.unloading_slope == 0);
     job_spec spec = parse_or_fail(minimal_with("contact/unloading", "\"variable\""));
-    assert_true(fabs(spec.drum.contact.unloading_slope - 11250) < 1e-6);
-    assert_true(spec.drum.contact.restitution == 0.8 && spec.drum.time_step == constant.drum.time_step);
+    assert_true(fabs(spec.scene.contact.unloading_slope - 11250) < 1e-6);
+    assert_true(spec.scene.contact.restitution == 0.8 && spec.scene.time_step == constant.scene.time_step);
     job_spec_clear(&spec);
     json_t *request = minimal_with("contact/unloading", "\"variable\"");
     json_object_set_new(json_object_get(json_object_get(request, "inputs"), "contact"), "unloading_slope", json_real(11250));
     spec = parse_or_fail(request);
-    assert_true(spec.drum.contact.unloading_slope == 11250 && fabs(spec.drum.contact.restitution - 0.8) < 1e-12);
+    assert_true(spec.scene.contact.unloading_slope == 11250 && fabs(spec.scene.contact.restitution - 0.8) < 1e-12);
     job_spec_clear(&spec);
     job_spec_clear(&constant);
 
@@ -663,10 +663,10 @@ static void contacts_resist_rolling_where_asked_for(void **state)
     expect_problem("contact/rolling_friction", "1.5", "/inputs/contact/rolling_friction: is 1.5; must be in [0, 1]\n");
     expect_problem("wall", "{\"rolling_friction\": -0.1}", "/inputs/wall/rolling_friction: is -0.1; must be in [0, 1]\n");
     job_spec spec = parse_or_fail(minimal_with("contact/rolling_friction", "0.1"));
-    assert_true(spec.drum.contact.rolling_friction == 0.1 && spec.drum.contact.wall_rolling_friction == 0);
+    assert_true(spec.scene.contact.rolling_friction == 0.1 && spec.scene.contact.wall_rolling_friction == 0);
     job_spec_clear(&spec);
     spec = parse_or_fail(minimal_with("wall", "{\"rolling_friction\": 0.2}"));
-    assert_true(spec.drum.contact.rolling_friction == 0 && spec.drum.contact.wall_rolling_friction == 0.2);
+    assert_true(spec.scene.contact.rolling_friction == 0 && spec.scene.contact.wall_rolling_friction == 0.2);
     job_spec_clear(&spec);
 }
 
@@ -674,15 +674,15 @@ static void corrector_passes_are_one_unless_asked_for(void **state)
 {
     (void)state;
     job_spec spec = parse_or_fail(load(minimal));
-    assert_int_equal(spec.drum.corrector_passes, 1);
+    assert_int_equal(spec.scene.corrector_passes, 1);
     job_spec_clear(&spec);
     spec = parse_or_fail(minimal_with("integration", "{\"corrector_passes\": 3}"));
-    assert_int_equal(spec.drum.corrector_passes, 3);
+    assert_int_equal(spec.scene.corrector_passes, 3);
     job_spec_clear(&spec);
     spec =
         parse_or_fail(load("{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.03}, \"plate\": {\"diameter\": 0.06},"
                            " \"particles\": [{\"diameter\": 0.003}], \"integration\": {\"corrector_passes\": 2}}}"));
-    assert_int_equal(spec.drum.corrector_passes, 2);
+    assert_int_equal(spec.scene.corrector_passes, 2);
     job_spec_clear(&spec);
     expect_problem("integration", "{\"corrector_passes\": 0}", "/inputs/integration/corrector_passes: is 0; must be in [1, 10]\n");
 }
@@ -701,9 +701,9 @@ static void a_list_of_particles_says_how_many_there_are_of_each(void **state)
     (void)state;
     job_spec spec = parse_or_fail(starting_with("[{\"position\": [0, -0.01, 0]}, {\"position\": [0.01, 0, 0], \"species\": 1, "
                                                 "\"orientation\": [1, 0, 0, 1]}, {\"position\": [0, 0, 0.009]}]"));
-    assert_true(spec.drum.is_placed);
-    assert_int_equal(spec.drum.particle_count, 3);
-    assert_true(spec.drum.species[0].share == 2.0 / 3 && spec.drum.species[1].share == 1.0 / 3);
+    assert_true(spec.scene.is_placed);
+    assert_int_equal(spec.scene.particle_count, 3);
+    assert_true(spec.scene.species[0].share == 2.0 / 3 && spec.scene.species[1].share == 1.0 / 3);
     assert_true(spec.inputs.start.particles[1].orientation[3] == 1 && isnan(spec.inputs.start.particles[0].orientation[0]));
     char *text = job_spec_to_text(&spec), *brief = job_spec_to_brief(&spec);
     job_spec again = parse_or_fail(load(text));
@@ -733,7 +733,7 @@ static void the_step_is_short_enough_for_the_speeds_of_a_start(void **state)
             json_t *request = starting_with(lists[k]), *inputs = json_object_get(request, "inputs");
             json_object_set_new(inputs, "contact", json_pack("{s:s}", "law", law ? "hertz-mindlin" : "spring-dashpot"));
             job_spec spec = parse_or_fail(request);
-            step[law][k] = spec.drum.time_step;
+            step[law][k] = spec.scene.time_step;
             job_spec_clear(&spec);
         }
     assert_true(step[0][0] == step[0][1] && step[0][1] == step[0][2]); /* a linear spring's does not depend on speed */
@@ -828,8 +828,8 @@ static void what_a_run_starts_from_must_be_of_the_same_drum_and_particles(void *
         const bool good = job_spec_parse_with(&beds, "drum", request, 1, &spec, &problems);
         assert_int_equal(good, !differs);
         if (good) {
-            assert_int_equal(spec.drum.particle_count, 100);
-            assert_true(spec.drum.is_placed && spec.drum.contact.friction == 0.7);
+            assert_int_equal(spec.scene.particle_count, 100);
+            assert_true(spec.scene.is_placed && spec.scene.contact.friction == 0.7);
             job_spec_clear(&spec);
         } else {
             assert_int_equal(json_array_size(problems.errors), 3);
@@ -897,7 +897,7 @@ static void shares_of_four_digits_sum_to_one(void **state)
     expect_fine("particles", THREE("0.33336"));
     expect_problem("particles", THREE("0.333"), "/inputs/particles: have shares that sum to 0.999; must sum to 1\n");
     job_spec spec = parse_or_fail(minimal_with("particles", THREE("0.3333")));
-    assert_true(fabs(spec.drum.species[0].share + spec.drum.species[1].share + spec.drum.species[2].share - 1.0) < 1e-15);
+    assert_true(fabs(spec.scene.species[0].share + spec.scene.species[1].share + spec.scene.species[2].share - 1.0) < 1e-15);
     job_spec_clear(&spec);
 }
 

@@ -9,9 +9,9 @@
 #include "scene.h"
 
 /* 4 mm spheres in 0.1 m: a drum, to be closed, set up or given bars by the test. */
-static inline dem_drum_definition container_definition(dem_container_kind kind, size_t n)
+static inline dem_scene_definition container_definition(dem_container_kind kind, size_t n)
 {
-    return (dem_drum_definition){
+    return (dem_scene_definition){
         .container = kind,
         .diameter = 0.1,
         .length = 0.06,
@@ -33,7 +33,7 @@ static inline dem_drum_definition container_definition(dem_container_kind kind, 
     };
 }
 
-static inline dem_scene *container_scene(const dem_drum_definition *d)
+static inline dem_scene *container_scene(const dem_scene_definition *d)
 {
     dem_scene *scene = NULL;
     const dem_status status = dem_scene_create(d, &scene);
@@ -56,7 +56,7 @@ static inline void put(dem_scene *scene, const double *position, const double *v
         if (a->element == DEM_FLOAT64) memset(a->data, 0, a->rows * a->columns * sizeof(double));
         if (numbers) memcpy(a->data, numbers, a->rows * a->columns * sizeof(double));
         if (strstr(a->name, "pair") || strstr(a->name, "wall")) a->rows = 0;
-        if (strcmp(a->name, "counters") == 0) memcpy(a->data, (int64_t[]){ DEM_PHASE_ROTATING, 0, 0, 0 }, 4 * sizeof(int64_t));
+        if (strcmp(a->name, "counters") == 0) memcpy(a->data, (int64_t[]){ DEM_PHASE_RUNNING, 0, 0, 0 }, 4 * sizeof(int64_t));
     }
     const dem_status status = dem_scene_restore(scene, &state);
     dem_state_clear(&state);

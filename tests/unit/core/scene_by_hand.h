@@ -13,9 +13,9 @@
 enum { PARKED = 10 };
 
 /* n equal spheres of 4 mm in a wide drum that stands still: room to collide far from the wall. */
-static inline dem_drum_definition hand_definition(size_t n)
+static inline dem_scene_definition hand_definition(size_t n)
 {
-    return (dem_drum_definition){
+    return (dem_scene_definition){
         .diameter = 0.2,
         .length = 0.1,
         .gravity = 9.81,
@@ -35,7 +35,7 @@ static inline dem_drum_definition hand_definition(size_t n)
 }
 
 /* Two species: the first sphere is of the first, all others of the second. */
-static inline void first_sphere_differs(dem_drum_definition *d, dem_species second)
+static inline void first_sphere_differs(dem_scene_definition *d, dem_species second)
 {
     d->species_count = 2;
     d->species[0].share = 1.0 / (double)(d->particle_count + PARKED);
@@ -44,9 +44,9 @@ static inline void first_sphere_differs(dem_drum_definition *d, dem_species seco
 }
 
 /* Created in a drum that they fill, which is then widened to the one asked for. */
-static inline dem_scene *hand_scene(const dem_drum_definition *definition)
+static inline dem_scene *hand_scene(const dem_scene_definition *definition)
 {
-    dem_drum_definition narrow = *definition;
+    dem_scene_definition narrow = *definition;
     narrow.particle_count += PARKED;
     double largest = 0;
     for (size_t k = 0; k < narrow.species_count; k++) largest = fmax(largest, narrow.species[k].diameter);
@@ -57,12 +57,12 @@ static inline dem_scene *hand_scene(const dem_drum_definition *definition)
     if (status != DEM_OK) fail_msg("the test's own scene: %s", dem_status_text(status));
     scene->definition.diameter = definition->diameter;
     scene->definition.length = definition->length;
-    container_init(&scene->drum, definition);
+    container_init(&scene->container, definition);
     return scene;
 }
 
 /* The same without weight, which no definition may ask for. */
-static inline dem_scene *weightless_scene(const dem_drum_definition *definition)
+static inline dem_scene *weightless_scene(const dem_scene_definition *definition)
 {
     dem_scene *scene = hand_scene(definition);
     scene->definition.gravity = 0.0;
@@ -121,10 +121,10 @@ static inline void place_by_hand(dem_scene *scene, const placement *p)
     int64_t *counters = state_array(&state, "counters")->data;
     counters[0] = p->phase;
     counters[1] = counters[2] = 0;
-    counters[3] = p->phase == DEM_PHASE_ROTATING ? 0 : -1;
+    counters[3] = p->phase == DEM_PHASE_RUNNING ? 0 : -1;
     memset(state_array(&state, "numbers")->data, 0, state_array(&state, "numbers")->columns * sizeof(double));
     state_fill(&state, "position", p->position);
-    park(&state, scene->drum.length);
+    park(&state, scene->container.length);
     state_fill(&state, "velocity", p->velocity);
     state_fill(&state, "angular_velocity", p->spin);
     state_replace(&state, "pair", p->pair_count, p->pair, 2 * sizeof(int32_t));

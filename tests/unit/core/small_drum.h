@@ -7,9 +7,9 @@
 #include "dem_rules.h"
 
 /* 40 mm across, 12 mm long, 3 mm spheres, half full: 320 of them. Soft (an overlap of 3 %), to be quick. */
-static inline dem_drum_definition small_drum(void)
+static inline dem_scene_definition small_drum(void)
 {
-    dem_drum_definition d = {
+    dem_scene_definition d = {
         .diameter = 0.04,
         .length = 0.012,
         .rotation_rate = 4,
@@ -26,7 +26,7 @@ static inline dem_drum_definition small_drum(void)
 }
 
 /* Stiffness and time step from the rules (clusters complete), for this overlap as a share of the smallest diameter. */
-static inline void follow_rules(dem_drum_definition *d, double overlap)
+static inline void follow_rules(dem_scene_definition *d, double overlap)
 {
     double smallest = INFINITY, largest = 0, lightest = INFINITY, heaviest = 0;
     for (size_t k = 0; k < d->species_count; k++) {
@@ -42,9 +42,9 @@ static inline void follow_rules(dem_drum_definition *d, double overlap)
 }
 
 /* Two sizes, 1 to 3, one in ten large. */
-static inline dem_drum_definition two_sizes_drum(void)
+static inline dem_scene_definition two_sizes_drum(void)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.diameter = 0.05;
     d.length = 0.018;
     d.species_count = 2;
@@ -55,7 +55,7 @@ static inline dem_drum_definition two_sizes_drum(void)
     return d;
 }
 
-static inline dem_scene *drum_scene(const dem_drum_definition *d)
+static inline dem_scene *drum_scene(const dem_scene_definition *d)
 {
     dem_scene *scene = NULL;
     const dem_status status = dem_scene_create(d, &scene);

@@ -57,9 +57,9 @@ void __wrap_free(void *memory)
 }
 
 /* A few particles in each container, so that a run costs milliseconds. */
-static dem_drum_definition definition_of(dem_container_kind kind)
+static dem_scene_definition definition_of(dem_container_kind kind)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.container = kind;
     d.particle_count = 12;
     d.species_count = 2;
@@ -105,13 +105,13 @@ static dem_status frames_of(dem_scene *scene, double *frames, double *sums)
 }
 
 /* Everything that a job asks of the core. The test's own arrays are libc's, so that they never fail. */
-static dem_status whole_run(const dem_drum_definition *d)
+static dem_status whole_run(const dem_scene_definition *d)
 {
     dem_scene *scene = NULL, *again = NULL;
     dem_state state = { .array_count = 0 };
     double *frames = NULL, *sums = NULL;
     dem_status status = dem_scene_create(d, &scene);
-    if (status == DEM_OK) status = dem_scene_advance_to_rotation(scene, 1000000);
+    if (status == DEM_OK) status = dem_scene_advance_to_run(scene, 1000000);
     if (status == DEM_OK && d->container == DEM_DRUM) {
         frames = __real_calloc(FRAMES * dem_frame_width(scene), sizeof *frames);
         sums = __real_calloc(dem_fields_size(scene), sizeof *sums);
@@ -132,7 +132,7 @@ static dem_status whole_run(const dem_drum_definition *d)
 
 static void whichever_allocation_fails(dem_container_kind kind)
 {
-    const dem_drum_definition d = definition_of(kind);
+    const dem_scene_definition d = definition_of(kind);
     failing_at = -1;
     allocations = alive = 0;
     assert_int_equal(whole_run(&d), DEM_OK);

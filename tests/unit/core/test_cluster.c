@@ -354,7 +354,7 @@ static void a_heavy_top_moves_as_by_another_integration(void **unused)
 static void a_cluster_of_one_is_a_sphere_bit_for_bit(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.species[0] = (dem_species){ .diameter = 0.00390625, .density = 2048, .share = 1 };
     d.particle_count = 120;
     follow_rules(&d, 0.03);
@@ -369,7 +369,7 @@ static void a_cluster_of_one_is_a_sphere_bit_for_bit(void **unused)
         for (int k = 0; k < 2; k++) {
             if (look < 20) run(scenes[k], 150);
             else {
-                run_to_phase(scenes[k], DEM_PHASE_ROTATING);
+                run_to_phase(scenes[k], DEM_PHASE_RUNNING);
                 run(scenes[k], 100);
             }
             dem_scene_particles(scenes[k], &(dem_particle_arrays){ .position = x[k], .velocity = v[k], .angular_velocity = w[k] });
@@ -377,15 +377,15 @@ static void a_cluster_of_one_is_a_sphere_bit_for_bit(void **unused)
         assert_memory_equal(x[0], x[1], sizeof x[0]);
         for (int i = 0; i < 360; i++) assert_true(v[0][i] == v[1][i] && w[0][i] == w[1][i]);
     }
-    assert_int_equal(dem_scene_phase(sphere), DEM_PHASE_ROTATING);
+    assert_int_equal(dem_scene_phase(sphere), DEM_PHASE_RUNNING);
     dem_scene_free(sphere);
     dem_scene_free(cluster);
 }
 
 /* Spheres, tetrahedra, and a bent cluster of three that overlap, with three different moments. */
-static dem_drum_definition mixed_drum(void)
+static dem_scene_definition mixed_drum(void)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.length = 0.02;
     d.species_count = 3;
     d.species[0] = (dem_species){ .diameter = 0.003, .density = 2500, .share = 0.3 };
@@ -423,7 +423,7 @@ static bool same_bits(dem_scene *a, dem_scene *b)
 static void threads_and_restarts_leave_the_same_bits_in_every_phase(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = mixed_drum();
+    dem_scene_definition d = mixed_drum();
     dem_scene *one = drum_scene(&d);
     d.threads = 2;
     for (int look = 0; look < 6; look++) {
@@ -440,7 +440,7 @@ static void threads_and_restarts_leave_the_same_bits_in_every_phase(void **unuse
         assert_true(same_bits(one, two));
         dem_scene_free(two);
     }
-    assert_int_equal(dem_scene_phase(one), DEM_PHASE_ROTATING);
+    assert_int_equal(dem_scene_phase(one), DEM_PHASE_RUNNING);
     dem_scene_free(one);
 }
 
@@ -448,9 +448,9 @@ static void threads_and_restarts_leave_the_same_bits_in_every_phase(void **unuse
 static void spheres_stay_where_their_cluster_puts_them(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = mixed_drum();
+    dem_scene_definition d = mixed_drum();
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     run(scene, 2000);
     const size_t n = dem_scene_sphere_count(scene);
     double *x = calloc(7 * n, sizeof *x), *e = x + 3 * n;
@@ -521,7 +521,7 @@ static motion motion_of(const dem_scene *scene)
 }
 
 /* A drum of 24 bent clusters without weight, all at rest at places of their own but the first two. */
-static dem_scene *weightless_clusters(dem_drum_definition *d, double friction, double restitution)
+static dem_scene *weightless_clusters(dem_scene_definition *d, double friction, double restitution)
 {
     *d = mixed_drum();
     d->species_count = 1;
@@ -536,7 +536,7 @@ static dem_scene *weightless_clusters(dem_drum_definition *d, double friction, d
     dem_scene *scene = drum_scene(d);
     dem_state state; /* goes on at full size and rotating, without a bed being made first */
     assert_int_equal(dem_scene_save(scene, &state), DEM_OK);
-    ((int64_t *)state.array[0].data)[0] = DEM_PHASE_ROTATING;
+    ((int64_t *)state.array[0].data)[0] = DEM_PHASE_RUNNING;
     ((int64_t *)state.array[0].data)[3] = 0;
     assert_string_equal(state.array[0].name, "counters");
     assert_int_equal(dem_scene_restore(scene, &state), DEM_OK);
@@ -558,7 +558,7 @@ static void a_scene_corrects_spins_as_often_as_asked(void **unused)
 {
     (void)unused;
     for (int passes = 0; passes <= 3; passes++) {
-        dem_drum_definition d = mixed_drum();
+        dem_scene_definition d = mixed_drum();
         d.corrector_passes = passes;
         dem_scene *made = drum_scene(&d);
         const int kept = made->spheres.clusters.corrector_passes;
@@ -591,7 +591,7 @@ static void a_collision_of_clusters_keeps_what_it_must(void **unused)
 {
     (void)unused;
     for (int rough = 0; rough < 2; rough++) {
-        dem_drum_definition d;
+        dem_scene_definition d;
         dem_scene *scene = weightless_clusters(&d, rough ? 0.5 : 0.0, rough ? 0.7 : 1.0);
         set_body(scene, 0, (double[]){ -0.006, 0.02, 0.001 }, (double[]){ 0.4, 0.02, 0 }, (double[]){ 20, 30, -60 });
         set_body(scene, 1, (double[]){ 0.001, 0.0212, 0 }, (double[]){ -0.2, 0, 0.03 }, (double[]){ 0, 10, 50 });
@@ -615,7 +615,7 @@ static void a_collision_of_clusters_keeps_what_it_must(void **unused)
 static void a_tumbling_cluster_keeps_its_energy(void **unused)
 {
     (void)unused;
-    dem_drum_definition d;
+    dem_scene_definition d;
     dem_scene *scene = weightless_clusters(&d, 0.3, 0.8);
     set_body(scene, 0, (double[]){ 0, 0.03, 0 }, (double[]){ 0, 0, 0.1 }, (double[]){ 0.3, 60, 0.2 }); /* nearly the middle axis */
     set_body(scene, 1, (double[]){ 0.02, 0.02, 0 }, (double[]){ 0, 0, 0 }, (double[]){ 0, 0, 0 });
@@ -632,10 +632,10 @@ static void a_tumbling_cluster_keeps_its_energy(void **unused)
 static void clusters_at_rest_keep_still(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = mixed_drum();
+    dem_scene_definition d = mixed_drum();
     d.rotation_rate = 0;
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     run(scene, (int64_t)(0.6 / d.time_step)); /* one that rocks may take its time */
     const double energy = dem_scene_kinetic_energy(scene);
     const double weight = dem_species_mass(&d.species[2]) * d.gravity * 0.003 * (double)d.particle_count;

@@ -39,7 +39,7 @@ static double overlap_of(dice *d, special kind, double diameter)
     return diameter * dice_uniform(d, 1e-4, 0.02);
 }
 
-static void ask(questions *q, size_t p, dice *d, const dem_drum_definition *definition)
+static void ask(questions *q, size_t p, dice *d, const dem_scene_definition *definition)
 {
     const dem_contact_parameters *law = &definition->contact;
     const double diameter = definition->species[0].diameter, k_1 = law->stiffness, k_2 = k_1 / law->restitution / law->restitution;
@@ -164,7 +164,7 @@ static void widest(double *largest, double seen) { *largest = fmax(*largest, isn
 static void compare_round(const questions *q, dem_scene *scene, difference seen[KINDS])
 {
     static double v[3 * SPHERES], w[3 * SPHERES], memory[HISTORY_WIDTH * PAIRS];
-    const dem_drum_definition *d = &scene->definition;
+    const dem_scene_definition *d = &scene->definition;
     const double m = species_mass(&d->species[0]), dt = d->time_step, inertia = 0.4 * m * 0.002 * 0.002;
     look_at(scene, NULL, v, w);
     dem_state state;
@@ -217,7 +217,7 @@ static void check_kind(special kind, const difference *seen)
 static void compare_many(double unloading_slope)
 {
     static questions q;
-    dem_drum_definition d = hand_definition(SPHERES);
+    dem_scene_definition d = hand_definition(SPHERES);
     d.diameter = 0.3;
     d.length = 0.15;
     d.contact.unloading_slope = unloading_slope;
@@ -227,7 +227,7 @@ static void compare_many(double unloading_slope)
     difference seen[KINDS] = { { 0 } };
     for (int round = 0; round < ROUNDS; round++) {
         for (size_t p = 0; p < PAIRS; p++) ask(&q, p, &own, &d);
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = q.position,
                                            .velocity = q.velocity,
                                            .spin = q.spin,

@@ -8,9 +8,9 @@ enum { CONTAINERS = 5 };
 
 /* 3 mm spheres, soft, to be quick: a drum with ends, one with lifters too, a cylinder, a tube that is raised over a plate
  * with a rim, and one over a bare plate not much wider. */
-static dem_drum_definition bed_in(int which)
+static dem_scene_definition bed_in(int which)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.particle_count = 200;
     switch (which) {
     case 1: d.lifters = (dem_lifters){ .count = 5, .height = 0.006, .width = 0.004, .friction = 0.6 }; /* fall through */
@@ -35,10 +35,10 @@ static dem_drum_definition bed_in(int which)
     return d;
 }
 
-static dem_scene *bed_scene(const dem_drum_definition *d)
+static dem_scene *bed_scene(const dem_scene_definition *d)
 {
     dem_scene *scene = drum_scene(d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     return scene;
 }
 
@@ -48,7 +48,7 @@ static void check_clear(const dem_scene *scene, double overlap)
 {
     const spheres *s = &scene->spheres;
     for (size_t i = 0; i < s->mobile_count; i++)
-        CHECK_BETWEEN(container_overlap(&scene->drum, sphere_place(s, i), sphere_radius(s, i)), -INFINITY, overlap);
+        CHECK_BETWEEN(container_overlap(&scene->container, sphere_place(s, i), sphere_radius(s, i)), -INFINITY, overlap);
 }
 
 static void beds_are_made_clear_of_all_walls(void **unused)
@@ -56,7 +56,7 @@ static void beds_are_made_clear_of_all_walls(void **unused)
     (void)unused;
     for (int which = 0; which < CONTAINERS; which++)
         for (int joined = 0; joined < 1 + which % 2; joined++) { /* dumbbells among lifters, and in a tube */
-            dem_drum_definition d = bed_in(which);
+            dem_scene_definition d = bed_in(which);
             if (joined) {
                 d.particle_count /= 3;
                 d.species[0].cluster =
@@ -67,7 +67,7 @@ static void beds_are_made_clear_of_all_walls(void **unused)
             assert_int_equal(dem_scene_particle_count(scene), d.particle_count);
             check_clear(scene, 0);
             /* while they grow, and at rest: no more than the softness asked for */
-            while (dem_scene_phase(scene) < DEM_PHASE_ROTATING) {
+            while (dem_scene_phase(scene) < DEM_PHASE_RUNNING) {
                 run(scene, 500);
                 check_clear(scene, 0.1 * 0.003);
             }
@@ -80,7 +80,7 @@ static void more_than_a_container_holds_does_not_fit(void **unused)
 {
     (void)unused;
     for (int which = 0; which < CONTAINERS; which++) {
-        dem_drum_definition d = bed_in(which);
+        dem_scene_definition d = bed_in(which);
         d.particle_count = 3000;
         dem_scene *scene = NULL;
         assert_int_equal(dem_scene_create(&d, &scene), DEM_DOES_NOT_FIT);
@@ -96,8 +96,8 @@ static size_t check_all_listed(const dem_scene *scene)
     const neighbor_list *list = &scene->neighbors;
     size_t touching = 0;
     for (size_t i = 0; i < s->mobile_count; i++)
-        for (int k = 0; k < scene->drum.wall_count; k++) {
-            if (wall_seen_from(&scene->drum.wall[k], sphere_place(s, i)).distance >= sphere_radius(s, i)) continue;
+        for (int k = 0; k < scene->container.wall_count; k++) {
+            if (wall_seen_from(&scene->container.wall[k], sphere_place(s, i)).distance >= sphere_radius(s, i)) continue;
             bool listed = false;
             for (size_t slot = list->wall_start[i]; slot < list->wall_start[i + 1]; slot++)
                 listed = listed || list->walls.second[slot] == k;
@@ -111,7 +111,7 @@ static void no_contact_with_a_wall_is_missed_at_any_step(void **unused)
 {
     (void)unused;
     for (int which = 0; which < CONTAINERS; which++) {
-        const dem_drum_definition d = bed_in(which);
+        const dem_scene_definition d = bed_in(which);
         dem_scene *scene = bed_scene(&d);
         size_t touching = 0;
         for (int k = 0; k < 2000; k++) {
@@ -128,10 +128,10 @@ static void no_contact_with_a_wall_is_missed_at_any_step(void **unused)
 static void a_rising_tube_lets_particles_out_beneath_it_alone(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = bed_in(3);
+    const dem_scene_definition d = bed_in(3);
     dem_scene *scene = bed_scene(&d);
     const size_t n = d.particle_count;
-    const container_wall *tube = &scene->drum.wall[0];
+    const container_wall *tube = &scene->container.wall[0];
     bool *was_inside = calloc(n, sizeof *was_inside);
     assert_non_null(was_inside);
     for (size_t i = 0; i < n; i++) was_inside[i] = true;
@@ -160,7 +160,7 @@ static void no_dumbbell_goes_over_the_wall_of_a_tube(void **unused)
 {
     (void)unused;
     enum { THROWN = 8 };
-    dem_drum_definition d = bed_in(4);
+    dem_scene_definition d = bed_in(4);
     d.particle_count = THROWN;
     d.plate.diameter = 0.05;
     d.species[0].cluster =
@@ -180,7 +180,7 @@ static void no_dumbbell_goes_over_the_wall_of_a_tube(void **unused)
         run(scene, 50);
         for (size_t p = 0; p < THROWN; p++) {
             const double *x = particle_place(&scene->spheres, p);
-            if (x[2] > scene->drum.wall[0].low) CHECK_BETWEEN(hypot(x[0], x[1]), 0, scene->drum.wall[0].radius);
+            if (x[2] > scene->container.wall[0].low) CHECK_BETWEEN(hypot(x[0], x[1]), 0, scene->container.wall[0].radius);
             highest = fmax(highest, x[2]);
         }
     }
@@ -194,7 +194,7 @@ static void no_dumbbell_goes_over_the_wall_of_a_tube(void **unused)
 static void what_falls_off_a_plate_is_lost_and_counted(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = bed_in(4);
+    const dem_scene_definition d = bed_in(4);
     dem_scene *scene = bed_scene(&d);
     size_t before = 0, seen = 0;
     while (dem_scene_time(scene) < 0.3) {
@@ -230,7 +230,7 @@ static void clusters_that_tip_over_the_edge_of_a_plate_are_lost(void **unused)
 {
     (void)unused;
     for (uint64_t seed = 1; seed <= 3; seed++) {
-        dem_drum_definition d = bed_in(4);
+        dem_scene_definition d = bed_in(4);
         d.seed = seed;
         d.particle_count = 120;
         d.species[0].cluster =
@@ -270,7 +270,7 @@ static bool same_bits(const dem_scene *a, const dem_scene *b)
     return same && dem_scene_lost_count(a) == dem_scene_lost_count(b);
 }
 
-static dem_scene *continued_from(const dem_scene *scene, const dem_drum_definition *d)
+static dem_scene *continued_from(const dem_scene *scene, const dem_scene_definition *d)
 {
     dem_state state;
     assert_int_equal(dem_scene_save(scene, &state), DEM_OK);
@@ -286,7 +286,7 @@ static void every_container_gives_the_same_bits_however_it_is_run(void **unused)
     (void)unused;
     enum { STEPS = 5000, PART = 713 };
     for (int which = 0; which < CONTAINERS; which++) {
-        dem_drum_definition d = bed_in(which);
+        dem_scene_definition d = bed_in(which);
         dem_scene *start = bed_scene(&d), *whole = continued_from(start, &d), *parts = continued_from(start, &d);
         for (int threads = 2; threads <= 3; threads++) {
             d.threads = threads;

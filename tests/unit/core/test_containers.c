@@ -17,11 +17,11 @@ static void check_rest(dem_scene *scene, const double x[3], const double down[3]
     go_on(scene, 3000);
     for (int c = 0; c < 3; c++) CHECK_NEAR(sphere_place(&scene->spheres, 0)[c], place[c], 1e-3 * alpha);
     const contact_list *walls = &scene->neighbors.walls;
-    contact_forces_with_walls(&scene->neighbors, &scene->spheres, &scene->drum, &scene->contact, 0.0);
+    contact_forces_with_walls(&scene->neighbors, &scene->spheres, &scene->container, &scene->contact, 0.0);
     double force[3] = { 0 };
     int touched = 0;
     for (size_t k = 0; k < walls->count; k++) {
-        const wall_load load = wall_load_of(walls, k, &scene->spheres, &scene->drum);
+        const wall_load load = wall_load_of(walls, k, &scene->spheres, &scene->container);
         for (int c = 0; c < 3; c++) force[c] += load.force[c];
         const bool touches = load.force[0] != 0 || load.force[1] != 0 || load.force[2] != 0;
         touched += touches;
@@ -38,7 +38,7 @@ static void a_sphere_at_rest_on_any_wall_carries_its_weight(void **unused)
 {
     (void)unused;
     static const double along_y[3] = { 0, -1, 0 }, along_z[3] = { 0, 0, -1 };
-    dem_drum_definition d = container_definition(DEM_CYLINDER, 1);
+    dem_scene_definition d = container_definition(DEM_CYLINDER, 1);
     check_rest(container_scene(&d), (double[]){ 0.01, 0.02, R }, along_z, 1);
     d = container_definition(DEM_TUBE_ON_PLATE, 1);
     check_rest(container_scene(&d), (double[]){ 0.01, 0.02, R }, along_z, 1); /* the plate, within the tube */
@@ -86,7 +86,7 @@ static void a_normal_impact_on_any_wall_leaves_e_of_the_speed(void **unused)
     };
     for (size_t k = 0; k < sizeof shots / sizeof *shots; k++) {
         const shot *s = &shots[k];
-        dem_drum_definition d = container_definition(s->container, 1);
+        dem_scene_definition d = container_definition(s->container, 1);
         d.ends.are_walls = s->container == DEM_DRUM;
         if (strncmp(s->at, "bar", 3) == 0) d.lifters = (dem_lifters){ .count = 1, .height = 0.01, .width = 0.008, .friction = 0.3 };
         if (strcmp(s->at, "rim") == 0) d.plate.rim_height = 0.006;
@@ -115,7 +115,7 @@ static void a_sphere_set_sliding_on_a_floor_ends_rolling_at_five_sevenths(void *
 {
     (void)unused;
     for (int plate = 0; plate < 2; plate++) {
-        dem_drum_definition d = container_definition(plate ? DEM_TUBE_ON_PLATE : DEM_CYLINDER, 1);
+        dem_scene_definition d = container_definition(plate ? DEM_TUBE_ON_PLATE : DEM_CYLINDER, 1);
         d.ends.friction = d.plate.friction = 0.4;
         d.contact.wall_friction = 0; /* the floor's own friction counts, not the cylinder's */
         dem_scene *scene = container_scene(&d);
@@ -141,7 +141,7 @@ static void a_sphere_that_rolls_is_slowed_by_the_rolling_friction_of_the_floor(v
 {
     (void)unused;
     for (int plate = 0; plate < 2; plate++) {
-        dem_drum_definition d = container_definition(plate ? DEM_TUBE_ON_PLATE : DEM_CYLINDER, 1);
+        dem_scene_definition d = container_definition(plate ? DEM_TUBE_ON_PLATE : DEM_CYLINDER, 1);
         d.ends.rolling_friction = d.plate.rolling_friction = 0.05;
         d.contact.wall_rolling_friction = 0.9; /* not the floor's */
         dem_scene *scene = container_scene(&d);
@@ -159,7 +159,7 @@ static void a_turning_end_wall_drives_a_sphere_by_coulombs_impulse(void **unused
 {
     (void)unused;
     for (int end = -1; end <= 1; end += 2) {
-        dem_drum_definition d = container_definition(DEM_DRUM, 1);
+        dem_scene_definition d = container_definition(DEM_DRUM, 1);
         d.ends = (dem_drum_ends){ .are_walls = true, .friction = 0.25 };
         d.contact.wall_friction = 0.9; /* not the end's */
         d.rotation_rate = 40;
@@ -190,7 +190,7 @@ static void a_turning_end_wall_drives_a_sphere_by_coulombs_impulse(void **unused
 static void a_lifter_carries_a_ball_up_until_its_face_is_level(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = container_definition(DEM_DRUM, 1);
+    dem_scene_definition d = container_definition(DEM_DRUM, 1);
     d.contact.wall_friction = 0;
     d.rotation_rate = 1; /* omega^2 R/g: half a percent */
     d.lifters = (dem_lifters){ .count = 4, .height = 0.01, .width = 0.008 };
@@ -201,7 +201,7 @@ static void a_lifter_carries_a_ball_up_until_its_face_is_level(void **unused)
     const double offset = asin((0.004 + R) / 0.048);       /* by which the ball is ahead of the bar's middle */
     for (double bar = 0.6; bar < DEM_PI / 2; bar += 0.1) { /* turned since the bar was at the bottom */
         while (dem_scene_time(scene) < bar) go_on(scene, 100);
-        const double *x = sphere_place(&scene->spheres, 0), turned = scene->drum.angle;
+        const double *x = sphere_place(&scene->spheres, 0), turned = scene->container.angle;
         /* carried without play: a ball that bounced would be off by more than a tenth of its radius */
         CHECK_NEAR(hypot(x[0], x[1]), 0.048, 0.02 * R);
         CHECK_NEAR(atan2(x[0], -x[1]), turned + offset, 0.02 * R / 0.048);
@@ -219,7 +219,7 @@ static void a_lifter_carries_a_ball_up_until_its_face_is_level(void **unused)
 
 /* ---- the inside ---- */
 
-static void check_escape(dem_drum_definition *d, const double x[3], const double v[3], const char *quantity)
+static void check_escape(dem_scene_definition *d, const double x[3], const double v[3], const char *quantity)
 {
     dem_scene *scene = container_scene(d);
     scene->definition.gravity = 0;
@@ -235,7 +235,7 @@ static void check_escape(dem_drum_definition *d, const double x[3], const double
 static void a_particle_beyond_any_wall_has_escaped(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = container_definition(DEM_CYLINDER, 1);
+    dem_scene_definition d = container_definition(DEM_CYLINDER, 1);
     check_escape(&d, (double[]){ 0, 0, 0.01 }, (double[]){ 0, 0, -3000 }, "height above the floor");
     check_escape(&d, (double[]){ 0, 0, 0.01 }, (double[]){ 9000, 0, 0 }, "distance from the axis");
     d = container_definition(DEM_TUBE_ON_PLATE, 1);
@@ -251,7 +251,7 @@ static void a_particle_beyond_any_wall_has_escaped(void **unused)
 static void a_sphere_that_goes_around_the_edge_and_beneath_the_plate_is_lost(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = container_definition(DEM_TUBE_ON_PLATE, 1);
+    const dem_scene_definition d = container_definition(DEM_TUBE_ON_PLATE, 1);
     dem_scene *scene = container_scene(&d);
     put(scene, (double[]){ 0.101, 0, -0.0025 }, (double[]){ -0.6, 0, -0.1 }, NULL);
     assert_int_equal(dem_scene_lost_count(scene), 0);
@@ -265,7 +265,7 @@ static void a_failure_names_its_own_container(void **unused)
     (void)unused;
     static const char *const name[] = { [DEM_DRUM] = "drum", [DEM_CYLINDER] = "cylinder", [DEM_TUBE_ON_PLATE] = "heap" };
     for (int kind = DEM_DRUM; kind <= DEM_TUBE_ON_PLATE; kind++) {
-        const dem_drum_definition d = container_definition(kind, 1);
+        const dem_scene_definition d = container_definition(kind, 1);
         dem_scene *scene = container_scene(&d);
         put(scene, (double[]){ 0, 0, 0.01 }, (double[]){ kind == DEM_DRUM ? 9000 : 0, 0, -3000 }, NULL);
         assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
@@ -289,11 +289,11 @@ static void a_container_that_cannot_be_is_refused(void **unused)
                                         { .count = 60, .height = 0.01, .width = 0.005 }, /* one into the next */
                                         { .count = 4, .height = 0.01, .width = 0.004, .friction = -1 } };
     for (size_t k = 0; k < sizeof bad_lifters / sizeof *bad_lifters; k++) {
-        dem_drum_definition d = container_definition(DEM_DRUM, 10);
+        dem_scene_definition d = container_definition(DEM_DRUM, 10);
         d.lifters = bad_lifters[k];
         if (dem_scene_create(&d, &scene) != DEM_BAD_PARAMETER) fail_msg("lifters %zu were not refused", k);
     }
-    dem_drum_definition d = container_definition(DEM_DRUM, 10);
+    dem_scene_definition d = container_definition(DEM_DRUM, 10);
     d.ends = (dem_drum_ends){ .are_walls = true, .friction = NAN };
     assert_int_equal(dem_scene_create(&d, &scene), DEM_BAD_PARAMETER);
     d = container_definition(DEM_TUBE_ON_PLATE, 10);

@@ -14,12 +14,12 @@ static void a_sphere_that_slides_on_the_wall_loads_the_drum_with_its_friction(vo
 {
     (void)unused;
     for (int way = -1; way <= 1; way += 2) {
-        dem_drum_definition d = hand_definition(1);
+        dem_scene_definition d = hand_definition(1);
         d.rotation_rate = 20.0 * way;
         dem_scene *scene = hand_scene(&d);
         const double alpha = 1e-5;
         const double rho = HAND_RADIUS - (double)(real)R + alpha; /* radii are kept as real */
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.6 * rho, -0.8 * rho, 0 } });
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = (double[]){ 0.6 * rho, -0.8 * rho, 0 } });
         advance(scene, 1);
         CHECK_NEAR(scene->torque.count, 1, 0);
         const double expected = way * d.contact.wall_friction * d.contact.stiffness * alpha * (HAND_RADIUS + alpha / 2);
@@ -37,11 +37,11 @@ static void a_sphere_that_slides_on_the_wall_loads_the_drum_with_its_friction(vo
 static void contacts_between_spheres_do_not_load_the_drum(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     dem_scene *scene = hand_scene(&d);
     const double x[] = { 0.03, 0.02, 0, 0.03 + 1.2 * R, 0.02 + 1.59 * R, 0.1 * R };
     const double v[] = { 1, -2, 0.5, -1, 0.3, 0 }, w[] = { 30, -50, 400, 10, 80, 300 };
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x, .velocity = v, .spin = w });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = x, .velocity = v, .spin = w });
     advance(scene, 1);
     const double pressed = d.contact.stiffness * 0.0033 * R; /* N: overlap 2 R - |x_2 - x_1| */
     const double force = (scene->spheres.velocity[0][0] - v[0]) / (d.time_step * sphere_inverse_mass(&scene->spheres, 0));
@@ -53,9 +53,9 @@ static void contacts_between_spheres_do_not_load_the_drum(void **unused)
 static void the_weights_torque_is_that_of_the_centre_of_mass(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     dem_scene *scene = hand_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.05, -0.02, 0, -0.01, 0.03, 0.02 } });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = (double[]){ 0.05, -0.02, 0, -0.01, 0.03, 0.02 } });
     double frame[DEM_FRAME_SCALARS];
     measure_drive_frame(scene, frame);
     const double m = species_mass(&d.species[0]);
@@ -63,10 +63,10 @@ static void the_weights_torque_is_that_of_the_centre_of_mass(void **unused)
     dem_scene_free(scene);
 }
 
-static dem_scene *turning_drum(const dem_drum_definition *d)
+static dem_scene *turning_drum(const dem_scene_definition *d)
 {
     dem_scene *scene = drum_scene(d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     return scene;
 }
 
@@ -74,7 +74,7 @@ static dem_scene *turning_drum(const dem_drum_definition *d)
 static void the_torque_of_a_steady_drum_carries_the_beds_weight(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     follow_rules(&d, 0.03);
     dem_scene *scene = turning_drum(&d);
     enum { FRAMES = 120 };
@@ -102,13 +102,13 @@ static void the_torque_of_a_steady_drum_carries_the_beds_weight(void **unused)
 static void a_collision_takes_in_what_restitution_leaves(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     const double speed = 0.5, m_eff = species_mass(&d.species[0]) / 2;
     d.contact.friction = 0;
     d.time_step = M_PI / 2 * sqrt(m_eff / d.contact.stiffness) * (1 + d.contact.restitution) / 1000;
     dem_scene *scene = weightless_scene(&d);
     const double x[] = { 0.03, 0.02, 0, 0.03 + 2 * R + 1e-7, 0.02, 0 }, v[] = { speed / 2, 0, 0, -speed / 2, 0, 0 };
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x, .velocity = v });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = x, .velocity = v });
     scene->audit.is_on = true;
     advance(scene, 1500);
     const double e = d.contact.restitution, lost = (1 - e * e) / 2 * m_eff * speed * speed;
@@ -149,7 +149,7 @@ static double friction_stored(double t, double mu_n, double k_t0)
 
 /* One contact: where from first to second, overlap; what it remembers after the step. slip: velocity of the first less that of
  * the second, closing: of which, along n, in the half step before; m_eff: kg. */
-static void add_contact(contact_energy *sum, const dem_drum_definition *d, const double n[3], double alpha, const double *history,
+static void add_contact(contact_energy *sum, const dem_scene_definition *d, const double n[3], double alpha, const double *history,
                         double mu, const double slip[3], double closing, double m_eff)
 {
     const double k_1 = d->contact.stiffness, k_2 = k_1 / (d->contact.restitution * d->contact.restitution);
@@ -174,7 +174,7 @@ static void point_velocity(const double *v, const double *w, const double n[3], 
 
 /* The step from `before` to `after` contact by contact: forces from what the saved state remembers, geometry from the
  * places, velocities the mean of the half steps around. `now`: work space with the mean velocities. */
-static contact_energy energy_of_contacts(dem_scene *scene, const dem_drum_definition *d, const look *before, const look *after)
+static contact_energy energy_of_contacts(dem_scene *scene, const dem_scene_definition *d, const look *before, const look *after)
 {
     const size_t n = dem_scene_sphere_count(scene);
     const double m = species_mass(&d->species[0]), r = 0.5 * (double)(real)d->species[0].diameter, wall = 0.5 * d->diameter,
@@ -230,7 +230,7 @@ static contact_energy energy_of_contacts(dem_scene *scene, const dem_drum_defini
 static void the_drums_work_is_in_the_particles_or_in_the_contacts(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.rotation_rate = 10;
     d.contact.latch_damping = 0.3;
     follow_rules(&d, 0.03);

@@ -21,7 +21,7 @@ static void check_description(const dem_scene *scene, dem_status status)
 static void a_drum_that_is_too_soft_stops_and_says_so(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.rotation_rate = 15;
     follow_rules(&d, 0.03);
     d.contact.stiffness /= 300;
@@ -42,10 +42,10 @@ static void a_drum_that_is_too_soft_stops_and_says_so(void **unused)
 static void an_overlap_beyond_half_a_radius_is_a_failure_of_those_two(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(3);
+    dem_scene_definition d = hand_definition(3);
     const double r = 0.002, m_eff = species_mass(&d.species[0]) / 2, v = 0.6 * r / sqrt(m_eff / d.contact.stiffness);
     dem_scene *scene = weightless_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 },
                                        .velocity = (double[]){ 0, 0, 0, v, 0, 0, 0, 0, 0 } });
     assert_int_equal(dem_scene_advance(scene, 1000), DEM_OVERLAP_TOO_LARGE);
@@ -58,7 +58,7 @@ static void an_overlap_beyond_half_a_radius_is_a_failure_of_those_two(void **unu
     dem_scene_free(scene);
     /* and nine tenths of that speed is none */
     scene = weightless_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0, 0.05, 0.01, 0.02, 0, 0.012, 0.0241, 0, 0.012 },
                                        .velocity = (double[]){ 0, 0, 0, 0.75 * v, 0, 0, 0, 0, 0 } });
     advance(scene, 300);
@@ -70,9 +70,9 @@ static void an_overlap_beyond_half_a_radius_is_a_failure_of_those_two(void **unu
 static void a_particle_beyond_the_wall_has_escaped(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     dem_scene *scene = weightless_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0.02, 0, 0, 0.09, 0, 0.01 },
                                        .velocity = (double[]){ 0, 0, 0, 3000, 0, 0 } });
     assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
@@ -91,7 +91,7 @@ enum { STEPS_BETWEEN_LOOKS = HORIZON * PICKS_BETWEEN_LOOKS };
 static void a_place_or_velocity_that_is_not_a_number_is_found_at_the_next_look(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     follow_rules(&d, 0.03);
     const size_t where[] = { 0, 17, d.particle_count - 1 };
     for (int k = 0; k < 3 * 6; k++) {
@@ -109,10 +109,10 @@ static void a_place_or_velocity_that_is_not_a_number_is_found_at_the_next_look(v
 static void what_is_not_a_number_is_found_among_spheres_at_rest(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = hand_definition(2);
+    const dem_scene_definition d = hand_definition(2);
     for (int k = 0; k < 6; k++) {
         dem_scene *scene = weightless_scene(&d);
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0, 0, 0.05, 0, 0.01 } });
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = (double[]){ 0.02, 0, 0, 0.05, 0, 0.01 } });
         run(scene, 10);
         (k < 3 ? scene->spheres.velocity : scene->spheres.place)[1][k % 3] = NAN;
         assert_int_equal(dem_scene_advance(scene, STEPS_BETWEEN_LOOKS + 1), DEM_NOT_A_NUMBER);
@@ -124,11 +124,11 @@ static void what_is_not_a_number_is_found_among_spheres_at_rest(void **unused)
 static void spheres_nearly_one_in_another_overlap_too_much(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = hand_definition(2);
+    const dem_scene_definition d = hand_definition(2);
     for (double apart = 1e-8; apart < 0.3; apart *= 3) {
         dem_scene *scene = weightless_scene(&d);
         place_by_hand(scene,
-                      &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.02, 0, 0, 0.02, apart * 0.004, 0 } });
+                      &(placement){ .phase = DEM_PHASE_RUNNING, .position = (double[]){ 0.02, 0, 0, 0.02, apart * 0.004, 0 } });
         assert_int_equal(dem_scene_advance(scene, 1), DEM_OVERLAP_TOO_LARGE);
         CHECK_NEAR(dem_scene_failure(scene)->value, (1 - apart) * 0.004, 1e-3 * 0.004);
         dem_scene_free(scene);
@@ -139,11 +139,11 @@ static void spheres_nearly_one_in_another_overlap_too_much(void **unused)
 static void a_failed_scene_stays_failed(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(1);
+    dem_scene_definition d = hand_definition(1);
     dem_scene *scene = weightless_scene(&d);
     place_by_hand(
         scene,
-        &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0.09, 0, 0 }, .velocity = (double[]){ 3000, 0, 0 } });
+        &(placement){ .phase = DEM_PHASE_RUNNING, .position = (double[]){ 0.09, 0, 0 }, .velocity = (double[]){ 3000, 0, 0 } });
     assert_int_equal(dem_scene_advance(scene, 100), DEM_PARTICLE_ESCAPED);
     assert_int_not_equal(dem_scene_advance(scene, 100), DEM_OK);
     dem_scene_free(scene);
@@ -152,7 +152,7 @@ static void a_failed_scene_stays_failed(void **unused)
 static void a_definition_out_of_range_is_refused(void **unused)
 {
     (void)unused;
-    dem_drum_definition good = small_drum();
+    dem_scene_definition good = small_drum();
     follow_rules(&good, 0.03);
     dem_scene *scene = NULL;
     assert_int_equal(dem_scene_create(&good, &scene), DEM_OK);
@@ -161,27 +161,27 @@ static void a_definition_out_of_range_is_refused(void **unused)
         size_t offset;
         double bad;
     } cases[] = {
-        { offsetof(dem_drum_definition, diameter), -0.1 },
-        { offsetof(dem_drum_definition, diameter), NAN },
-        { offsetof(dem_drum_definition, diameter), 0.005 },
-        { offsetof(dem_drum_definition, length), 0.005 },
-        { offsetof(dem_drum_definition, rotation_rate), INFINITY },
-        { offsetof(dem_drum_definition, gravity), 0 },
-        { offsetof(dem_drum_definition, time_step), 0 },
-        { offsetof(dem_drum_definition, species[0].diameter), 0 },
-        { offsetof(dem_drum_definition, species[0].density), -1 },
-        { offsetof(dem_drum_definition, species[0].share), 0.9 },
-        { offsetof(dem_drum_definition, contact.stiffness), 0 },
-        { offsetof(dem_drum_definition, contact.restitution), 0 },
-        { offsetof(dem_drum_definition, contact.restitution), 1.01 },
-        { offsetof(dem_drum_definition, contact.friction), -0.1 },
-        { offsetof(dem_drum_definition, contact.wall_friction), NAN },
-        { offsetof(dem_drum_definition, lining.diameter), 0.02 },
-        { offsetof(dem_drum_definition, contact.tangential_stiffness_ratio), 0 },
-        { offsetof(dem_drum_definition, lining.diameter), NAN },
+        { offsetof(dem_scene_definition, diameter), -0.1 },
+        { offsetof(dem_scene_definition, diameter), NAN },
+        { offsetof(dem_scene_definition, diameter), 0.005 },
+        { offsetof(dem_scene_definition, length), 0.005 },
+        { offsetof(dem_scene_definition, rotation_rate), INFINITY },
+        { offsetof(dem_scene_definition, gravity), 0 },
+        { offsetof(dem_scene_definition, time_step), 0 },
+        { offsetof(dem_scene_definition, species[0].diameter), 0 },
+        { offsetof(dem_scene_definition, species[0].density), -1 },
+        { offsetof(dem_scene_definition, species[0].share), 0.9 },
+        { offsetof(dem_scene_definition, contact.stiffness), 0 },
+        { offsetof(dem_scene_definition, contact.restitution), 0 },
+        { offsetof(dem_scene_definition, contact.restitution), 1.01 },
+        { offsetof(dem_scene_definition, contact.friction), -0.1 },
+        { offsetof(dem_scene_definition, contact.wall_friction), NAN },
+        { offsetof(dem_scene_definition, lining.diameter), 0.02 },
+        { offsetof(dem_scene_definition, contact.tangential_stiffness_ratio), 0 },
+        { offsetof(dem_scene_definition, lining.diameter), NAN },
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        dem_drum_definition bad = good;
+        dem_scene_definition bad = good;
         memcpy((char *)&bad + cases[k].offset, &cases[k].bad, sizeof(double));
         if (dem_scene_create(&bad, &scene) != DEM_BAD_PARAMETER) fail_msg("case %zu was not refused", k);
         assert_null(scene);

@@ -10,9 +10,9 @@ typedef struct bed {
     size_t count;
 } bed;
 
-static dem_drum_definition bed_definition(size_t count)
+static dem_scene_definition bed_definition(size_t count)
 {
-    dem_drum_definition d = hand_definition(count - PARKED);
+    dem_scene_definition d = hand_definition(count - PARKED);
     d.diameter = 2 * RADIUS;
     d.length = LENGTH;
     return d;
@@ -39,12 +39,12 @@ static void fill_lattice(bed *b, double pitch, double dx, double dy)
 /* The scene's own spheres and the parked ones alike take places of the bed. */
 static dem_scene *scene_of(const bed *b)
 {
-    const dem_drum_definition d = bed_definition(b->count);
+    const dem_scene_definition d = bed_definition(b->count);
     dem_scene *scene = hand_scene(&d);
     dem_state state;
     assert_int_equal(dem_scene_save(scene, &state), DEM_OK);
     int64_t *counters = state_array(&state, "counters")->data;
-    counters[0] = DEM_PHASE_ROTATING;
+    counters[0] = DEM_PHASE_RUNNING;
     counters[1] = counters[2] = counters[3] = 0;
     memcpy(state_array(&state, "position")->data, b->x, 3 * b->count * sizeof(double));
     memcpy(state_array(&state, "velocity")->data, b->v, 3 * b->count * sizeof(double));

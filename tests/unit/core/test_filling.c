@@ -26,7 +26,7 @@ static void bed_free(bed *b)
 }
 
 /* Largest overlap of any pair, of any sphere with the free room inside the lining, m; negative: none touch. */
-static double largest_overlap(const bed *b, const dem_drum_definition *d)
+static double largest_overlap(const bed *b, const dem_scene_definition *d)
 {
     const double room = 0.5 * d->diameter - d->lining.diameter;
     double largest = -INFINITY;
@@ -42,7 +42,7 @@ static double largest_overlap(const bed *b, const dem_drum_definition *d)
     return largest;
 }
 
-static void check_start(dem_drum_definition *d)
+static void check_start(dem_scene_definition *d)
 {
     follow_rules(d, 0.03);
     dem_scene *scene = drum_scene(d);
@@ -59,7 +59,7 @@ static void spheres_start_inside_without_overlap(void **unused)
     (void)unused;
     static const double fills[] = { 0.1, 0.3, 0.5, 0.7, 0.9 };
     for (int k = 0; k < 5; k++) {
-        dem_drum_definition d = small_drum();
+        dem_scene_definition d = small_drum();
         d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, fills[k], d.species, 1);
         check_start(&d);
         d = two_sizes_drum();
@@ -75,7 +75,7 @@ static void spheres_start_inside_without_overlap(void **unused)
 static void every_species_has_its_share(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = two_sizes_drum();
+    dem_scene_definition d = two_sizes_drum();
     d.species_count = 3;
     d.species[0].share = 0.333;
     d.species[1].share = 0.017;
@@ -99,11 +99,11 @@ static void every_species_has_its_share(void **unused)
 static void a_drum_filled_to_nine_tenths_settles(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, 0.9, d.species, 1);
     follow_rules(&d, 0.03);
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     bed b = bed_of(scene);
     for (size_t i = 0; i < b.count; i++) CHECK_NEAR(b.radius[i], 0.0015, 1e-7 * 0.0015);
     CHECK_BETWEEN(largest_overlap(&b, &d), 0, 0.08 * 0.003);
@@ -114,12 +114,12 @@ static void a_drum_filled_to_nine_tenths_settles(void **unused)
 static void a_settled_bed_is_as_full_as_was_asked(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.length = 0.024;
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, 0.5, d.species, 1);
     follow_rules(&d, 0.03);
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     bed b = bed_of(scene);
     double y = 0;
     for (size_t i = 0; i < b.count; i++) y += b.position[3 * i + 1] / (double)b.count;
@@ -133,7 +133,7 @@ static void a_settled_bed_is_as_full_as_was_asked(void **unused)
 static void more_than_fits_is_refused(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     follow_rules(&d, 0.03);
     const double whole = DEM_PI / 4 * d.diameter * d.diameter * d.length / dem_sphere_mass(0.003, 1);
     dem_scene *scene;
@@ -154,7 +154,7 @@ static void more_than_fits_is_refused(void **unused)
 static void the_same_seed_gives_the_same_start_and_another_seed_another(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     follow_rules(&d, 0.03);
     bed b[3];
     for (int k = 0; k < 3; k++) {

@@ -7,7 +7,7 @@
  * error of the overlap after a third of the collision, in `steps` steps. */
 static double error_of_overlap(int steps)
 {
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     d.contact.restitution = 1;
     d.contact.friction = 0;
     const double omega = sqrt(d.contact.stiffness / (species_mass(&d.species[0]) / 2)), end = M_PI / 3 / omega, v = 0.4;
@@ -15,7 +15,7 @@ static double error_of_overlap(int steps)
     dem_scene *scene = weightless_scene(&d);
     double x[6];
     const double touch = (double)scene->spheres.full_radius[0] + (double)scene->spheres.full_radius[1];
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0.03, 0, 0, 0.03 + touch, 0, 0 },
                                        .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
     advance(scene, steps);
@@ -41,11 +41,11 @@ static void half_the_step_gives_a_quarter_of_the_error(void **unused)
 static void free_fall_is_exact(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(1);
+    dem_scene_definition d = hand_definition(1);
     dem_scene *scene = hand_scene(&d);
     const double dt = d.time_step, u = 0.3;
     const int steps = 5000;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0.02, 0.03, 0.01 },
                                        .velocity = (double[]){ 0.1, u, -0.05 },
                                        .spin = (double[]){ 1, 2, 3 } });
@@ -67,9 +67,9 @@ static void free_fall_is_exact(void **unused)
 static void places_stay_within_one_period(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     dem_scene *scene = weightless_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0.02, 0, 0.03, -0.02, 0, -0.03 },
                                        .velocity = (double[]){ 0, 0, 5, 0, 0, -5 } });
     double x[6];
@@ -90,12 +90,12 @@ static void places_stay_within_one_period(void **unused)
 static void a_collision_turned_round_returns_to_its_start(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     d.contact.restitution = 1;
     d.contact.friction = 0;
     dem_scene *scene = weightless_scene(&d);
     const double start[6] = { 0.03, 0, 0, 0.0341, 0.0005, 0.0007 }, v_0[6] = { 0.3, 0.1, 0, -0.3, 0, 0.1 };
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = start, .velocity = v_0 });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = start, .velocity = v_0 });
     enum { STEPS = 60 };
     double x[6], v[6];
     advance(scene, STEPS - 1);
@@ -104,7 +104,7 @@ static void a_collision_turned_round_returns_to_its_start(void **unused)
     look_at(scene, NULL, v, NULL);
     CHECK_BETWEEN(fabs(v[0] - v_0[0]), 0.05, 1); /* half way: they do push each other */
     for (int k = 0; k < 6; k++) v[k] = -v[k];
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x, .velocity = v });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = x, .velocity = v });
     advance(scene, STEPS - 1);
     look_at(scene, x, NULL, NULL);
     /* Rounding of forces, over the forces' 60 steps: 1e-5 m of overlap in all. */

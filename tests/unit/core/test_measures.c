@@ -14,9 +14,9 @@ typedef struct bed {
 } bed;
 
 /* A definition for so many spheres in the hand-made drum; shares for two species of the same size or not. */
-static dem_drum_definition bed_definition(size_t count, double second_diameter, double second_share)
+static dem_scene_definition bed_definition(size_t count, double second_diameter, double second_share)
 {
-    dem_drum_definition d = hand_definition(count - PARKED);
+    dem_scene_definition d = hand_definition(count - PARKED);
     d.diameter = 2 * RADIUS;
     d.length = LENGTH;
     d.rotation_rate = 2;
@@ -54,13 +54,13 @@ static void fill_below_plane(bed *b, double phi, double offset, double skew, dou
 }
 
 /* The scene with all spheres, parked ones as well, where the bed says. */
-static dem_scene *scene_of_bed(const bed *b, const dem_drum_definition *d)
+static dem_scene *scene_of_bed(const bed *b, const dem_scene_definition *d)
 {
     dem_scene *scene = hand_scene(d);
     dem_state state;
     assert_int_equal(dem_scene_save(scene, &state), DEM_OK);
     int64_t *counters = state_array(&state, "counters")->data;
-    counters[0] = DEM_PHASE_ROTATING;
+    counters[0] = DEM_PHASE_RUNNING;
     counters[1] = counters[2] = counters[3] = 0;
     assert_int_equal(state_array(&state, "position")->rows, b->count);
     memcpy(state_array(&state, "position")->data, b->x, 3 * b->count * sizeof(double));
@@ -101,7 +101,7 @@ static double *frame_of_plane(double phi_deg, double offset, double skew, double
 {
     static bed b;
     fill_below_plane(&b, phi_deg * M_PI / 180, offset, skew, phase);
-    const dem_drum_definition d = bed_definition(b.count, 0, 0);
+    const dem_scene_definition d = bed_definition(b.count, 0, 0);
     dem_scene *scene = scene_of_bed(&b, &d);
     double *frame = frame_of(scene);
     dem_scene_free(scene);
@@ -173,7 +173,7 @@ static void flow_fluctuation_is_that_of_the_speed_downslope_over_all_frames_and_
         const double phi = sense * 25 * M_PI / 180, offset = -0.008, speed = 0.2;
         fill_below_plane(&b, phi, offset, 0, 0.37);
         const double flow = set_flow(&b, phi, offset, speed);
-        dem_drum_definition d = bed_definition(b.count, 0, 0);
+        dem_scene_definition d = bed_definition(b.count, 0, 0);
         d.rotation_rate = 2 * sense;
         dem_scene *scene = scene_of_bed(&b, &d);
         double *flows = frame_of(scene);
@@ -229,7 +229,7 @@ static void a_ring_that_turns_with_the_drum_covers_the_wall_and_does_not_slip(vo
     (void)unused;
     static bed b;
     fill_ring(&b, 20);
-    dem_drum_definition d = bed_definition(b.count, 0, 0);
+    dem_scene_definition d = bed_definition(b.count, 0, 0);
     d.rotation_rate = 20;
     dem_scene *scene = scene_of_bed(&b, &d);
     double *frame = frame_of(scene);
@@ -266,12 +266,12 @@ static void put_at_surface(dem_scene *scene, double inner, double turns)
 static void the_surface_lags_by_what_its_spheres_fall_behind_in_a_revolution(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = bed_definition(AT_SURFACE + 200, 0, 0);
+    dem_scene_definition d = bed_definition(AT_SURFACE + 200, 0, 0);
     d.rotation_rate = 20;
     dem_scene *scene = hand_scene(&d);
-    scene->phase = DEM_PHASE_ROTATING;
-    scene->rotation_start = 0;
-    const double inner = scene->drum.radius * sqrt(1 - d.fill_fraction), turn = 2 * M_PI / d.rotation_rate;
+    scene->phase = DEM_PHASE_RUNNING;
+    scene->run_start = 0;
+    const double inner = scene->container.radius * sqrt(1 - d.fill_fraction), turn = 2 * M_PI / d.rotation_rate;
     for (size_t i = AT_SURFACE; i < scene->spheres.mobile_count; i++)
         sphere_set_place(&scene->spheres, i, (double[]){ RADIUS - D / 2, 0, 0 });
     int32_t *contacts = calloc(scene->spheres.mobile_count, sizeof *contacts);
@@ -304,7 +304,7 @@ enum { MIXED = 2000 };
 /* A bed of two species of one size, half and half: ids below MIXED/2 are of the first. */
 static dem_segregation_result segregation_of(const bed *b, double second_diameter)
 {
-    dem_drum_definition d = bed_definition(MIXED, second_diameter, 0.5);
+    dem_scene_definition d = bed_definition(MIXED, second_diameter, 0.5);
     dem_scene *scene = scene_of_bed(b, &d);
     dem_segregation_result result;
     assert_int_equal(measure_segregation_results(scene, &result), DEM_OK);
@@ -387,7 +387,7 @@ static void one_species_has_no_segregation(void **unused)
     (void)unused;
     static bed b;
     fill_below_plane(&b, 0, 0, 0, 0);
-    const dem_drum_definition d = bed_definition(b.count, 0, 0);
+    const dem_scene_definition d = bed_definition(b.count, 0, 0);
     dem_scene *scene = scene_of_bed(&b, &d);
     dem_segregation_result r;
     assert_int_equal(measure_segregation_results(scene, &r), DEM_OK);
@@ -402,7 +402,7 @@ static void overlaps_and_contacts_are_those_of_the_pairs_that_touch(void **unuse
 {
     (void)unused;
     enum { ROWS = 100 };
-    dem_drum_definition d = hand_definition(3 * ROWS);
+    dem_scene_definition d = hand_definition(3 * ROWS);
     const double diameter = 2 * (double)(real)0.002; /* radii are kept as real */
     double x[9 * ROWS] = { 0 }, sum = 0;
     for (int row = 0; row < ROWS; row++) {
@@ -419,7 +419,7 @@ static void overlaps_and_contacts_are_those_of_the_pairs_that_touch(void **unuse
         sum += overlap * (row % 2 ? 1 : 2);
     }
     dem_scene *scene = hand_scene(&d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = x });
     double frame[DEM_FRAME_SCALARS];
     assert_int_equal(measure_overlap_frame(scene, frame), DEM_OK);
     enum { CONTACTS = ROWS * 3 / 2 };
@@ -440,7 +440,7 @@ static void a_small_sphere_in_a_wide_drum_is_measured_as_in_a_narrow_one(void **
     (void)unused;
     double fraction[2];
     for (int k = 0; k < 2; k++) {
-        dem_drum_definition d = hand_definition(1);
+        dem_scene_definition d = hand_definition(1);
         d.species[0].diameter = 1e-4;
         d.diameter = k ? 20 : 0.02;
         d.length = 0.01;

@@ -57,7 +57,7 @@ static void count_pairs(const dem_scene *scene, listed *l, census *c)
             const double dx = y[0] - x[0], dy = y[1] - x[1];
             if (i >= l->mobile || fabs(dx) > reach || fabs(dy) > reach) continue;
             if (j < l->mobile && particle_of_sphere(s, i) == particle_of_sphere(s, j)) continue; /* one rigid body */
-            const double dz = remainder(y[2] - x[2], scene->drum.length);
+            const double dz = remainder(y[2] - x[2], scene->container.length);
             if (dx * dx + dy * dy + dz * dz >= reach * reach) continue;
             c->touching++;
             c->missed += !l->pair[i * l->all + j];
@@ -81,7 +81,7 @@ static void count_walls(const dem_scene *scene, census *c)
     const neighbor_list *list = &scene->neighbors;
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) {
         const double *x = sphere_place(&scene->spheres, i);
-        if (hypot(x[0], x[1]) + sphere_radius(&scene->spheres, i) <= scene->drum.radius) continue;
+        if (hypot(x[0], x[1]) + sphere_radius(&scene->spheres, i) <= scene->container.radius) continue;
         bool found = false;
         for (size_t k = list->wall_start[i]; k < list->wall_start[i + 1]; k++) found = found || list->walls.first[k] == (int32_t)i;
         c->touching++;
@@ -108,16 +108,16 @@ static census take_census(dem_scene *scene, dem_phase last, int64_t stride, int6
     return c;
 }
 
-static void check_run(dem_drum_definition *d)
+static void check_run(dem_scene_definition *d)
 {
     enum { EVERY = 600, FIFTH = 800 };
     follow_rules(d, 0.06);
     dem_scene *scene = drum_scene(d);
     const census growing = take_census(scene, DEM_PHASE_GROWING, 1, 600);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     const int64_t picks = scene->neighbors.inner_picks;
-    const census start = take_census(scene, DEM_PHASE_ROTATING, 1, EVERY);
-    const census later = take_census(scene, DEM_PHASE_ROTATING, 5, FIFTH);
+    const census start = take_census(scene, DEM_PHASE_RUNNING, 1, EVERY);
+    const census later = take_census(scene, DEM_PHASE_RUNNING, 5, FIFTH);
     assert_int_equal(growing.missed, 0);
     assert_int_equal(start.missed, 0);
     assert_int_equal(later.missed, 0);
@@ -129,12 +129,12 @@ static void check_run(dem_drum_definition *d)
 }
 
 /* Omega^2 = omega^2 R/g of 2.2 from rest: the bed is thrown about the whole drum. */
-static double fast_rate(const dem_drum_definition *d) { return sqrt(2.2 * d->gravity / (0.5 * d->diameter)); }
+static double fast_rate(const dem_scene_definition *d) { return sqrt(2.2 * d->gravity / (0.5 * d->diameter)); }
 
 static void no_contact_is_missed_in_a_fast_start_of_two_sizes(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = two_sizes_drum();
+    dem_scene_definition d = two_sizes_drum();
     d.rotation_rate = fast_rate(&d);
     check_run(&d);
 }
@@ -143,7 +143,7 @@ static void no_contact_is_missed_in_a_fast_start_of_two_sizes(void **unused)
 static void no_contact_is_missed_where_sizes_are_ten_times_apart(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = two_sizes_drum();
+    dem_scene_definition d = two_sizes_drum();
     d.species[0] = (dem_species){ .diameter = 0.0006, .density = 2500, .share = 0.99 };
     d.species[1] = (dem_species){ .diameter = 0.006, .density = 25, .share = 0.01 }; /* light, hence longer steps */
     d.fill_fraction = 0.03;
@@ -155,7 +155,7 @@ static void no_contact_is_missed_where_sizes_are_ten_times_apart(void **unused)
 static void no_contact_is_missed_with_a_lining(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = two_sizes_drum();
+    dem_scene_definition d = two_sizes_drum();
     d.lining = (dem_lining){ .diameter = 0.003, .pitch = 0.0035 };
     d.fill_fraction = 0.3;
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 2);
@@ -167,7 +167,7 @@ static void no_contact_is_missed_with_a_lining(void **unused)
 static void no_contact_is_missed_in_a_slow_drum_turning_backwards(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.rotation_rate = -1.5;
     check_run(&d);
 }
@@ -176,7 +176,7 @@ static void no_contact_is_missed_in_a_slow_drum_turning_backwards(void **unused)
 static void no_contact_is_missed_along_a_very_short_axis(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.length = 3 * 0.003;
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 1);
     d.rotation_rate = fast_rate(&d);
@@ -188,7 +188,7 @@ static void no_contact_is_missed_along_a_very_short_axis(void **unused)
 static void no_contact_is_missed_among_tumbling_clusters(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.diameter = 0.05;
     d.length = 0.02;
     d.species_count = 3;
@@ -208,7 +208,7 @@ static void no_contact_is_missed_among_tumbling_clusters(void **unused)
 static void contacts_are_listed_in_the_order_of_their_ids(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = two_sizes_drum();
+    dem_scene_definition d = two_sizes_drum();
     follow_rules(&d, 0.03);
     dem_scene *scene = drum_scene(&d);
     run_to_phase(scene, DEM_PHASE_SETTLING);
@@ -225,12 +225,12 @@ static void contacts_are_listed_in_the_order_of_their_ids(void **unused)
 static void contacts_of_each_particle_are_counted_as_by_all_pairs(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = two_sizes_drum();
+    dem_scene_definition d = two_sizes_drum();
     d.lining = (dem_lining){ .diameter = 0.003, .pitch = 0.0035 };
     d.particle_count = 200;
     follow_rules(&d, 0.03);
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     run(scene, 300);
     const spheres *s = &scene->spheres;
     int32_t counted[200], expected[200] = { 0 };
@@ -268,7 +268,7 @@ static void every_law_finds_masses_and_radii_of_all_pairs(void **unused)
     (void)unused;
     const dem_contact_law laws[] = { DEM_WALTON_BRAUN, DEM_SPRING_DASHPOT };
     for (int k = 0; k < 2; k++) {
-        dem_drum_definition d = two_sizes_drum();
+        dem_scene_definition d = two_sizes_drum();
         d.contact.law = laws[k];
         d.species[1].density = 4000;
         d.lining = (dem_lining){ .diameter = 0.003, .pitch = 0.0035 };
@@ -276,7 +276,7 @@ static void every_law_finds_masses_and_radii_of_all_pairs(void **unused)
         d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, 2);
         follow_rules(&d, 0.03);
         dem_scene *scene = drum_scene(&d);
-        run_to_phase(scene, DEM_PHASE_ROTATING);
+        run_to_phase(scene, DEM_PHASE_RUNNING);
         const contact_list *pairs = &scene->neighbors.pairs;
         const spheres *s = &scene->spheres;
         size_t mixed = 0, fixed = 0;

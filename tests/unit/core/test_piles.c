@@ -8,9 +8,9 @@
 static const double D = 0.002; /* m, of a sphere */
 
 /* What the daemon would make of such a drum, for an overlap of 1 % of the diameter. */
-static dem_drum_definition drum_of_a_pile(double restitution, bool variable, double friction, double latch_damping)
+static dem_scene_definition drum_of_a_pile(double restitution, bool variable, double friction, double latch_damping)
 {
-    dem_drum_definition d = {
+    dem_scene_definition d = {
         .diameter = 0.16,
         .length = 0.06,
         .gravity = 9.81,
@@ -34,7 +34,7 @@ static dem_drum_definition drum_of_a_pile(double restitution, bool variable, dou
 }
 
 /* Height of the upper sphere over the others, in diameters, after so many seconds; sqrt(2/3) at first. */
-static double height_after(double seconds, const dem_drum_definition *d)
+static double height_after(double seconds, const dem_scene_definition *d)
 {
     /* three that touch each other and the drum, two of them side by side: a triangle that is tilted a little */
     const double floor = -0.5 * (d->diameter - D), side = D / 2, low = -sqrt(floor * floor - side * side), up = low - floor;
@@ -69,7 +69,7 @@ static void four_spheres_stand_where_friction_holds_them(void **unused)
     for (int k = 0; k < 5; k++)
         for (int variable = 0; variable < 2; variable++)
             for (double friction = 0.34; friction < 0.6; friction += 0.16) {
-                const dem_drum_definition d = drum_of_a_pile(RESTITUTIONS[k], variable, friction, 0.3);
+                const dem_scene_definition d = drum_of_a_pile(RESTITUTIONS[k], variable, friction, 0.3);
                 CHECK_NEAR(height_after(0.4, &d), sqrt(2.0 / 3), 1e-3);
             }
 }
@@ -77,7 +77,7 @@ static void four_spheres_stand_where_friction_holds_them(void **unused)
 static void four_spheres_fall_where_it_does_not(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = drum_of_a_pile(0.8, false, 0.30, 0.3);
+    const dem_scene_definition d = drum_of_a_pile(0.8, false, 0.30, 0.3);
     CHECK_BETWEEN(height_after(0.4, &d), -0.1, 0.5);
 }
 
@@ -85,7 +85,7 @@ static void four_spheres_fall_where_it_does_not(void **unused)
 static void without_damping_below_the_latch_they_sink(void **unused)
 {
     (void)unused;
-    const dem_drum_definition constant = drum_of_a_pile(0.5, false, 0.5, 0), variable = drum_of_a_pile(0.8, true, 0.5, 0);
+    const dem_scene_definition constant = drum_of_a_pile(0.5, false, 0.5, 0), variable = drum_of_a_pile(0.8, true, 0.5, 0);
     CHECK_BETWEEN(height_after(0.4, &constant), 0, sqrt(2.0 / 3) - 3e-3);
     CHECK_BETWEEN(height_after(0.4, &variable), -0.1, 0.75);
 }

@@ -36,7 +36,7 @@ static dem_drum_results results_of(const dem_scene *scene, const double *table, 
 
 static dem_scene *any_scene(double rate)
 {
-    dem_drum_definition d = hand_definition(100);
+    dem_scene_definition d = hand_definition(100);
     d.diameter = 2 * RADIUS;
     d.length = 0.018;
     d.rotation_rate = rate;
@@ -228,7 +228,7 @@ static void a_fast_bed_is_judged_by_its_last_four_revolutions(void **unused)
     dem_scene *scene = any_scene(30);
     const size_t width = dem_frame_width(scene);
     double *table = steady_table(scene);
-    scene->rotation_start = 0;
+    scene->run_start = 0;
     scene->step_count = llround((FRAMES - 1) * INTERVAL / scene->definition.time_step);
     set_column(table, width, FRAME_WALL_COVERAGE, 0.5, 0);
     set_column(table, width, FRAME_SURFACE_LAG, 2, 0);

@@ -161,9 +161,9 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
 
 /* ---- bodies ---- */
 
-static dem_drum_definition rolling_definition(size_t n, dem_contact_law law)
+static dem_scene_definition rolling_definition(size_t n, dem_contact_law law)
 {
-    dem_drum_definition d = hand_definition(n);
+    dem_scene_definition d = hand_definition(n);
     d.contact.law = law;
     d.contact.particle = d.contact.wall = (dem_elasticity){ 5e6, 0.3 };
     d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.1;
@@ -185,10 +185,10 @@ static void a_rolling_sphere_is_slowed_by_five_sevenths_of_mu_r_g_and_stops(void
 {
     (void)unused;
     for (int law = DEM_WALTON_BRAUN; law <= DEM_HERTZ_MINDLIN; law++) {
-        dem_drum_definition d = rolling_definition(1, (dem_contact_law)law);
+        dem_scene_definition d = rolling_definition(1, (dem_contact_law)law);
         dem_scene *scene = hand_scene(&d);
         const double v_0 = 0.06, alpha = overlap_of(&d.contact, species_mass(&d.species[0]) * d.gravity), a = 5.0 / 7 * 0.1 * 9.81;
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = (double[]){ 0, -0.098 - alpha, 0 },
                                            .velocity = (double[]){ 0, 0, v_0 },
                                            .spin = (double[]){ v_0 / (0.002 - alpha / 2), 0, 0 } });
@@ -223,11 +223,11 @@ static void a_sphere_on_a_slope_stays_if_the_slope_is_below_mu_r(void **unused)
     static const double share[] = { 0.45, 0.7, 0.95, 1.05, 1.5 };
     for (int law = DEM_WALTON_BRAUN; law <= DEM_HERTZ_MINDLIN; law++) {
         for (int k = 0; k < 5; k++) {
-            dem_drum_definition d = rolling_definition(1, (dem_contact_law)law);
+            dem_scene_definition d = rolling_definition(1, (dem_contact_law)law);
             dem_scene *scene = hand_scene(&d);
             const double angle = atan(share[k] * 0.1), g = d.gravity, time = 0.05, f = species_mass(&d.species[0]) * g * cos(angle);
             const double alpha = overlap_of(&d.contact, f), rho = 0.098 + alpha;
-            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                                .position = (double[]){ rho * sin(angle), -rho * cos(angle), 0 } });
             advance(scene, (int64_t)(time / d.time_step));
             double x[3];
@@ -248,11 +248,11 @@ static void what_turns_with_the_wall_as_one_body_feels_no_moment(void **unused)
 {
     (void)unused;
     for (int law = DEM_WALTON_BRAUN; law <= DEM_HERTZ_MINDLIN; law++) {
-        dem_drum_definition d = rolling_definition(1, (dem_contact_law)law);
+        dem_scene_definition d = rolling_definition(1, (dem_contact_law)law);
         d.rotation_rate = 20;
         dem_scene *scene = weightless_scene(&d);
         const double f = species_mass(&d.species[0]) * 400 * 0.098, rho = 0.098 + overlap_of(&d.contact, f);
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = (double[]){ 0, -rho, 0 },
                                            .velocity = (double[]){ 20 * rho, 0, 0 },
                                            .spin = (double[]){ 0, 0, 20 } });
@@ -272,14 +272,14 @@ static void between_two_spheres_moments_are_opposite_and_spare_the_twist(void **
     (void)unused;
     for (int law = DEM_WALTON_BRAUN; law <= DEM_HERTZ_MINDLIN; law++) {
         for (int differ = 0; differ < 2; differ++) {
-            dem_drum_definition d = rolling_definition(2, (dem_contact_law)law);
+            dem_scene_definition d = rolling_definition(2, (dem_contact_law)law);
             d.contact.friction = 0; /* then rolling friction alone turns them */
             if (differ) first_sphere_differs(&d, (dem_species){ .diameter = 0.007, .density = 2500 });
             dem_scene *scene = weightless_scene(&d);
             const double r[2] = { 0.002, differ ? 0.0035 : 0.002 }, v = 0.05;
             double inertia[2], w_before[6] = { 30, 40, -20, 10, -25, 60 }, w[6];
             for (int k = 0; k < 2; k++) inertia[k] = 0.4 * species_mass(&d.species[differ ? k : 0]) * r[k] * r[k];
-            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                                .position = (double[]){ 0, 0, 0, r[0] + r[1], 0, 0 },
                                                .velocity = (double[]){ v, 0, 0, -v, 0, 0 },
                                                .spin = w_before });
@@ -303,9 +303,9 @@ static void between_two_spheres_moments_are_opposite_and_spare_the_twist(void **
 
 /* ---- whole runs ---- */
 
-static dem_drum_definition rolling_drum(dem_contact_law law)
+static dem_scene_definition rolling_drum(dem_contact_law law)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.lining = (dem_lining){ .diameter = 0.002, .pitch = 0.004 };
     d.particle_count = 120;
     d.rotation_rate = 12;
@@ -325,7 +325,7 @@ static dem_state state_of(const dem_scene *scene)
 }
 
 /* From the state, which is cleared, a number of steps on. */
-static dem_state state_after(const dem_drum_definition *d, dem_state *from, int64_t steps)
+static dem_state state_after(const dem_scene_definition *d, dem_state *from, int64_t steps)
 {
     dem_scene *scene = drum_scene(d);
     assert_int_equal(dem_scene_restore(scene, from), DEM_OK);
@@ -348,9 +348,9 @@ static void runs_have_the_same_bits_for_any_threads_and_after_a_restart(void **u
 {
     (void)unused;
     for (int law = DEM_WALTON_BRAUN; law <= DEM_HERTZ_MINDLIN; law++) {
-        dem_drum_definition d = rolling_drum((dem_contact_law)law);
+        dem_scene_definition d = rolling_drum((dem_contact_law)law);
         dem_scene *scene = drum_scene(&d);
-        run_to_phase(scene, DEM_PHASE_ROTATING);
+        run_to_phase(scene, DEM_PHASE_RUNNING);
         dem_state begin[2] = { state_of(scene), state_of(scene) };
         run(scene, 900);
         dem_state once = state_of(scene);

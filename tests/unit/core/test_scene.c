@@ -21,9 +21,9 @@ static bool are_equal(const dem_scene *a, const dem_scene *b)
     return equal;
 }
 
-static dem_drum_definition quick_drum(void)
+static dem_scene_definition quick_drum(void)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.lining = (dem_lining){ .diameter = 0.002, .pitch = 0.004 };
     d.particle_count = 220;
     d.rotation_rate = 12;
@@ -32,37 +32,37 @@ static dem_drum_definition quick_drum(void)
 }
 
 /* Growing, settling and a good part of a turn, in calls of `stride` steps. */
-static int64_t whole_run(const dem_drum_definition *d)
+static int64_t whole_run(const dem_scene_definition *d)
 {
     dem_scene *scene = drum_scene(d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     const int64_t steps = dem_scene_step_count(scene) + 1500;
     dem_scene_free(scene);
     return steps;
 }
 
-static dem_scene *run_in_calls(const dem_drum_definition *d, int64_t steps, int64_t stride)
+static dem_scene *run_in_calls(const dem_scene_definition *d, int64_t steps, int64_t stride)
 {
     dem_scene *scene = drum_scene(d);
     for (int64_t done = 0; done < steps; done += stride) run(scene, done + stride < steps ? stride : steps - done);
     assert_int_equal(dem_scene_step_count(scene), steps);
-    assert_int_equal(dem_scene_phase(scene), DEM_PHASE_ROTATING);
+    assert_int_equal(dem_scene_phase(scene), DEM_PHASE_RUNNING);
     return scene;
 }
 
 static void advancing_to_rotation_ends_at_its_first_step(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = quick_drum();
+    dem_scene_definition d = quick_drum();
     for (d.threads = 1; d.threads <= 2; d.threads++) {
         dem_scene *once = drum_scene(&d), *stepwise = drum_scene(&d);
-        assert_int_equal(dem_scene_advance_to_rotation(once, 7), DEM_OK);
+        assert_int_equal(dem_scene_advance_to_run(once, 7), DEM_OK);
         assert_int_equal(dem_scene_step_count(once), 7);
-        assert_int_equal(dem_scene_advance_to_rotation(once, 1000000), DEM_OK);
-        while (dem_scene_phase(stepwise) != DEM_PHASE_ROTATING) run(stepwise, 1);
-        assert_int_equal(dem_scene_rotation_start(once), dem_scene_step_count(once));
+        assert_int_equal(dem_scene_advance_to_run(once, 1000000), DEM_OK);
+        while (dem_scene_phase(stepwise) != DEM_PHASE_RUNNING) run(stepwise, 1);
+        assert_int_equal(dem_scene_run_start(once), dem_scene_step_count(once));
         assert_true(are_equal(once, stepwise));
-        assert_int_equal(dem_scene_advance_to_rotation(once, 5), DEM_OK);
+        assert_int_equal(dem_scene_advance_to_run(once, 5), DEM_OK);
         assert_true(are_equal(once, stepwise));
         dem_scene_free(once);
         dem_scene_free(stepwise);
@@ -72,7 +72,7 @@ static void advancing_to_rotation_ends_at_its_first_step(void **unused)
 static void a_run_gives_the_same_bits_for_any_division_into_calls(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = quick_drum();
+    dem_scene_definition d = quick_drum();
     const int64_t steps = whole_run(&d);
     dem_scene *once = run_in_calls(&d, steps, steps);
     static const int64_t strides[] = { 1000000, 1, 7, 100 /* steps a call */ };
@@ -93,9 +93,9 @@ static void a_run_gives_the_same_bits_for_any_division_into_calls(void **unused)
 static void a_run_gives_the_same_bits_for_any_number_of_threads(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = quick_drum();
+    dem_scene_definition d = quick_drum();
     dem_scene *start = drum_scene(&d), *bed = drum_scene(&d);
-    run_to_phase(bed, DEM_PHASE_ROTATING);
+    run_to_phase(bed, DEM_PHASE_RUNNING);
     dem_state turning = state_of(bed);
     run(start, 150);
     run(bed, 150);
@@ -118,7 +118,7 @@ static void a_run_gives_the_same_bits_for_any_number_of_threads(void **unused)
 static dem_scene *besieged_sphere(int threads)
 {
     enum { SMALL = 300, ALL = 1 + SMALL };
-    dem_drum_definition d = hand_definition(ALL);
+    dem_scene_definition d = hand_definition(ALL);
     d.species[0].diameter = 0.04;
     first_sphere_differs(&d, (dem_species){ .diameter = 0.004, .density = 2500 });
     d.threads = threads;
@@ -135,7 +135,7 @@ static dem_scene *besieged_sphere(int threads)
     dem_scene *scene = weightless_scene(&d);
     place_by_hand(
         scene,
-        &(placement){ .phase = DEM_PHASE_ROTATING, .position = &position[0][0], .velocity = &velocity[0][0], .spin = &spin[0][0] });
+        &(placement){ .phase = DEM_PHASE_RUNNING, .position = &position[0][0], .velocity = &velocity[0][0], .spin = &spin[0][0] });
     return scene;
 }
 
@@ -159,7 +159,7 @@ static void parts_smaller_than_one_spheres_contacts_give_the_same_bits(void **un
 /* ---- save and restore ---- */
 
 /* A new scene that goes on from where `scene` is. */
-static dem_scene *continued(const dem_scene *scene, const dem_drum_definition *d)
+static dem_scene *continued(const dem_scene *scene, const dem_scene_definition *d)
 {
     dem_state state = state_of(scene);
     dem_scene *copy = drum_scene(d);
@@ -171,10 +171,10 @@ static dem_scene *continued(const dem_scene *scene, const dem_drum_definition *d
 static void a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = quick_drum();
+    dem_scene_definition d = quick_drum();
     const int64_t steps = whole_run(&d);
     dem_scene *straight = run_in_calls(&d, steps, steps);
-    for (dem_phase phase = DEM_PHASE_GROWING; phase <= DEM_PHASE_ROTATING; phase++) {
+    for (dem_phase phase = DEM_PHASE_GROWING; phase <= DEM_PHASE_RUNNING; phase++) {
         dem_scene *scene = drum_scene(&d);
         run_to_phase(scene, phase);
         run(scene, 333); /* in the middle of a list's life */
@@ -184,7 +184,7 @@ static void a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit(void **unu
         run(copy, steps - dem_scene_step_count(copy));
         assert_true(are_equal(straight, copy));
         CHECK_NEAR(dem_scene_time(copy), dem_scene_time(straight), 0);
-        assert_int_equal(dem_scene_rotation_start(copy), dem_scene_rotation_start(straight));
+        assert_int_equal(dem_scene_run_start(copy), dem_scene_run_start(straight));
         dem_scene_free(copy);
         dem_scene_free(scene);
     }
@@ -195,9 +195,9 @@ static void a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit(void **unu
 static void what_measuring_noted_of_the_particles_is_saved_too(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = quick_drum();
+    dem_scene_definition d = quick_drum();
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     dem_scene *before = continued(scene, &d);
     double *frame = calloc(dem_frame_width(scene), sizeof *frame);
     assert_non_null(frame);
@@ -215,9 +215,9 @@ static void what_measuring_noted_of_the_particles_is_saved_too(void **unused)
 static void a_run_saved_at_the_very_change_of_phase_goes_on_bit_for_bit(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = quick_drum();
+    dem_scene_definition d = quick_drum();
     dem_scene *scene = drum_scene(&d);
-    for (dem_phase phase = DEM_PHASE_SETTLING; phase <= DEM_PHASE_ROTATING; phase++) {
+    for (dem_phase phase = DEM_PHASE_SETTLING; phase <= DEM_PHASE_RUNNING; phase++) {
         while (dem_scene_phase(scene) < phase) {
             dem_state before = state_of(scene);
             run(scene, 1);
@@ -259,9 +259,9 @@ static void leave_out_walls(dem_state *s) { state_array(s, "wall_contact")->name
 static void a_state_of_another_shape_is_refused(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = quick_drum();
+    dem_scene_definition d = quick_drum();
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     dem_state good = state_of(scene);
     void (*const spoilers[])(dem_state *) = { leave_out_velocity, shorten_positions, flatten_positions,
                                               mistype_counters,   lose_a_history,    leave_out_walls };
@@ -294,11 +294,11 @@ static void a_state_of_another_shape_is_refused(void **unused)
 static void a_settled_bed_in_a_standing_drum_keeps_still(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     follow_rules(&d, 0.03);
     d.rotation_rate = 0;
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     const int64_t watch = (int64_t)(0.2 / d.time_step);
     run(scene, watch);
     const size_t n = d.particle_count;
@@ -322,7 +322,7 @@ static void a_block_of_touching_spheres_without_weight_stays_where_it_is(void **
 {
     (void)unused;
     enum { SIDE = 4, N = SIDE * SIDE * SIDE };
-    dem_drum_definition d = hand_definition(N);
+    dem_scene_definition d = hand_definition(N);
     dem_scene *scene = weightless_scene(&d);
     const double apart = 2 * scene->spheres.full_radius[0];
     double x[3 * N], after[3 * N];
@@ -332,7 +332,7 @@ static void a_block_of_touching_spheres_without_weight_stays_where_it_is(void **
         x[3 * i + 2] = apart * (i / SIDE / SIDE);
         for (int c = 0; c < 3; c++) x[3 * i + c] = nextafter(x[3 * i + c], 1);
     }
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = x });
     advance(scene, 2000);
     look_at(scene, after, NULL, NULL);
     /* Contacts see places in units u of 2^-32 of 8 diameters, so some pairs overlap by one: their springs push them apart
@@ -347,11 +347,11 @@ static void a_block_of_touching_spheres_without_weight_stays_where_it_is(void **
 static void a_sphere_at_rest_on_the_wall_stays_at_rest(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(1);
+    dem_scene_definition d = hand_definition(1);
     dem_scene *scene = hand_scene(&d);
     const double alpha = species_mass(&d.species[0]) * 9.81 / d.contact.stiffness;
     const double x[3] = { 0, -(0.1 - scene->spheres.full_radius[0] + alpha), 0.001 };
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x });
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = x });
     double now[3], v[3], w[3];
     for (int k = 0; k < 20; k++) {
         advance(scene, 100); /* 0.02 s: the parked spheres have fallen 2 mm */
@@ -371,10 +371,10 @@ static void a_sphere_at_rest_on_the_wall_stays_at_rest(void **unused)
 static void a_bed_shifted_along_the_axis_moves_as_before(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     follow_rules(&d, 0.03);
     dem_scene *scene = drum_scene(&d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     dem_state state = state_of(scene);
     const size_t n = d.particle_count;
     run(scene, 300);
@@ -406,14 +406,14 @@ static void a_bed_shifted_along_the_axis_moves_as_before(void **unused)
 static void a_turning_wall_drags_a_sphere_that_it_presses_on(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(1);
+    dem_scene_definition d = hand_definition(1);
     d.rotation_rate = 10;
     dem_scene *scene = weightless_scene(&d);
-    scene_enter_phase(scene, DEM_PHASE_ROTATING);
+    scene_enter_phase(scene, DEM_PHASE_RUNNING);
     const double speed = d.rotation_rate * 0.1;
     place_by_hand(
         scene,
-        &(placement){ .phase = DEM_PHASE_ROTATING, .position = (double[]){ 0, -0.0979, 0 }, .velocity = (double[]){ 0, -0.4, 0 } });
+        &(placement){ .phase = DEM_PHASE_RUNNING, .position = (double[]){ 0, -0.0979, 0 }, .velocity = (double[]){ 0, -0.4, 0 } });
     advance(scene, 400);
     double v[3], w[3];
     look_at(scene, NULL, v, w);
@@ -428,13 +428,13 @@ static void a_turning_wall_drags_a_sphere_that_it_presses_on(void **unused)
 static void a_drum_turned_backwards_leans_the_other_way(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     double angle[2];
     for (int k = 0; k < 2; k++) {
         d.rotation_rate = k ? -8 : 8;
         follow_rules(&d, 0.03);
         dem_scene *scene = drum_scene(&d);
-        run_to_phase(scene, DEM_PHASE_ROTATING);
+        run_to_phase(scene, DEM_PHASE_RUNNING);
         run(scene, (int64_t)(0.15 / d.time_step));
         double *frame = calloc(dem_frame_width(scene), sizeof *frame);
         assert_int_equal(dem_frame_measure(scene, frame), DEM_OK);

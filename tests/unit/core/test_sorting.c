@@ -7,9 +7,9 @@
 enum { BETWEEN_SORTS = 8192 };
 
 /* Some 1700 spheres; with clusters, a third of them two by two. Quick: soft, and without much settling. */
-static dem_drum_definition long_drum(bool with_clusters)
+static dem_scene_definition long_drum(bool with_clusters)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.length = 0.066;
     d.diameter = 0.042;
     if (with_clusters) {
@@ -87,17 +87,17 @@ static double remembered(const dem_scene *scene, size_t *count)
 }
 
 /* A bed that turns, right before a sort. */
-static dem_scene *before_a_sort(const dem_drum_definition *d)
+static dem_scene *before_a_sort(const dem_scene_definition *d)
 {
     dem_scene *scene = drum_scene(d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
-    run(scene, BETWEEN_SORTS - (dem_scene_step_count(scene) - dem_scene_rotation_start(scene)));
+    run_to_phase(scene, DEM_PHASE_RUNNING);
+    run(scene, BETWEEN_SORTS - (dem_scene_step_count(scene) - dem_scene_run_start(scene)));
     return scene;
 }
 
 static void nobody_outside_can_tell(bool with_clusters)
 {
-    const dem_drum_definition d = long_drum(with_clusters);
+    const dem_scene_definition d = long_drum(with_clusters);
     dem_scene *scene = before_a_sort(&d);
     const spheres *s = &scene->spheres;
     assert_true(s->mobile_count > 1500);
@@ -145,7 +145,7 @@ static void of_clusters_nobody_outside_can_tell(void **unused)
 static void a_sort_changes_a_step_by_roundings_alone(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = long_drum(true);
+    dem_scene_definition d = long_drum(true);
     d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.1;
     dem_scene *sorted = before_a_sort(&d), *as_it_was = drum_scene(&d);
     dem_state state;
@@ -182,7 +182,7 @@ static bool same_bits(const dem_scene *a, const dem_scene *b)
 static void across_sorts_a_run_has_the_same_bits(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = long_drum(true);
+    dem_scene_definition d = long_drum(true);
     dem_scene *straight = before_a_sort(&d);
     dem_state state;
     for (d.threads = 1; d.threads <= 3; d.threads += 2) {
@@ -211,7 +211,7 @@ static void across_sorts_a_run_has_the_same_bits(void **unused)
 static void a_saved_order_that_is_none_is_refused(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = long_drum(true);
+    const dem_scene_definition d = long_drum(true);
     dem_scene *scene = drum_scene(&d);
     for (int wrong = 0; wrong < 3; wrong++) {
         dem_state state;

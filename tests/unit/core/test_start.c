@@ -6,9 +6,9 @@
 #include "dem_cluster.h"
 
 /* Spheres, dumbbells (two moments) and a lining of glued spheres. */
-static dem_drum_definition lined_drum_of_two_shapes(void)
+static dem_scene_definition lined_drum_of_two_shapes(void)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.species_count = 2;
     d.species[0].share = 0.7;
     d.species[1] = (dem_species){ .density = 2500, .share = 0.3 };
@@ -24,7 +24,7 @@ static dem_drum_definition lined_drum_of_two_shapes(void)
     return d;
 }
 
-static dem_scene *scene_without_places(dem_drum_definition d)
+static dem_scene *scene_without_places(dem_scene_definition d)
 {
     d.is_placed = true;
     return drum_scene(&d);
@@ -42,10 +42,10 @@ static void look(const dem_scene *scene, sphere_motion *m)
 }
 
 /* Rotating, and saved. */
-static dem_scene *rotating_scene(const dem_drum_definition *d, dem_state *state)
+static dem_scene *rotating_scene(const dem_scene_definition *d, dem_state *state)
 {
     dem_scene *scene = drum_scene(d);
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     run(scene, 700);
     assert_int_equal(dem_scene_save(scene, state), DEM_OK);
     return scene;
@@ -55,11 +55,11 @@ static void a_scene_that_starts_from_a_state_of_its_own_goes_on_with_the_same_bi
 {
     (void)unused;
     static sphere_motion of_first, of_second;
-    const dem_drum_definition d = lined_drum_of_two_shapes();
+    const dem_scene_definition d = lined_drum_of_two_shapes();
     dem_state state;
     dem_scene *first = rotating_scene(&d, &state), *second = scene_without_places(d);
     assert_int_equal(dem_scene_continue(second, &state), DEM_OK);
-    assert_int_equal(dem_scene_phase(second), DEM_PHASE_ROTATING);
+    assert_int_equal(dem_scene_phase(second), DEM_PHASE_RUNNING);
     assert_true(dem_scene_time(second) == 0 && dem_scene_step_count(second) == 0 && dem_scene_maximum_overlap(second) == 0);
     dem_state_clear(&state);
     for (int look_again = 0; look_again < 4; look_again++) {
@@ -88,7 +88,7 @@ static void a_scene_that_starts_from_a_state_of_its_own_goes_on_with_the_same_bi
 static void with_another_rate_the_drum_goes_on_from_where_it_had_turned_to(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = lined_drum_of_two_shapes();
+    dem_scene_definition d = lined_drum_of_two_shapes();
     dem_state state;
     dem_scene *first = rotating_scene(&d, &state);
     d.rotation_rate = 9;
@@ -126,7 +126,7 @@ static size_t remembered(const dem_scene *scene, const char *name)
 static void contacts_remember_across_a_start_but_not_into_another_law(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = lined_drum_of_two_shapes();
+    dem_scene_definition d = lined_drum_of_two_shapes();
     dem_state state;
     dem_scene *first = rotating_scene(&d, &state), *same = scene_without_places(d);
     assert_int_equal(dem_scene_continue(same, &state), DEM_OK);
@@ -148,14 +148,14 @@ static void contacts_remember_across_a_start_but_not_into_another_law(void **unu
 static void a_bed_of_other_particles_or_one_never_at_rest_is_refused(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     follow_rules(&d, 0.03);
     dem_scene *growing = drum_scene(&d);
     dem_state state;
     assert_int_equal(dem_scene_save(growing, &state), DEM_OK);
     dem_scene *scene = scene_without_places(d);
     assert_int_equal(dem_scene_continue(scene, &state), DEM_STATE_MISMATCH);
-    ((int64_t *)state.array[0].data)[0] = DEM_PHASE_ROTATING;
+    ((int64_t *)state.array[0].data)[0] = DEM_PHASE_RUNNING;
     d.particle_count += 1;
     dem_scene *more = scene_without_places(d);
     assert_int_equal(dem_scene_continue(more, &state), DEM_STATE_MISMATCH);
@@ -169,7 +169,7 @@ static void a_bed_of_other_particles_or_one_never_at_rest_is_refused(void **unus
 static void placed_particles_start_where_they_were_put_and_fly_as_bodies_do(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = lined_drum_of_two_shapes();
+    dem_scene_definition d = lined_drum_of_two_shapes();
     d.lining.diameter = 0;
     d.particle_count = 2;
     d.species[0].share = d.species[1].share = 0.5;
@@ -184,7 +184,7 @@ static void placed_particles_start_where_they_were_put_and_fly_as_bodies_do(void
     };
     dem_scene *scene = drum_scene(&d);
     assert_int_equal(dem_scene_place(scene, given, 2, 0), DEM_OK);
-    assert_int_equal(dem_scene_phase(scene), DEM_PHASE_ROTATING);
+    assert_int_equal(dem_scene_phase(scene), DEM_PHASE_RUNNING);
     static sphere_motion m;
     look(scene, &m);
     for (int c = 0; c < 3; c++) {
@@ -217,7 +217,7 @@ static void a_bed_placed_anew_is_the_same_bed(void **unused)
 {
     (void)unused;
     static sphere_motion before, after;
-    const dem_drum_definition d = lined_drum_of_two_shapes();
+    const dem_scene_definition d = lined_drum_of_two_shapes();
     dem_state state;
     dem_scene *scene = rotating_scene(&d, &state);
     dem_state_clear(&state);

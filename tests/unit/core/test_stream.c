@@ -6,9 +6,9 @@
 #include "small_drum.h"
 
 /* 30 mm across, 3 mm spheres, entering through the middle third at 1 m/s. */
-static dem_drum_definition small_fill(size_t particles, double rate)
+static dem_scene_definition small_fill(size_t particles, double rate)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.container = DEM_CYLINDER;
     d.diameter = 0.03;
     d.length = 0.1;
@@ -20,7 +20,7 @@ static dem_drum_definition small_fill(size_t particles, double rate)
 }
 
 /* Stiffness for an overlap of 3 % at the impact. */
-static void stiffen(dem_drum_definition *d)
+static void stiffen(dem_scene_definition *d)
 {
     double lightest = INFINITY, heaviest = 0, smallest = INFINITY;
     for (size_t k = 0; k < d->species_count; k++) {
@@ -36,10 +36,10 @@ static void stiffen(dem_drum_definition *d)
 static void particles_enter_when_they_are_due(void **state)
 {
     (void)state;
-    dem_drum_definition d = small_fill(12, 200);
+    dem_scene_definition d = small_fill(12, 200);
     stiffen(&d);
     dem_scene *scene = drum_scene(&d);
-    assert_int_equal(dem_scene_phase(scene), DEM_PHASE_ROTATING);
+    assert_int_equal(dem_scene_phase(scene), DEM_PHASE_RUNNING);
     assert_int_equal(dem_scene_particle_count(scene), 1);
     while (dem_scene_time(scene) < 0.1) {
         run(scene, 20);
@@ -53,7 +53,7 @@ static void particles_enter_when_they_are_due(void **state)
 static void a_particle_meets_the_level_of_the_bed_at_the_speed_asked_for(void **state)
 {
     (void)state;
-    dem_drum_definition d = small_fill(1, 100);
+    dem_scene_definition d = small_fill(1, 100);
     stiffen(&d);
     dem_scene *scene = drum_scene(&d);
     double position[3], velocity[3], before = INFINITY, speed = 0;
@@ -76,7 +76,7 @@ static void a_particle_meets_the_level_of_the_bed_at_the_speed_asked_for(void **
 static void nobody_enters_into_another_and_all_arrive(void **state)
 {
     (void)state;
-    dem_drum_definition d = small_fill(300, 0);
+    dem_scene_definition d = small_fill(300, 0);
     d.stream.rate = dem_stream_most_rate(&d);
     stiffen(&d);
     dem_scene *scene = drum_scene(&d);
@@ -89,9 +89,9 @@ static void nobody_enters_into_another_and_all_arrive(void **state)
     dem_scene_free(scene);
 }
 
-static dem_drum_definition mixed_fill(void)
+static dem_scene_definition mixed_fill(void)
 {
-    dem_drum_definition d = small_fill(120, 500);
+    dem_scene_definition d = small_fill(120, 500);
     d.species_count = 3;
     d.species[0].share = 0.5;
     for (size_t k = 1; k < 3; k++) {
@@ -105,7 +105,7 @@ static dem_drum_definition mixed_fill(void)
 static void species_come_mixed_in_proportion(void **state)
 {
     (void)state;
-    const dem_drum_definition d = mixed_fill();
+    const dem_scene_definition d = mixed_fill();
     dem_scene *scene = drum_scene(&d);
     while (dem_scene_particle_count(scene) < 60) run(scene, 100);
     size_t count[3] = { 0 };
@@ -140,7 +140,7 @@ static void a_fill_has_the_same_bits_for_any_threads_and_after_a_restart(void **
 {
     (void)state;
     for (int mixed = 0; mixed < 2; mixed++) {
-        dem_drum_definition d = mixed ? mixed_fill() : small_fill(150, 600);
+        dem_scene_definition d = mixed ? mixed_fill() : small_fill(150, 600);
         stiffen(&d);
         dem_scene *whole = drum_scene(&d);
         while (dem_scene_particle_count(whole) < 40) run(whole, 100); /* in the midst of the stream */
@@ -175,7 +175,7 @@ static void a_fill_has_the_same_bits_for_any_threads_and_after_a_restart(void **
 static void what_rests_on_the_floor_is_told_from_what_falls(void **state)
 {
     (void)state;
-    dem_drum_definition d = small_fill(4, 1e6);
+    dem_scene_definition d = small_fill(4, 1e6);
     d.stream.diameter = 0.03;
     stiffen(&d);
     dem_scene *scene = drum_scene(&d);
@@ -196,7 +196,7 @@ static void streams_that_make_no_sense_are_refused(void **state)
 {
     (void)state;
     for (int wrong = 0; wrong < 4; wrong++) {
-        dem_drum_definition d = small_fill(10, 100);
+        dem_scene_definition d = small_fill(10, 100);
         stiffen(&d);
         if (wrong == 0) d.stream.diameter = 0.031;  /* wider than the cylinder */
         if (wrong == 1) d.stream.diameter = 0.0029; /* narrower than a particle */

@@ -77,7 +77,7 @@ static void head_on_spheres_part_with_e_and_the_closed_forms(void **unused)
     (void)unused;
     for (int a = 0; a < APPROACHES; a++)
         for (int b = 0; b < RESTITUTIONS; b++) {
-            dem_drum_definition d = hand_definition(2);
+            dem_scene_definition d = hand_definition(2);
             first_sphere_differs(&d, (dem_species){ .diameter = 0.006, .density = 1200 });
             d.contact.restitution = restitutions[b];
             d.contact.stiffness = 4e4;
@@ -85,7 +85,7 @@ static void head_on_spheres_part_with_e_and_the_closed_forms(void **unused)
             d.time_step = contact_time(m_eff, &d.contact) / STEPS_A_CONTACT;
             dem_scene *scene = weightless_scene(&d);
             const double v = approaches[a], gap = 7.3 * v * d.time_step;
-            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                                .position = (double[]){ -0.002, 0.01, 0, 0.003 + gap, 0.01, 0 },
                                                .velocity = (double[]){ 0.25 * v, 0, 0, -0.75 * v, 0, 0 } });
             const collision c = collide(scene, 2, v, "pair_history");
@@ -100,7 +100,7 @@ static void head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says(void 
 {
     (void)unused;
     for (int differ = 0; differ < 2; differ++) {
-        dem_drum_definition d = hand_definition(2);
+        dem_scene_definition d = hand_definition(2);
         if (differ) first_sphere_differs(&d, (dem_species){ .diameter = 0.006, .density = 1200 });
         d.contact.law = DEM_HERTZ_MINDLIN;
         d.contact.restitution = 1;
@@ -110,7 +110,7 @@ static void head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says(void 
         const double overlap = pow(15.0 / 16 * m_eff * v * v / (e_star * sqrt(r_1 * r_2 / (r_1 + r_2))), 0.4);
         d.time_step = 2.94328 * overlap / v / STEPS_A_CONTACT;
         dem_scene *scene = weightless_scene(&d);
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = (double[]){ 0, 0.01, 0, r_1 + r_2 + 7.3 * v * d.time_step, 0.01, 0 },
                                            .velocity = (double[]){ 0.25 * v, 0, 0, -0.75 * v, 0, 0 } });
         const collision c = collide(scene, 2, v, "pair_history");
@@ -127,7 +127,7 @@ static void growing_spheres_of_hertz_press_each_other_as_grown_ones_do(void **un
     (void)unused;
     static const double overlap = 2e-5;
     for (int differ = 0; differ < 2; differ++) {
-        dem_drum_definition d = hand_definition(2);
+        dem_scene_definition d = hand_definition(2);
         if (differ) first_sphere_differs(&d, (dem_species){ .diameter = 0.006, .density = 1200 });
         d.contact.law = DEM_HERTZ_MINDLIN;
         d.contact.particle = d.contact.wall = (dem_elasticity){ 5e7, 0.3 };
@@ -135,7 +135,7 @@ static void growing_spheres_of_hertz_press_each_other_as_grown_ones_do(void **un
         for (double scale = 0.25; scale < 1; scale += 0.25) {
             dem_scene *scene = weightless_scene(&d);
             spheres *s = &scene->spheres;
-            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                                .position = (double[]){ 0, 0.01, 0, scale * (r_1 + r_2) - overlap, 0.01, 0 } });
             spheres_set_scale(s, scale);
             neighbor_list_invalidate(&scene->neighbors);
@@ -157,14 +157,14 @@ static void a_sphere_leaves_the_wall_with_e_and_the_closed_forms(void **unused)
     (void)unused;
     for (int a = 0; a < APPROACHES; a++)
         for (int b = 0; b < RESTITUTIONS; b++) {
-            dem_drum_definition d = hand_definition(1);
+            dem_scene_definition d = hand_definition(1);
             d.contact.restitution = restitutions[b];
             d.contact.stiffness = 4e4;
             const double m = species_mass(&d.species[0]);
             d.time_step = contact_time(m, &d.contact) / STEPS_A_CONTACT;
             dem_scene *scene = weightless_scene(&d);
             const double v = approaches[a];
-            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+            place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                                .position = (double[]){ 0.098 - 7.3 * v * d.time_step, 0, 0 },
                                                .velocity = (double[]){ v, 0, 0 } });
             const collision c = collide(scene, 1, v, "wall_history");
@@ -178,14 +178,14 @@ static void with_variable_unloading_spheres_part_slower_the_faster_they_met(void
 {
     (void)unused;
     for (int a = 0; a < APPROACHES; a++) {
-        dem_drum_definition d = hand_definition(2);
+        dem_scene_definition d = hand_definition(2);
         d.contact.stiffness = 4e4;
         d.contact.unloading_slope = 2e4;
         const double m_eff = species_mass(&d.species[0]) / 2, v = approaches[a], w = sqrt(d.contact.stiffness / m_eff);
         const double e = sqrt(w / (d.contact.unloading_slope * v + w));
         d.time_step = contact_time(m_eff, &d.contact) / STEPS_A_CONTACT;
         dem_scene *scene = weightless_scene(&d);
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = (double[]){ -0.002, 0.01, 0, 0.002 + 7.3 * v * d.time_step, 0.01, 0 },
                                            .velocity = (double[]){ 0.5 * v, 0, 0, -0.5 * v, 0, 0 } });
         const collision c = collide(scene, 2, v, "pair_history");
@@ -193,7 +193,7 @@ static void with_variable_unloading_spheres_part_slower_the_faster_they_met(void
         CHECK_NEAR(c.residual, v / w * (1 - e * e), (2e-5 + 30 * ROUNDING) * v / w);
         dem_scene_free(scene);
         scene = weightless_scene(&d);
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = (double[]){ 0.098 - 7.3 * v * d.time_step, 0, 0, 0, 0.05, 0.03 },
                                            .velocity = (double[]){ v, 0, 0, 0, 0, 0 } });
         const double w_wall = sqrt(d.contact.stiffness / (2 * m_eff));
@@ -208,14 +208,14 @@ static void with_variable_unloading_spheres_part_slower_the_faster_they_met(void
 static void at_the_runs_own_time_step_e_holds_to_half_a_percent(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     const double m_eff = species_mass(&d.species[0]) / 2;
     d.time_step = dem_time_step(d.contact.stiffness, species_mass(&d.species[0]), d.contact.restitution);
     CHECK_NEAR(d.time_step, contact_time(m_eff, &d.contact) / DEM_STEPS_PER_CONTACT, 1e-12 * d.time_step);
     dem_scene *scene = weightless_scene(&d);
     for (int part = 0; part < 20; part++) {
         const double v = 0.4, gap = part / 20.0 * v * d.time_step;
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = (double[]){ -0.002, 0.01, 0, 0.002 + gap, 0.01, 0 },
                                            .velocity = (double[]){ v / 2, 0, 0, -v / 2, 0, 0 } });
         const collision c = collide(scene, 2, v, "pair_history");
@@ -233,10 +233,10 @@ typedef struct oblique {
 } oblique;
 
 /* Against the wall at +x, sliding along the drum's axis, in which the wall is flat. */
-static oblique strike_wall(double v_n, double v_t, const dem_drum_definition *d)
+static oblique strike_wall(double v_n, double v_t, const dem_scene_definition *d)
 {
     dem_scene *scene = weightless_scene(d);
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0.098 - 2.5 * v_n * d->time_step, 0, 0 },
                                        .velocity = (double[]){ v_n, 0, v_t } });
     advance(scene, 2 * STEPS_A_CONTACT);
@@ -254,7 +254,7 @@ static void an_impact_that_slides_throughout_gives_the_impulse_of_coulomb(void *
     (void)unused;
     static const double friction[] = { 0.05, 0.2, 0.4 };
     for (int k = 0; k < 3; k++) {
-        dem_drum_definition d = hand_definition(1);
+        dem_scene_definition d = hand_definition(1);
         d.contact.stiffness = 1e6;
         d.contact.wall_friction = friction[k];
         d.time_step = contact_time(species_mass(&d.species[0]), &d.contact) / STEPS_A_CONTACT;
@@ -271,12 +271,12 @@ static void an_impact_that_slides_throughout_gives_the_impulse_of_coulomb(void *
 static void a_sphere_that_rolls_along_the_wall_is_not_slowed_by_an_impact(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(1);
+    dem_scene_definition d = hand_definition(1);
     d.contact.stiffness = 1e6;
     d.time_step = contact_time(species_mass(&d.species[0]), &d.contact) / STEPS_A_CONTACT;
     dem_scene *scene = weightless_scene(&d);
     const double v_t = 0.5, v_n = 0.05;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0.098 - 2.5 * v_n * d.time_step, 0, 0 },
                                        .velocity = (double[]){ v_n, 0, v_t },
                                        .spin = (double[]){ 0, v_t / 0.002, 0 } });
@@ -297,11 +297,11 @@ static void a_sphere_that_rolls_along_the_wall_is_not_slowed_by_an_impact(void *
 static void a_sphere_set_sliding_ends_rolling_at_five_sevenths(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(1);
+    dem_scene_definition d = hand_definition(1);
     d.time_step = dem_time_step(d.contact.stiffness, species_mass(&d.species[0]), d.contact.restitution);
     dem_scene *scene = hand_scene(&d);
     const double r = 0.002, v_0 = 0.4, alpha = species_mass(&d.species[0]) * 9.81 / d.contact.stiffness;
-    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+    place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ 0, -0.098 - alpha, 0 },
                                        .velocity = (double[]){ 0, 0, v_0 } });
     /* slip ends after 2 v_0/(7 mu g) */
@@ -355,7 +355,7 @@ static conserved conserved_of(const dem_scene *scene, const double mass[2], cons
 static void oblique_spinning_spheres_conserve_momentum_and_angular_momentum(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     first_sphere_differs(&d, (dem_species){ .diameter = 0.007, .density = 2500 });
     d.time_step = 4e-6;
     dem_scene *scene = weightless_scene(&d);
@@ -374,7 +374,7 @@ static void oblique_spinning_spheres_conserve_momentum_and_angular_momentum(void
             w[k] = dice_uniform(&own, -200, 200);
             w[3 + k] = dice_uniform(&own, -200, 200);
         }
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING, .position = x, .velocity = v, .spin = w });
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING, .position = x, .velocity = v, .spin = w });
         const conserved before = conserved_of(scene, mass, inertia);
         advance(scene, 1000);
         const conserved after = conserved_of(scene, mass, inertia);
@@ -393,14 +393,14 @@ static void oblique_spinning_spheres_conserve_momentum_and_angular_momentum(void
 static void across_the_period_is_as_inside(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = hand_definition(2);
+    dem_scene_definition d = hand_definition(2);
     double end[2][12];
     for (int across = 0; across < 2; across++) {
         dem_scene *scene = weightless_scene(&d);
         /* the pair lies along z: about z = 0, or about z = length/2 */
         const double middle = across ? d.length / 2 : 0;
         double x[6] = { 0.01, 0.01, middle - 0.0021, 0.0105, 0.01, middle + 0.0021 - (across ? d.length : 0) };
-        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_ROTATING,
+        place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                            .position = x,
                                            .velocity = (double[]){ 0, 0, 0.2, 0.05, 0, -0.2 },
                                            .spin = (double[]){ 10, 20, 30, 0, -40, 0 } });

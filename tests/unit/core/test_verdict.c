@@ -15,7 +15,7 @@ static double dice_normal(dice *d)
 
 static dem_scene *scene_of(size_t particles, double rate)
 {
-    dem_drum_definition d = hand_definition(particles - PARKED);
+    dem_scene_definition d = hand_definition(particles - PARKED);
     d.diameter = 2 * RADIUS;
     d.length = 0.018;
     d.rotation_rate = rate;

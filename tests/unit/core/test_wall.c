@@ -87,7 +87,7 @@ static void check_many(const cloud *c, const container_wall *w, double reach, do
     }
 }
 
-static container_wall wall_of(const dem_drum_definition *d, wall_kind kind, int which)
+static container_wall wall_of(const dem_scene_definition *d, wall_kind kind, int which)
 {
     container c;
     container_init(&c, d);
@@ -97,18 +97,18 @@ static container_wall wall_of(const dem_drum_definition *d, wall_kind kind, int 
     return c.wall[0];
 }
 
-static dem_drum_definition tube_and_plate(void)
+static dem_scene_definition tube_and_plate(void)
 {
-    return (dem_drum_definition){ .container = DEM_TUBE_ON_PLATE,
-                                  .diameter = 0.6 * RADIUS,
-                                  .length = LENGTH,
-                                  .plate = { .diameter = 2 * RADIUS, .rim_height = 0.3 * LENGTH } };
+    return (dem_scene_definition){ .container = DEM_TUBE_ON_PLATE,
+                                   .diameter = 0.6 * RADIUS,
+                                   .length = LENGTH,
+                                   .plate = { .diameter = 2 * RADIUS, .rim_height = 0.3 * LENGTH } };
 }
 
 static void a_thin_tube_is_seen_from_inside_outside_and_its_edges(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = tube_and_plate();
+    const dem_scene_definition d = tube_and_plate();
     const container_wall tube = wall_of(&d, WALL_SHELL, 0), rim = wall_of(&d, WALL_SHELL, 1);
     cloud c = cloud_create(2e-4);
     add_tube(&c, 0.3 * RADIUS, 0, 2 * LENGTH); /* and on, without an upper edge */
@@ -122,7 +122,7 @@ static void a_thin_tube_is_seen_from_inside_outside_and_its_edges(void **unused)
 static void a_plate_is_seen_from_above_and_below_and_from_beside_its_edge(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = tube_and_plate();
+    const dem_scene_definition d = tube_and_plate();
     const container_wall plate = wall_of(&d, WALL_DISC, 0);
     cloud c = cloud_create(3e-4);
     add_disc(&c, RADIUS, 0);
@@ -133,7 +133,7 @@ static void a_plate_is_seen_from_above_and_below_and_from_beside_its_edge(void *
 static void a_drum_is_seen_from_within(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = { .diameter = 2 * RADIUS, .length = LENGTH, .ends = { .are_walls = true } };
+    const dem_scene_definition d = { .diameter = 2 * RADIUS, .length = LENGTH, .ends = { .are_walls = true } };
     const container_wall drum = wall_of(&d, WALL_CYLINDER, 0);
     cloud c = cloud_create(3e-4);
     add_tube(&c, RADIUS, -LENGTH / 2, LENGTH / 2);
@@ -152,7 +152,7 @@ static void a_bar_is_seen_from_within_the_drum_wherever_it_has_turned(void **unu
 {
     (void)unused;
     const double height = 0.012, width = 0.008;
-    dem_drum_definition d = {
+    dem_scene_definition d = {
         .diameter = 2 * RADIUS, .length = LENGTH, .rotation_rate = 2, .lifters = { .count = 3, .height = height, .width = width }
     };
     container drum;
@@ -186,10 +186,10 @@ static void a_bar_is_seen_from_within_the_drum_wherever_it_has_turned(void **unu
 static void behind_a_surface_the_distance_is_negative(void **unused)
 {
     (void)unused;
-    const dem_drum_definition d = { .diameter = 2 * RADIUS,
-                                    .length = LENGTH,
-                                    .ends = { .are_walls = true },
-                                    .lifters = { .count = 1, .height = 0.012, .width = 0.008 } };
+    const dem_scene_definition d = { .diameter = 2 * RADIUS,
+                                     .length = LENGTH,
+                                     .ends = { .are_walls = true },
+                                     .lifters = { .count = 1, .height = 0.012, .width = 0.008 } };
     const double behind_top[3] = { RADIUS - 0.011, 0.001, 0 }, behind_side[3] = { RADIUS - 0.003, 0.0035, 0 };
     const container_wall bar = wall_of(&d, WALL_BAR, 0);
     wall_sight sight = wall_seen_from(&bar, behind_top);
@@ -212,10 +212,10 @@ static void walls_move_as_their_velocities_say(void **unused)
 {
     (void)unused;
     const double dt = 1e-7, t = 0.3;
-    dem_drum_definition turning = {
+    dem_scene_definition turning = {
         .diameter = 2 * RADIUS, .length = LENGTH, .rotation_rate = -3, .lifters = { .count = 5, .height = 0.012, .width = 0.008 }
     };
-    dem_drum_definition rising = tube_and_plate();
+    dem_scene_definition rising = tube_and_plate();
     rising.lift = (dem_lift){ .speed = 0.02, .start = 0.1 };
     container before, after;
     container_init(&before, &turning);

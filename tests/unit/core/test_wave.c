@@ -7,9 +7,9 @@
 enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500 };
 
 /* Eight diameters across and a hundred long: some 3000 spheres, so that steps follow each other along it. */
-static dem_drum_definition slender_drum(void)
+static dem_scene_definition slender_drum(void)
 {
-    dem_drum_definition d = small_drum();
+    dem_scene_definition d = small_drum();
     d.diameter = 0.024;
     d.length = 0.3;
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, d.species_count);
@@ -17,9 +17,9 @@ static dem_drum_definition slender_drum(void)
 }
 
 /* Sizes, moments of both ends, rolling: whatever a contact may have. */
-static dem_drum_definition slender_mixture(void)
+static dem_scene_definition slender_mixture(void)
 {
-    dem_drum_definition d = slender_drum();
+    dem_scene_definition d = slender_drum();
     d.species_count = 2;
     d.species[0].share = 0.7;
     d.species[1] = (dem_species){ .diameter = 0.004, .density = 2500, .share = 0.3 };
@@ -28,7 +28,7 @@ static dem_drum_definition slender_mixture(void)
     return d;
 }
 
-static dem_scene *scene_in_waves(const dem_drum_definition *d, double margin)
+static dem_scene *scene_in_waves(const dem_scene_definition *d, double margin)
 {
     dem_scene *scene = drum_scene(d);
     scene->spheres.in_waves = true;
@@ -47,7 +47,7 @@ static void check_same_bits(const dem_scene *a, const dem_scene *b)
     assert_memory_equal(s->angular_velocity, t->angular_velocity, n * sizeof *s->angular_velocity);
     assert_memory_equal(&a->maximum_overlap, &b->maximum_overlap, sizeof a->maximum_overlap);
     assert_memory_equal(&a->torque, &b->torque, sizeof a->torque);
-    assert_memory_equal(&a->drum.angle, &b->drum.angle, sizeof a->drum.angle);
+    assert_memory_equal(&a->container.angle, &b->container.angle, sizeof a->container.angle);
 }
 
 typedef struct tally {
@@ -77,18 +77,18 @@ static tally compare(dem_scene *waves, dem_scene *single, int calls)
 }
 
 /* While it falls, through the change of phase, and as it turns, across a sort. */
-static tally check_drum(dem_drum_definition *d, double margin)
+static tally check_drum(dem_scene_definition *d, double margin)
 {
     follow_rules(d, 0.04);
     dem_scene *waves = scene_in_waves(d, margin), *single = scene_in_waves(d, margin);
     run_to_phase(waves, DEM_PHASE_SETTLING);
     run_to_phase(single, DEM_PHASE_SETTLING);
     tally sum = compare(waves, single, 100);
-    run_to_phase(waves, DEM_PHASE_ROTATING);
-    run(waves, BEFORE_SORT - (dem_scene_step_count(waves) - dem_scene_rotation_start(waves)));
+    run_to_phase(waves, DEM_PHASE_RUNNING);
+    run(waves, BEFORE_SORT - (dem_scene_step_count(waves) - dem_scene_run_start(waves)));
     while (dem_scene_step_count(single) < dem_scene_step_count(waves)) run(single, 1);
     const tally t = compare(waves, single, 100);
-    assert_true(dem_scene_step_count(waves) - dem_scene_rotation_start(waves) > 8192);
+    assert_true(dem_scene_step_count(waves) - dem_scene_run_start(waves) > 8192);
     sum.steps += t.steps;
     sum.in_waves += t.in_waves;
     sum.stopped += t.stopped;
@@ -100,7 +100,7 @@ static tally check_drum(dem_drum_definition *d, double margin)
 static void waves_have_the_same_bits_as_single_steps(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = slender_drum();
+    dem_scene_definition d = slender_drum();
     const tally t = check_drum(&d, 0);
     assert_true(t.in_waves > t.steps / 2);
 }
@@ -108,7 +108,7 @@ static void waves_have_the_same_bits_as_single_steps(void **unused)
 static void of_a_rolling_mixture_between_end_walls_too(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = slender_mixture();
+    dem_scene_definition d = slender_mixture();
     d.ends.are_walls = true;
     d.ends.friction = 0.3;
     const tally t = check_drum(&d, 0);
@@ -120,7 +120,7 @@ static void by_every_law(void **unused)
     (void)unused;
     const dem_contact_law laws[] = { DEM_SPRING_DASHPOT, DEM_HERTZ_MINDLIN };
     for (int k = 0; k < 2; k++) {
-        dem_drum_definition d = slender_drum();
+        dem_scene_definition d = slender_drum();
         follow_rules(&d, 0.04);
         d.contact.law = laws[k];
         if (laws[k] == DEM_HERTZ_MINDLIN) d.contact.particle = d.contact.wall = (dem_elasticity){ 1e7, 0.3 };
@@ -140,7 +140,7 @@ static void waves_that_stop_on_their_way_have_the_same_bits(void **unused)
     (void)unused;
     const double margins[] = { 1e-9, 2e-7, 2e-6, 1e-6 };
     for (int k = 0; k < 4; k++) {
-        dem_drum_definition d = k % 2 ? slender_mixture() : slender_drum();
+        dem_scene_definition d = k % 2 ? slender_mixture() : slender_drum();
         const tally t = check_drum(&d, margins[k]);
         assert_true(t.stopped > t.steps / 100);
     }
@@ -150,11 +150,11 @@ static void waves_that_stop_on_their_way_have_the_same_bits(void **unused)
 static void a_drum_that_is_too_soft_stops_as_in_single_steps(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = slender_drum();
+    dem_scene_definition d = slender_drum();
     follow_rules(&d, 0.04);
     dem_scene *waves = scene_in_waves(&d, 0), *single = scene_in_waves(&d, 0);
-    run_to_phase(waves, DEM_PHASE_ROTATING);
-    run_to_phase(single, DEM_PHASE_ROTATING);
+    run_to_phase(waves, DEM_PHASE_RUNNING);
+    run_to_phase(single, DEM_PHASE_RUNNING);
     waves->contact.stiffness /= 3000;
     single->contact.stiffness /= 3000;
     dem_status status = DEM_OK;
@@ -175,7 +175,7 @@ static void a_drum_that_is_too_soft_stops_as_in_single_steps(void **unused)
 static void what_moves_otherwise_takes_single_steps(void **unused)
 {
     (void)unused;
-    dem_drum_definition d = slender_drum();
+    dem_scene_definition d = slender_drum();
     d.threads = 2;
     follow_rules(&d, 0.04);
     dem_scene *scene = scene_in_waves(&d, 0);
@@ -189,7 +189,7 @@ static void what_moves_otherwise_takes_single_steps(void **unused)
     d.threads = 1;
     scene = scene_in_waves(&d, 0);
     assert_int_equal(wave_length(scene, 1000), 1); /* it grows */
-    run_to_phase(scene, DEM_PHASE_ROTATING);
+    run_to_phase(scene, DEM_PHASE_RUNNING);
     run(scene, 10);
     int longest = 0;
     for (int k = 0; k < 20; k++) {

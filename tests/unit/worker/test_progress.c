@@ -65,15 +65,15 @@ static double percent_at_the_estimated_end(const char *process, const char *text
 {
     job_spec spec = spec_of(process, text);
     const double steps = job_spec_estimate(&spec, NULL).steps;
-    const int64_t settling = (int64_t)(dem_settling_time(&spec.drum) / spec.drum.time_step);
+    const int64_t settling = (int64_t)(dem_settling_time(&spec.scene) / spec.scene.time_step);
     dem_scene *scene;
-    assert_int_equal(dem_scene_create(&spec.drum, &scene), DEM_OK);
+    assert_int_equal(dem_scene_create(&spec.scene, &scene), DEM_OK);
     const schedule plan = schedule_of(&spec);
     progress run;
     progress_init(&run, &spec, &plan, scene, 0.0);
     double percent = 0.0;
-    while (dem_scene_rotation_start(scene) < 0) percent = advance(&run, &spec, scene, settling / 4, percent);
-    const int64_t left = dem_scene_rotation_start(scene) + (int64_t)steps - settling - dem_scene_step_count(scene);
+    while (dem_scene_run_start(scene) < 0) percent = advance(&run, &spec, scene, settling / 4, percent);
+    const int64_t left = dem_scene_run_start(scene) + (int64_t)steps - settling - dem_scene_step_count(scene);
     percent = advance(&run, &spec, scene, left, percent);
     if (and_beyond) assert_true(advance(&run, &spec, scene, (int64_t)(0.2 * steps), percent) <= 100.0);
     dem_scene_free(scene);
