@@ -18,23 +18,21 @@ export function granuleAnswer({ granule, regime }) {
       regime?.name ? h('span', null, `At the rate given it is ${regime.name}: it ${REGIMES[regime.name] ?? ''}.`) : null));
 }
 
-const EQUATIONS = [['stationary_eq33', 'Eq 33', 'above it nothing slips'], ['sliding_eq34', 'Eq 34', 'fit'],
-  ['sliding_eq36', 'Eqns 36–37', 'fit']];
-
-function fitTable({ minimum_omega2, fits, deviations }) {
+// described: the fits, by name.
+function fitTable({ minimum_omega2, fits, deviations }, described = {}) {
   return h('table', { class: 'methods' },
     h('caption', { class: 'unseen' }, 'What the paper has for the least ω²R/g'),
     h('thead', null, h('tr', null, ...['equation', 'ω²R/g', 'off by'].map(name => h('th', { scope: 'col' }, name)))),
     h('tbody', null, h('tr', null, h('th', { scope: 'row' }, 'this test'), h('td', null, significant(minimum_omega2, 4)), h('td')),
-      EQUATIONS.map(([name, title, meaning]) => h('tr', null,
-      h('th', { scope: 'row' }, title, h('small', null, meaning)),
-      h('td', null, significant(fits[name], 4)), h('td', null, percent(deviations[name]))))));
+      Object.entries(fits).map(([name, fit]) => h('tr', null,
+        h('th', { scope: 'row' }, described[name]?.title ?? name, h('small', null, described[name]?.description)),
+        h('td', null, significant(fit, 4)), h('td', null, percent(deviations[name]))))));
 }
 
 export function granuleInWords({ granule, regime, run }, schemas) {
   const told = schemas.regime?.properties ?? {}, given = { properties: { ...told.evidence?.properties, ...told } };
   return h('div', { class: 'results' },
-    section('Least rate', granule, schemas.granule, fitTable(granule)),
+    section('Least rate', granule, schemas.granule, fitTable(granule, schemas.granule?.properties?.fits?.properties)),
     regime?.name ? section('At the rate given', { name: regime.name, omega2_outer: regime.omega2_outer, ...regime.evidence }, given) : null,
     section('Run', run, schemas.run));
 }
