@@ -141,9 +141,11 @@ class Daemon:
 
 def run_daemon(folder, **how):
     daemon = Daemon(folder, **how).start()
-    yield daemon
-    if daemon.is_running():
-        daemon.stop(signal.SIGKILL)
+    try:
+        yield daemon
+    finally:
+        if daemon.is_running():
+            daemon.stop(signal.SIGKILL)
 
 
 @pytest.fixture

@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import textwrap
+from contextlib import contextmanager
 from pathlib import Path
 
 import jsonschema
@@ -332,7 +333,7 @@ def test_the_program_writes_the_schemas_of_inputs_and_results_into_the_document(
 def test_a_stale_document_is_served_with_the_schemas_of_the_program(tmp_path, contract):
     document = (ROOT / "api/openapi.yaml").read_text()
     (tmp_path / "stale.yaml").write_text(document.split("    ProcessId:")[0])
-    for daemon in run_daemon(tmp_path, options=["--api-file", str(tmp_path / "stale.yaml")]):
+    with contextmanager(run_daemon)(tmp_path, options=["--api-file", str(tmp_path / "stale.yaml")]) as daemon:
         assert yaml.safe_load(daemon.get("/api").text) == contract.document
 
 
@@ -381,7 +382,7 @@ last: /jobs/{id}
 def test_yaml_of_every_kind_that_documents_use_is_read_as_others_read_it(tmp_path):
     """PyYAML is the other."""
     (tmp_path / "any.yaml").write_text(YAML)
-    for daemon in run_daemon(tmp_path, options=["--api-file", str(tmp_path / "any.yaml")]):
+    with contextmanager(run_daemon)(tmp_path, options=["--api-file", str(tmp_path / "any.yaml")]) as daemon:
         accept = {"Accept": "application/json"}
         assert daemon.get("/api", headers=accept).json() == yaml.safe_load(YAML)
         for number, bad in enumerate(("a: {b: [1, 2}\n", "a: 1\n b: 2\n", "a: 1\na: 2\n", "a: 'open\n", "[" * 500, "- a\nb: 1\n")):
