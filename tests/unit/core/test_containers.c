@@ -78,18 +78,19 @@ static void a_normal_impact_on_any_wall_leaves_e_of_the_speed(void **unused)
         { "cylinder, high up", DEM_CYLINDER, { 0.05 - R, 0, 0.3 }, { 1, 0, 0 } },
         { "tube from within", DEM_TUBE_ON_PLATE, { 0, 0.05 - R, 0.02 }, { 0, 1, 0 } },
         { "tube from outside", DEM_TUBE_ON_PLATE, { 0, 0.05 + R, 0.02 }, { 0, -1, 0 } },
-        { "tube's upper edge", DEM_TUBE_ON_PLATE, { 0, 0.05, 0.06 + R }, { 0, 0, -1 } },
-        { "tube's upper edge, aslant", DEM_TUBE_ON_PLATE, { 0.05 - h * R, 0, 0.06 + h * R }, { h, 0, -h } },
+        { "tube above what was its height", DEM_TUBE_ON_PLATE, { 0, 0.05 - R, 0.2 }, { 0, 1, 0 } },
         { "plate", DEM_TUBE_ON_PLATE, { -0.07, 0, R }, { 0, 0, -1 } },
         { "plate's edge", DEM_TUBE_ON_PLATE, { 0.1 + R, 0, 0 }, { -1, 0, 0 } },
         { "rim", DEM_TUBE_ON_PLATE, { 0.1 - R, 0, 0.003 }, { 1, 0, 0 } },
+        { "rim's upper edge", DEM_TUBE_ON_PLATE, { 0, 0.1, 0.006 + R }, { 0, 0, -1 } },
+        { "rim's upper edge, aslant", DEM_TUBE_ON_PLATE, { 0.1 - h * R, 0, 0.006 + h * R }, { h, 0, -h } },
     };
     for (size_t k = 0; k < sizeof shots / sizeof *shots; k++) {
         const shot *s = &shots[k];
         dem_scene_definition d = container_definition(s->container, 1);
         d.ends.are_walls = s->container == DEM_DRUM;
         if (strncmp(s->at, "bar", 3) == 0) d.lifters = (dem_lifters){ .count = 1, .height = 0.01, .width = 0.008, .friction = 0.3 };
-        if (strcmp(s->at, "rim") == 0) d.plate.rim_height = 0.006;
+        if (strncmp(s->at, "rim", 3) == 0) d.plate.rim_height = 0.006;
         d.time_step = 5e-6;
         dem_scene *scene = container_scene(&d);
         scene->definition.gravity = 0;
