@@ -73,13 +73,42 @@ def test_cited_sections_exist():
 
 @pytest.mark.parametrize("path", DOCUMENTS)
 def test_named_files_exist(path):
-    """But for what a run writes into data/."""
+    """But for what a run writes into data/, and X, which stands for any process."""
     named = set(re.findall(r"[\w*./-]*[\w*]\.(?:c|h|py|md)\b", without_code(text_of(path))))
     assert named
-    assert sorted(name for name in named if not name.startswith("data/") and not is_there(name)) == []
+    assert sorted(name for name in named if not re.search(r"^data/|\bX_", name) and not is_there(name)) == []
 
 
 @pytest.mark.parametrize("path", [path for path in DOCUMENTS if "](" in text_of(path)])
 def test_links_lead_to_files(path):
     links = re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", text_of(path))
     assert [link for link in links if not (ROOT / path).parent.joinpath(link).exists()] == []
+
+
+def rows_of_adding():
+    chapter = text_of("README.md").split("## To add ...")[1].split("\n## ")[0]
+    return [line for line in chapter.splitlines() if line.startswith("| a")]
+
+
+def test_what_is_to_be_added_to_is_there_for_what_was_added_before():
+    """Files named with an X are there for each process, and every other file is there."""
+    processes = re.findall(r"&(\w+)_process", text_of("api/process/process_type.c"))
+    assert len(processes) >= 4 and len(rows_of_adding()) == 9
+    for row in rows_of_adding():
+        for name in re.findall(r"`([\w/*.-]+\.(?:c|h|js|css|yaml|json))`", row):
+            if name == "X_rules.c":  # a granule's few rules stand beside its process
+                continue
+            for process in processes if "X" in name else [""]:
+                assert is_there(name.replace("X", process)), f"{name} for {process or row}"
+
+
+def test_each_process_and_law_stands_in_all_of_its_lists():
+    processes = set(re.findall(r"&(\w+)_process", text_of("api/process/process_type.c")))
+    assert set(re.findall(r'\{ "(\w+)", \w+_run', text_of("server/worker/run/job_run.c"))) == processes
+    assert set(re.findall(r"^  (\w+): \{ answer", text_of("web/process_views.js"), re.MULTILINE)) == processes
+    assert {Path(path).stem for path in TREE if path.startswith("api/examples/")} == processes
+    assert all(f"api/process/{process}_SEES" in text_of("Makefile") for process in processes)
+    laws = re.search(r"typedef enum dem_contact_law \{(.*?)\}", text_of("include/dem_types.h"), re.DOTALL)[1]
+    names = re.search(r"contact_law_names\[\] = \{(.*?)\}", text_of("api/spec/calibration.c"))[1]
+    in_c = re.findall(r"DEM_(\w+)", laws)
+    assert [name.lower().replace("_", "-") for name in in_c] == re.findall(r'"([\w-]+)"', names)

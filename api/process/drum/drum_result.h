@@ -9,7 +9,7 @@
 
 typedef struct drum_result {
     dem_drum_results measured;
-    bool has_regime; /* false: too few frames, or no bed, to tell */
+    bool has_regime;        /* false: too few frames, or no bed, to tell */
     double steady, certain; /* 1, 0; NaN: nobody can know. As is the next, written from what was measured */
     const char *verdict, *method, *regime;
     run_facts run;

@@ -72,7 +72,7 @@ static void check_bed(const scene_inputs *inputs, const dem_scene_definition *sc
 }
 
 /* A bed of much friction is looser, and its top may stand over the cylinder's. */
-static void warn(const job_spec *spec, problem_list *warnings)
+void fill_warn(const job_spec *spec, problem_list *warnings)
 {
     const dem_scene_definition *scene = &spec->scene;
     const double solid = dem_poured_solid(scene), needed = dem_stream_height(scene, (double)scene->particle_count, solid);
@@ -111,7 +111,7 @@ static const char *what_makes_it_long(const scene_inputs *inputs, const dem_scen
     return isnan(inputs->fill.mass_rate) ? "/inputs/stream/rate" : "/inputs/stream/mass_rate";
 }
 
-static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
+void fill_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
     scene_inputs *inputs = &spec->inputs;
     dem_scene_definition *scene = &spec->scene;
@@ -124,7 +124,7 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
     standing_complete(spec, what_makes_it_long(inputs, scene), problems);
 }
 
-static job_estimate estimate(const job_spec *spec, const calibration *machine)
+job_estimate fill_estimate(const job_spec *spec, const calibration *machine)
 {
     const double filling = (double)spec->scene.particle_count / spec->scene.stream.rate;
     const double settling = fmin(SETTLING_EXPECTED, spec->inputs.fill.settling_seconds);
@@ -132,7 +132,7 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
     return standing_estimate(spec, machine, filling + settling, 0.0, (0.5 * filling + settling) / (filling + settling));
 }
 
-static void understand(const job_spec *spec, json_t *words)
+void fill_understand(const job_spec *spec, json_t *words)
 {
     char filling[TIME_IN_WORDS_SIZE], settling[TIME_IN_WORDS_SIZE];
     time_in_words((double)spec->scene.particle_count / spec->scene.stream.rate, filling);
@@ -140,17 +140,3 @@ static void understand(const job_spec *spec, json_t *words)
     scene_understand(spec, words);
     json_object_set_new(words, "duration", json_sprintf("%s of filling, then at most %s to come to rest", filling, settling));
 }
-
-const process_type fill_process = {
-    .name = "fill",
-    .title = "Filling a cylinder",
-    .description = "A stream of particles falls into a standing cylinder at a given speed: the mound that it leaves, while it "
-                   "runs and at rest, the surface, and the packing of the bed. SI units; angles in degrees.",
-    .inputs = &fill_fields,
-    .inputs_at = offsetof(job_spec, inputs),
-    .apply_rules = apply_rules,
-    .estimate = estimate,
-    .warn = warn,
-    .understand = understand,
-    .results = &fill_result_fields,
-};

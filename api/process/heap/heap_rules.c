@@ -87,7 +87,7 @@ static double largest_impact(const scene_inputs *inputs, const dem_scene_definit
     return fmax(FALL_IN_TUBE * falling, inputs->heap.lift_speed);
 }
 
-static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
+void heap_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *problems)
 {
     scene_inputs *inputs = &spec->inputs;
     dem_scene_definition *scene = &spec->scene;
@@ -101,7 +101,7 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
 }
 
 /* Until the tube is clear of a cone of that volume. */
-static job_estimate estimate(const job_spec *spec, const calibration *machine)
+job_estimate heap_estimate(const job_spec *spec, const calibration *machine)
 {
     const dem_scene_definition *scene = &spec->scene;
     const double bed = standing_bed_height(scene), volume = DEM_PI / 4.0 * scene->diameter * scene->diameter * bed;
@@ -118,7 +118,7 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
 }
 
 /* A loose bed stands above the height given, where the wall goes on; a tube that is pulled away lets its particles fall. */
-static void warn(const job_spec *spec, problem_list *warnings)
+void heap_warn(const job_spec *spec, problem_list *warnings)
 {
     const double loose = height_of_loose_tube(&spec->scene);
     if (spec->scene.length < loose * (1.0 - 1e-9))
@@ -135,24 +135,10 @@ static void warn(const job_spec *spec, problem_list *warnings)
     scene_warn(spec, warnings);
 }
 
-static void understand(const job_spec *spec, json_t *words)
+void heap_understand(const job_spec *spec, json_t *words)
 {
     char time[TIME_IN_WORDS_SIZE];
     time_in_words(spec->duration, time);
     scene_understand(spec, words);
     json_object_set_new(words, "duration", json_sprintf("at most %s from when the tube starts to rise", time));
 }
-
-const process_type heap_process = {
-    .name = "heap",
-    .title = "Heap below a raised tube",
-    .description = "A tube full of particles, standing on a plate, is raised slowly: the angle of the heap that forms, under four "
-                   "definitions and over 16 azimuths, its shape, and what the plate loses. SI units; angles in degrees.",
-    .inputs = &heap_fields,
-    .inputs_at = offsetof(job_spec, inputs),
-    .apply_rules = apply_rules,
-    .estimate = estimate,
-    .warn = warn,
-    .understand = understand,
-    .results = &heap_result_fields,
-};

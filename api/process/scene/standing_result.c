@@ -35,10 +35,10 @@ json_t *profile_to_json(const dem_profile *profile, const char *place, const cha
 
 void describe_angle_methods(json_t *properties)
 {
-    json_object_set_new(
-        properties, "other_methods",
-        json_pack("{s:s, s:s, s:s, s:{s:[s, s]}}", "type", "object", "description", "mean angle by other definitions", "x-unit",
-                  "degrees", "additionalProperties", "type", "number", "null"));
+    json_object_set_new(properties, "other_methods",
+                        json_pack("{s:s, s:s, s:s, s:{s:[s, s]}}", "type", "object", "description",
+                                  "mean angle by other definitions", "x-unit", "degrees", "additionalProperties", "type", "number",
+                                  "null"));
     json_object_set_new(properties, "other_methods_standard_error_deg",
                         json_pack("{s:s, s:s, s:s, s:{s:[s, s]}}", "type", "object", "description", "errors of those", "x-unit",
                                   "degrees", "additionalProperties", "type", "number", "null"));
