@@ -1,10 +1,55 @@
-/* The step:
- *     neighbor lists, made again when a displacement asks for it; contact history carried over
- *     forces of contacts between spheres and with the container, summed for each; single spheres that have all theirs take
- *         their step; now and then, those with the container before all others, and a look at the drum's torque
- *     each cluster's sum over its spheres; velocities and positions (Eqns 3, 4), spins and orientations (Eqns 5-23)
- *     what fell off a plate is laid aside; what is due of a stream enters
- *     the container moves; the phase may change
+/* One time step: the simple algorithm, then each way in which the code departs from it to be fast.
+ *
+ * The simple algorithm, as the paper has it:
+ *
+ *     1. Bring the neighbor lists up to date; contacts keep their histories                          (step_neighbors).
+ *     2. Compute the force of every contact, between spheres and with walls, from the places and velocities of now, and
+ *        add it to the loads of the spheres that it acts on                                          (step_contacts).
+ *     3. Add up the loads of each cluster's spheres; advance velocities and places (Eqns 3, 4), spins and orientations
+ *        (Eqns 5-23); set the loads to zero                                                          (step_motion).
+ *     4. Set aside the particles that fell off a plate; let the stream's next particles in; move the container; change
+ *        the phase when that is due                                                                  (finish_step).
+ *
+ * One invariant holds for all that follows: each sphere's load is one running sum, over its contacts with spheres in the
+ * order of the list and then over its contacts with walls (contact_list.h), and every force is computed from the places
+ * and velocities of one moment. Therefore each departure gives the same bits as the simple algorithm.
+ *
+ * Parts (contact_parts.h). Each thread computes one part: whole blocks of the list, and all loads of a range of spheres.
+ *     Invariant: a thread writes to the loads and rows of its own spheres alone; a contact between spheres of two parts is
+ *     computed by both. Results of parts are combined only by operations whose order does not matter, such as a maximum.
+ *     Switch: definition.threads > 1.
+ * Halo (contact_parts.h). A part reads the spheres of other parts from copies of their rows. There are two sets of copies,
+ *     which alternate (spheres.front_copy): a step reads one set while spheres that move early are written to the other.
+ *     Invariant: the front set equals the rows of now whenever spheres.copies_hold is true. Whoever changes a row outside
+ *     the early motion sets it to false (sphere_set does so), and the next step copies all shared rows again.
+ *     Switch: with several parts, always.
+ * Walls on the way (contact_forces.c, spheres_complete). The contacts of some spheres with walls are computed when these
+ *     spheres have all their other forces, while they are in the cache, not before all others.
+ *     Invariant: a contact with a wall reads its own sphere and the wall, nothing else.
+ *     Switch: step_contacts, walls_first. When the torque is due, all walls come first, because the torque is of one moment.
+ * Early motion (contact_forces.c, spheres_complete). A single sphere takes its step inside step 2, as soon as its load is
+ *     complete. Spheres of clusters wait for step 3.
+ *     Invariant: no contact that is still to be computed in this step reads the sphere's row. That follows from the order
+ *     of the list: the first sphere of a contact is before the second in memory, and first spheres ascend.
+ *     Switch: one_step passes no `leap` to step_contacts when something has to see all loads, or all spheres, between the
+ *     forces and the motion: `looks`.
+ * Waves (wave.h). A single thread takes up to HORIZON steps of a very large bed in one pass through memory.
+ *     Invariant: between two steps of one wave nothing changes but the spheres' motion; all else is the same in each.
+ *     Switch: wave_length is more than 1; is_possible in wave.c gives the conditions and their reasons.
+ * Prefetch (contact_forces.c, neighbor_pick.c, wall_forces.c, integrator.c). What the next contacts read is loaded into the
+ *     cache in advance. Invariant: it changes no result. Switch: spheres.are_many, spheres.exceed_caches.
+ *
+ * Whoever adds something to the step keeps this:
+ *   - A new force belongs to the passes of contact_block.h. A contact in reach that does not touch gives exact zeros; what
+ *     the padding of a list gives may be NaN and is never read. What a contact remembers is a number in contact_history.
+ *   - What needs all places, velocities or loads of one moment between forces and motion joins `looks` in one_step and
+ *     the conditions of is_possible. What looks at the scene every so many steps bounds wave_length instead.
+ *   - What changes spheres, walls, masses or parameters from one step to the next joins the conditions of is_possible; the
+ *     test of waves has a list of all such effects, and holds runs with and without waves to the same bits.
+ *   - A bound for the lists: if something moves spheres or walls otherwise than by integrator_advance, it calls
+ *     neighbor_list_invalidate, or its speed is in neighbor_list.c's bounds.
+ *   - No sum runs over parts, and nothing depends on when a list was made or on how many threads there are.
+ *   - What is kept for each sphere has a row in sphere_arrays, so that it is sorted, saved and restored with the sphere.
  */
 #include "step.h"
 
@@ -42,7 +87,9 @@ static bool torque_is_due(const dem_scene *scene)
     return scene->phase == DEM_PHASE_RUNNING && (scene->step_count - scene->run_start) % STEPS_BETWEEN_TORQUES == 0;
 }
 
-/* While the places are those of the forces: with a lining once all loads are there, else from the walls alone. */
+/* Adds to the torque's mean and to the audit's work of the walls, while the places are still those that the forces were
+ * computed at. With a lining the torque is summed from all loads; without one, from the contacts with walls alone.
+ * has_loads: the call comes when all loads are complete; the other call of the step comes when the walls' rows are. */
 static void look_at_torque(dem_scene *scene, bool has_loads)
 {
     const bool is_due = torque_is_due(scene), is_lined = scene->spheres.lining_count > 0;
@@ -54,14 +101,16 @@ static void look_at_torque(dem_scene *scene, bool has_loads)
     scene->torque.count += 1;
 }
 
-/* largest: m, of the step; since: s, for which single spheres have moved on since. */
+/* largest: m, the largest overlap of the step. since: s, by which single spheres have moved on since the forces were
+ * computed. Errors: DEM_OVERLAP_TOO_LARGE. */
 static dem_status look_at_overlaps(dem_scene *scene, double largest, double since)
 {
     scene->maximum_overlap = fmax(scene->maximum_overlap, largest);
     return largest > failure_least_overlap(scene) ? failure_check_overlaps(scene, since) : DEM_OK;
 }
 
-/* leap: those spheres that have all their forces move at once, while the processor has them at hand; NULL: none. */
+/* leap: single spheres move early, as soon as their loads are complete; NULL: no sphere does. strayed: becomes what
+ * spheres_advance returns for those that moved. */
 static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4 *strayed)
 {
     const double dt = scene->definition.time_step;
@@ -77,7 +126,8 @@ static dem_status step_contacts(dem_scene *scene, const leap_frog *leap, vector4
     return look_at_overlaps(scene, fmax(largest, between), leap ? dt : 0.0);
 }
 
-/* Half a step's work: once with the velocities before the forces act, once with those after. */
+/* Adds half of the work that the contacts do in this step. It is called twice: with the velocities from before the forces
+ * act, and with those from after. */
 static void audit_half_step(dem_scene *scene, const row8 *load)
 {
     scene->audit.contact_work += 0.5 * scene->definition.time_step * energy_contact_power(&scene->spheres, load);
@@ -147,7 +197,9 @@ static dem_status continue_phase(dem_scene *scene)
     return DEM_OK;
 }
 
-/* The motion, and what is looked at between it and the forces. Returns integrator_advance's bound. */
+/* The motion, and between it and the forces the torque and the audit of energy. moved: the single spheres that have moved
+ * early; so_far: what spheres_advance returned for them. Returns integrator_advance's bound on how fast velocities have
+ * left those of the pick, m/s. */
 static double step_motion(dem_scene *scene, const leap_frog *leap, size_t moved, vector4 so_far)
 {
     spheres *s = &scene->spheres;
@@ -166,7 +218,8 @@ static double step_motion(dem_scene *scene, const leap_frog *leap, size_t moved,
     return deviation;
 }
 
-/* What follows the motion. */
+/* What follows the motion. Whatever is added here happens between two steps of a wave, too: see is_possible in wave.c.
+ * deviation: m/s, as step_motion returns it. */
 static dem_status finish_step(dem_scene *scene, double deviation)
 {
     neighbor_list_step_done(&scene->neighbors, deviation, scene->definition.time_step);
@@ -190,7 +243,9 @@ static dem_status one_step(dem_scene *scene)
     return status;
 }
 
-/* The next steps as one wave. Apart: a wave's stages need not be in the way of the stack of single steps. */
+/* The next steps as one wave. After the pass, the end of each step is done in order. From step w.whole on the list no longer
+ * holds: it is picked anew, and each later step is resumed from where the wave left it. Not inlined, so that the large wave
+ * is not on the stack of single steps. */
 __attribute__((noinline)) static dem_status several_steps(dem_scene *scene, int steps)
 {
     const double dt = scene->definition.time_step;
@@ -219,7 +274,7 @@ __attribute__((noinline)) static dem_status several_steps(dem_scene *scene, int 
 typedef struct advance {
     dem_scene *scene;
     int64_t steps;
-    bool to_rotation; /* at the furthest */
+    bool to_rotation; /* stop where the running phase begins, even if steps are left */
 } advance;
 
 static dem_status advance_scene(void *context)
@@ -237,7 +292,7 @@ static dem_status advance_scene(void *context)
         if (status != DEM_OK) return status;
         k += steps;
     }
-    /* Whoever looks at the scene now finds lists that hold for the present places. */
+    /* The caller may look at the scene now: its lists hold for the present places. */
     step_profile_begin(scene->profile);
     return step_neighbors(scene);
 }

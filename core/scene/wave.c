@@ -3,12 +3,32 @@
 #include "failure.h"
 #include "sorting.h"
 
-enum { VISITS = 200 }; /* of a stage, between those of the others: of a million spheres, each a layer or so */
+/* Blocks that one stage computes before the next stage has its turn are the list's divided by VISITS: in a bed of a million
+ * spheres, about one layer's. */
+enum { VISITS = 200 };
 
 /* ---- which steps ---- */
 
 static int64_t until_next(int64_t count, int64_t every) { return every - count % every; }
 
+/* Whether the next steps may be one wave. Spheres at one end of the bed are several steps ahead of those at the other then,
+ * so nothing but single spheres may move in these steps, and nothing may have to see the whole bed at one moment. (What has
+ * to every so many steps is no condition here but a bound of wave_length.)
+ *
+ *     in_waves         The bed is too large for the caches: in a smaller one, waves do not pay (SPEED.md).
+ *     threads == 1     A wave has one cursor a step, which goes through the whole list; a part's halo has copies of the rows
+ *                      for this step and the next one only.
+ *     not growing      Growing spheres have other radii in each step, and all stages of a wave read the same rows.
+ *     single spheres   A cluster moves when all its spheres have their loads, in step_motion, after the contacts of all.
+ *     no lining        The lining's spheres turn with the drum between two steps (container_rotate_lining); also, the torque
+ *                      on it is summed from all loads of one moment.
+ *     a drum           A tube is raised and a stream lets particles in between two steps; a plate loses particles. A drum's
+ *                      cylinder and end walls look the same at each angle, and so may turn on unseen.
+ *     no lifters       They do not look the same at each angle: in each step they are elsewhere.
+ *     its rate         Where the definition's rate is not the walls' yet, container_move changes the walls' velocity at the
+ *                      end of the next step.
+ *     no profile       The profile tells what the parts of a step cost, and in a wave those of several steps are mixed.
+ *     no audit         The audit of energy needs all loads and all velocities of one moment, before and after the motion. */
 static bool is_possible(const dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
@@ -57,7 +77,9 @@ double wave_deviation(const wave *w, int k)
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Spheres that stage k may have as first ones: all, or those before `ready`. */
+/* Finds how far stage k may go: `ready` becomes the first sphere that may not be the first of a contact yet, as the stage
+ * before has not moved it, or not all that it may touch. Contacts with walls may be computed for all spheres that the stage
+ * before has moved. */
 static void look_ahead(wave *w, int k)
 {
     const neighbor_list *const list = w->list;
@@ -68,6 +90,8 @@ static void look_ahead(wave *w, int k)
     stage->cursor.walls_end = list->wall_start[complete];
 }
 
+/* Computes the next blocks of stage k: at most a share of the list of 1 / VISITS, and none that has spheres which the stage
+ * before has yet to move. */
 static void go_on(wave *w, int k)
 {
     wave_stage *const stage = &w->stage[k];
@@ -83,7 +107,8 @@ static void go_on(wave *w, int k)
     if (cursor->next == cursor->end && stage->ready > n) list_cursor_complete(cursor, n);
 }
 
-/* Steps that the list holds for, by how far spheres have come; the one with too large an overlap is the last. */
+/* How many of the first `whole` steps the list holds for, by what is known of the spheres' motion so far. A step in which an
+ * overlap is too large is the last one, as the run fails there. */
 static int steps_that_hold(const wave *w)
 {
     double strayed = w->list->strayed;
@@ -96,6 +121,8 @@ static int steps_that_hold(const wave *w)
 
 /* ---- stages that stop and go on ---- */
 
+/* Keeps where a stage stopped in terms of spheres, which outlive the list: its last pair, and the rows of those contacts with
+ * walls that are computed but not yet in a load. */
 static void keep_place(const wave *w, wave_stage *stage)
 {
     const contact_list *const pairs = &w->list->pairs, *const walls = &w->list->walls;
@@ -122,7 +149,7 @@ void wave_run(wave *w)
     for (int k = w->whole; k < w->steps; k++) keep_place(w, &w->stage[k]);
 }
 
-/* Where the contacts behind this one begin. */
+/* The first slot of the list that is behind the contact (first, second), whether the list has that contact or not. */
 static size_t slot_behind(const contact_list *list, int32_t first, int32_t second)
 {
     size_t low = 0, high = list->count;
@@ -134,7 +161,8 @@ static size_t slot_behind(const contact_list *list, int32_t first, int32_t secon
     return low;
 }
 
-/* The rows that spheres have yet to add. Contacts that were not listed did not touch. */
+/* Puts the rows that keep_place kept into the new list, whose slots begin..end-1 have them; spheres have yet to add them to
+ * their loads. A contact that only the new list has did not touch: its row is zero. */
 static void put_rows_back(wave *w, const wave_stage *stage, size_t begin, size_t end)
 {
     const contact_list *const walls = &w->list->walls;
@@ -142,7 +170,7 @@ static void put_rows_back(wave *w, const wave_stage *stage, size_t begin, size_t
     for (size_t k = 0; k < stage->wall_count; k++) {
         const size_t behind = slot_behind(walls, stage->wall_first[k], stage->wall_second[k]);
         if (behind == 0 || walls->first[behind - 1] != stage->wall_first[k] || walls->second[behind - 1] != stage->wall_second[k])
-            continue; /* which does not touch, either */
+            continue; /* a contact that only the old list has does not touch, either */
         walls->row[behind - 1] = stage->wall_row[k];
     }
 }

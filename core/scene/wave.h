@@ -18,9 +18,10 @@
 
 typedef struct wave_stage {
     list_cursor cursor;
-    size_t ready; /* spheres before it, and all that these might touch, have taken the step before */
-    /* where it stopped; of contacts with walls, those that have a row which is in no load yet */
-    int32_t first, second; /* of the last pair that was computed; -1: none was */
+    size_t ready; /* the spheres before this one, and all that they might touch, have taken the step before */
+    /* Where the stage stopped, if it did: the last pair that was computed, and the contacts with walls whose row is computed
+     * but not yet added to a load. */
+    int32_t first, second; /* spheres of that pair; -1: none was computed */
     size_t wall_count;
     int32_t wall_first[BLOCK], wall_second[BLOCK];
     contact_row wall_row[BLOCK];
@@ -29,23 +30,24 @@ typedef struct wave_stage {
 typedef struct wave {
     neighbor_list *list;
     spheres *spheres;
-    int steps, whole; /* the latter: as many of the first go, or went, to the end by the list of the beginning */
-    double overlap_limit;
+    int steps;            /* in the wave */
+    int whole;            /* how many of them, from the first on, go to the end with the list of the beginning */
+    double overlap_limit; /* m: a larger overlap may be a failure (failure_least_overlap) */
     pair_work work;
     contact_block block;
     wave_stage stage[HORIZON];
 } wave;
 
-/* Steps from here on, at most `left`, that can be one wave: lists are up to date. 1: the step is one by itself. */
+/* How many of the next `left` steps can be one wave. 1: the next step is taken by itself. The lists must be up to date. */
 int wave_length(const dem_scene *scene, int64_t left);
-/* The first step's contacts with walls have their rows: are_walls_done. */
+/* are_walls_done: the contacts with walls of the first step have been computed already. */
 void wave_begin(wave *wave, dem_scene *scene, int steps, bool are_walls_done);
-/* All steps, or as many as the list holds for: wave.whole. */
+/* Takes all steps, or as many as the list holds for: wave.whole. The later ones stop on the way. */
 void wave_run(wave *wave);
-/* Step k, behind those, from where it stopped to the end: lists are up to date. */
+/* Takes step k, one that stopped, to its end. All steps before it are at their ends, and the lists are up to date. */
 void wave_resume(wave *wave, int k);
 double wave_largest_overlap(const wave *wave, int k); /* m, of step k */
-/* m/s, of step k: the largest |v - v at the pick|, of spheres that moved since the last pick. */
+/* m/s: the largest |v - v at the pick| after step k, of the spheres that have moved since the last pick. */
 double wave_deviation(const wave *wave, int k);
 
 #endif
