@@ -1,10 +1,11 @@
 /* Claims about several steps in one pass: they are the same steps, to the last bit, also where they have to stop on the
  * way. The oracle: the same run, told to take one step at a time. */
+#include "dem_cluster.h"
 #include "scene.h"
 #include "small_drum.h"
 #include "wave.h"
 
-enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500 };
+enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 360 /* species apart */ };
 
 /* Eight diameters across and a hundred long: some 3000 spheres, so that steps follow each other along it. */
 static dem_scene_definition slender_drum(void)
@@ -171,6 +172,125 @@ static void a_drum_that_is_too_soft_stops_as_in_single_steps(void **unused)
     dem_scene_free(single);
 }
 
+/* ---- everything that can change from one step to the next ---- */
+
+static void nothing(dem_scene_definition *d) { (void)d; }
+static void end_walls(dem_scene_definition *d) { d->ends = (dem_drum_ends){ true, 0.3, 0.05 }; }
+static void rolling(dem_scene_definition *d) { d->contact.rolling_friction = d->contact.wall_rolling_friction = 0.1; }
+static void variable_unloading(dem_scene_definition *d) { d->contact.unloading_slope = 1e3; }
+static void latch_damping(dem_scene_definition *d) { d->contact.latch_damping = 0.3; }
+static void other_sense(dem_scene_definition *d) { d->rotation_rate = -d->rotation_rate; }
+static void standing_still(dem_scene_definition *d) { d->rotation_rate = 0; }
+static void threads(dem_scene_definition *d) { d->threads = 2; }
+static void lining(dem_scene_definition *d) { d->lining = (dem_lining){ .diameter = 0.003, .pitch = 0.004 }; }
+static void lifters(dem_scene_definition *d) { d->lifters = (dem_lifters){ 4, 0.004, 0.003, 0.5 }; }
+
+static void clusters_beside_spheres(dem_scene_definition *d)
+{
+    d->length = 0.02;
+    d->species_count = 2;
+    d->species[0].share = 0.8;
+    d->species[1] = (dem_species){ .diameter = 0.003, .density = 2500, .share = 0.2 };
+    dem_cluster_of_shape(&d->species[1].cluster, DEM_DUMBBELL, 0.003);
+    dem_cluster_complete(&d->species[1].cluster);
+    d->corrector_passes = 2;
+}
+
+static void standing_cylinder(dem_scene_definition *d)
+{
+    d->container = DEM_CYLINDER;
+    d->length = 0.1;
+    d->rotation_rate = 0;
+    d->particle_count = 100;
+}
+
+static void fed_by_a_stream(dem_scene_definition *d)
+{
+    standing_cylinder(d);
+    d->stream = (dem_stream){ .rate = 500, .diameter = 0.012, .impact_speed = 1.0 };
+}
+
+static void raised_tube(dem_scene_definition *d)
+{
+    standing_cylinder(d);
+    d->container = DEM_TUBE_ON_PLATE;
+    d->lift = (dem_lift){ .speed = 0.2, .start = 0.001 };
+    d->plate = (dem_plate){ .diameter = 0.06, .friction = 0.4 };
+}
+
+static void audit(dem_scene *scene) { scene->audit.is_on = true; }
+static double no_time(void) { return 0; }
+static void profile(dem_scene *scene)
+{
+    static dem_step_profile unused = { .clock = no_time };
+    dem_scene_set_profile(scene, &unused);
+}
+
+typedef struct effect {
+    const char *name;
+    void (*define)(dem_scene_definition *); /* what of the definition switches it on */
+    void (*begin)(dem_scene *);             /* or what else, once the drum turns; NULL: nothing */
+    bool allows_waves;
+} effect;
+
+/* Everything that a scene can be made to do in its steps. */
+static const effect effects[] = {
+    { "nothing else", nothing, NULL, true },
+    { "end walls", end_walls, NULL, true },
+    { "rolling friction", rolling, NULL, true },
+    { "variable unloading", variable_unloading, NULL, true },
+    { "latch damping", latch_damping, NULL, true },
+    { "the other sense", other_sense, NULL, true },
+    { "standing still", standing_still, NULL, true },
+    { "threads", threads, NULL, false },
+    { "a lining", lining, NULL, false },
+    { "lifters", lifters, NULL, false },
+    { "clusters", clusters_beside_spheres, NULL, false },
+    { "a cylinder", standing_cylinder, NULL, false },
+    { "a stream", fed_by_a_stream, NULL, false },
+    { "a tube on a plate", raised_tube, NULL, false },
+    { "the audit of energy", nothing, audit, false },
+    { "the profile", nothing, profile, false },
+};
+
+/* A definition with a new member does not have this size: say in `effects` what the member switches on in a step, and
+ * whether waves foresee it (is_possible in wave.c). */
+_Static_assert(sizeof(dem_scene_definition) - sizeof(((dem_scene_definition *)NULL)->species) == DEFINITION_BYTES,
+               "each member that acts in a step has a row in effects");
+_Static_assert(sizeof(energy_audit) == 3 * sizeof(double), "what the audit counts is compared below");
+
+static void check_effect(const effect *e)
+{
+    dem_scene_definition d = small_drum();
+    e->define(&d);
+    follow_rules(&d, 0.04);
+    dem_scene *waves = scene_in_waves(&d, 0), *single = scene_in_waves(&d, 0);
+    tally sum = { 0 };
+    for (int phase = DEM_PHASE_SETTLING; phase <= DEM_PHASE_RUNNING; phase++) {
+        run_to_phase(waves, (dem_phase)phase);
+        run_to_phase(single, (dem_phase)phase);
+        if (e->begin && phase == DEM_PHASE_RUNNING) {
+            e->begin(waves);
+            e->begin(single);
+            sum = (tally){ 0 };
+        }
+        const tally t = compare(waves, single, 60);
+        assert_memory_equal(&waves->audit, &single->audit, sizeof waves->audit);
+        sum.steps += t.steps;
+        sum.in_waves += t.in_waves;
+    }
+    if (e->allows_waves ? sum.in_waves < sum.steps / 2 : sum.in_waves > 0)
+        fail_msg("%s: %lld of %lld steps were in waves", e->name, (long long)sum.in_waves, (long long)sum.steps);
+    dem_scene_free(waves);
+    dem_scene_free(single);
+}
+
+static void every_effect_of_a_step_has_the_same_bits_where_waves_are_allowed(void **unused)
+{
+    (void)unused;
+    for (size_t k = 0; k < sizeof effects / sizeof *effects; k++) check_effect(&effects[k]);
+}
+
 /* What a wave would not foresee keeps to single steps. */
 static void what_moves_otherwise_takes_single_steps(void **unused)
 {
@@ -212,6 +332,7 @@ int main(void)
         cmocka_unit_test(by_every_law),
         cmocka_unit_test(waves_that_stop_on_their_way_have_the_same_bits),
         cmocka_unit_test(a_drum_that_is_too_soft_stops_as_in_single_steps),
+        cmocka_unit_test(every_effect_of_a_step_has_the_same_bits_where_waves_are_allowed),
         cmocka_unit_test(what_moves_otherwise_takes_single_steps),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
