@@ -118,11 +118,12 @@ static bool may_start(const job_dispatcher *dispatcher)
 static bool start_next_job(job_dispatcher *dispatcher)
 {
     worker_slot *slot = may_start(dispatcher) ? free_slot(dispatcher) : NULL;
+    if (!slot) return false;
+    /* One that tries after a pause is the least suspect: a few that this machine can't run would be in all others' way. */
+    const bool tries = dispatcher->pause.setbacks > 0;
+    const int free_threads = dispatcher->threads - threads_in_use(dispatcher);
     job_claim claim;
-    if (!slot
-        || store_claim_job(dispatcher->store, dispatcher->threads - threads_in_use(dispatcher), dispatcher->threads, &claim)
-               != STORE_OK)
-        return false;
+    if (store_claim_job(dispatcher->store, tries, free_threads, dispatcher->threads, &claim) != STORE_OK) return false;
     const double now = monotonic_seconds();
     *slot = (worker_slot){ .state = SLOT_WORKING,
                            .claim = claim,

@@ -77,9 +77,9 @@ typedef struct job_claim {
     int saved_in;       /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
 } job_claim;
 
-/* Takes the oldest job that waits, if it needs no more threads than are free (a job of more than `all_threads`
- * counts as that many). STORE_NOT_FOUND: none. */
-store_status store_claim_job(job_store *store, int free_threads, int all_threads, job_claim *claim);
+/* Takes the oldest job that waits, or the oldest of those with the fewest setbacks, if it needs no more threads than are free
+ * (a job of more than `all_threads` counts as that many). STORE_NOT_FOUND: none. */
+store_status store_claim_job(job_store *store, bool by_setbacks, int free_threads, int all_threads, job_claim *claim);
 
 /* Takes in how far checkpoints have come; the same events again change nothing. */
 void job_claim_note(job_claim *claim, const event_batch *events);

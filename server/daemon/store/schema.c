@@ -134,6 +134,10 @@ static const char retried_and_deleted_jobs[] =
     "CREATE TRIGGER job_number_kept AFTER DELETE ON job BEGIN"
     "  UPDATE last_deleted SET number=old.number WHERE number<old.number; END;";
 
+/* Jobs wait by their setbacks too; by their numbers alone job_by_status has them. */
+static const char waiting_by_setbacks[] = "DROP INDEX job_waiting;"
+                                          "CREATE INDEX job_waiting ON job(setbacks, number) WHERE status='accepted';";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN { { NULL } }
@@ -152,5 +156,6 @@ const schema_migration schema_migrations[] = {
     NO_TABLES_OF_ITS_OWN,
     NO_TABLES_OF_ITS_OWN,
     NO_TABLES_OF_ITS_OWN,
+    { { waiting_by_setbacks } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];
