@@ -1,28 +1,41 @@
+/* The loop over the contacts between spheres. For each block of BLOCK contacts:
+ *
+ *     gather     copies the two spheres of each contact from their rows into the block's arrays, one number after the other,
+ *                and prefetches the spheres of the next block
+ *     compute    the passes of contact_block.h: normal, displacement, law, rolling friction, and the rows of forces and moments
+ *     scatter    adds these rows to the loads of the two spheres
+ *     complete   spheres that are before the first sphere of the next block have all their contacts with other spheres behind
+ *                them: now come their contacts with walls and, if there is a leap, their step
+ *
+ * list_cursor is the place that one part has reached in one step. step.c says what this loop must keep. */
 #include "contact_forces.h"
 
 #include "wall_forces.h"
 
-/* What all contacts of a block have, from the way between their ends in ring units. */
+/* Stores what every contact has: displacement between the centres, its square, and by how much the square of the reach exceeds
+ * that. apart: the displacement, and reach, in ring units; to_metres: m, one ring unit. */
 WIDE_INLINE void store_geometry(contact_block *restrict block, int k, const wide_ring apart[3], wide reach, wide to_metres)
 {
     wide x[3];
     const wide gap2 = wide_ring_gap2(apart, reach, x);
     store_vector(block->n, k, x);
-    /* not zero where centres nearly coincide, by rounding */
+    /* Where centres nearly coincide, rounding could make this zero or less: it is kept above that. */
     const wide reach2 = reach * reach;
     wide_store(block->distance2 + k, wide_greater(reach2 - gap2, reach2 * wide_all((real)0x1p-20)));
     wide_store(block->gap2 + k, gap2 * to_metres);
 }
 
-WIDE_INLINE void send_for(const spheres *s, const int32_t *coming)
+/* Prefetches the rows of LANES spheres, and what does not fit into the rows where the caches do not hold it. */
+WIDE_INLINE void prefetch_spheres(const spheres *s, const int32_t *sphere)
 {
-    for (int k = 0; k < LANES; k++) __builtin_prefetch(&s->row[coming[k]]);
-    for (int k = 0; s->exceed_caches && k < LANES; k++) __builtin_prefetch(&s->rest[coming[k]]);
+    for (int k = 0; k < LANES; k++) __builtin_prefetch(&s->row[sphere[k]]);
+    for (int k = 0; s->exceed_caches && k < LANES; k++) __builtin_prefetch(&s->rest[sphere[k]]);
 }
 
-/* What the contacts from `next` on remember, and who those after them are: these are more arrays than the processor follows
- * by itself. Inline: a call that only sends for memory has no effect that the compiler sees, and would be left out. */
-WIDE_INLINE void send_for_block(const contact_list *pairs, size_t next)
+/* Prefetches the histories of the block of contacts that begins at `next`, and the spheres' indices of the block behind it. The
+ * processor prefetches arrays that are read in order by itself, but not as many as these. The function is inline because the
+ * compiler leaves out a call that does nothing but prefetch, as it sees no effect. */
+WIDE_INLINE void prefetch_block(const contact_list *pairs, size_t next)
 {
     enum { LINE = ALIGNMENT / sizeof(real), INDEX_LINE = ALIGNMENT / sizeof(int32_t) };
     for (size_t k = next; k < next + BLOCK; k += LINE) {
@@ -36,14 +49,16 @@ WIDE_INLINE void send_for_block(const contact_list *pairs, size_t next)
     }
 }
 
-/* Of spheres that are all alike: the block has their reach and radii. in_order: first ends ascend, before this one; 0: they
- * may be any. coming: the second ends of the next block, whose rows are sent for; NULL: they are in the cache anyway. */
+/* Gathers a block of contacts between spheres that are all alike; set_reach has put their reach and radii into the block.
+ * first, second: (BLOCK) whose rows to read. in_order: the first spheres ascend, and all are below in_order; 0: they may come in
+ * any order. next_second: (BLOCK) the second spheres of the next block, to be prefetched; NULL: they are in the cache anyway.
+ * (The first spheres of the next block are near those of this one.) */
 static void gather_alike(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
-                         const int32_t *restrict second, size_t in_order, const int32_t *coming)
+                         const int32_t *restrict second, size_t in_order, const int32_t *next_second)
 {
     const wide to_metres = wide_all((real)(1 / s->ring_units)), reach = wide_load(block->reach);
     for (int k = 0; k < BLOCK; k += LANES) {
-        if (coming) send_for(s, coming + k);
+        if (next_second) prefetch_spheres(s, next_second + k);
         const wide_rows pairs = wide_rows_of_pairs(s->row, first + k, second + k);
         store_geometry(block, k, pairs.place, reach, to_metres);
         store_vector(block->v, k, pairs.v);
@@ -56,13 +71,14 @@ static void gather_alike(contact_block *restrict block, const spheres *s, const 
     }
 }
 
-/* coming: as above. spins: also what rolling friction needs. */
+/* Gathers a block of contacts between spheres of any sizes. next_second: as for gather_alike. spins: also gather the difference of
+ * spins, which rolling friction needs. */
 WIDE_INLINE void gather_any(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
-                            const int32_t *restrict second, const int32_t *coming, bool spins)
+                            const int32_t *restrict second, const int32_t *next_second, bool spins)
 {
     const wide to_units = wide_all((real)s->ring_units), to_metres = wide_all((real)(1 / s->ring_units));
     for (int k = 0; k < BLOCK; k += LANES) {
-        if (coming) send_for(s, coming + k);
+        if (next_second) prefetch_spheres(s, next_second + k);
         const wide_rows row_i = wide_rows_load(s->row, first + k), row_j = wide_rows_load(s->row, second + k);
         const wide_rests rest_i = wide_rests_load(s->rest, first + k), rest_j = wide_rests_load(s->rest, second + k);
         const wide omega_i[3] = { row_i.omega[0], row_i.omega[1], rest_i.omega_z };
@@ -82,7 +98,8 @@ WIDE_INLINE void gather_any(contact_block *restrict block, const spheres *s, con
     }
 }
 
-/* Of spheres that are all alike: their radius as rows have it, which other parts may be writing by now. */
+/* Sets reach and radii of a block once for all, where spheres are all alike. The radius is computed as spheres_set_scale
+ * computes that of the rows, and not read from a row, because another thread may be writing to that row. */
 static void set_reach(contact_block *block, const spheres *s)
 {
     const wide radii = wide_all(2 * (real)(s->scale * (double)s->full_radius[0])), reach = radii * wide_all((real)s->ring_units);
@@ -92,8 +109,9 @@ static void set_reach(contact_block *block, const spheres *s)
     }
 }
 
-/* Unit normal and overlap. The overlap is the difference of squares, which was taken exactly, over the sum: a small
- * overlap keeps its digits. Returns the largest overlap so far. */
+/* Unit normal and overlap of each contact. The overlap is reach - distance = (reach^2 - distance^2)/(reach + distance); the
+ * difference of squares is exact where the two are near (wide_ring_gap2), so that a small overlap keeps its digits. Returns the larger of
+ * `largest` and the block's overlaps, lane by lane, m. */
 static wide normals(contact_block *restrict block, wide largest)
 {
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -114,8 +132,9 @@ WIDE_INLINE wide cross(const wide a[3], const wide b[3], int c)
     return wide_fused(a[d], b[e], -(a[e] * b[d]));
 }
 
-/* ds = (v_r - (v_r.n) n) factor, v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n, r = R - overlap/2. radius: R of both
- * ends; NULL: they may differ. */
+/* Tangential displacement of the step: ds = (v_r - (v_r.n) n) factor, with the relative velocity at the contact
+ * v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n and the levers r = R - overlap/2. radius: (BLOCK) m, R of both ends where
+ * they are the same; NULL: they may differ, and gather_any has summed R omega of both. */
 WIDE_INLINE void displacements(contact_block *restrict block, const real *restrict radius, double factor)
 {
     const wide times = wide_all((real)factor), half = wide_all((real)0.5);
@@ -138,9 +157,10 @@ WIDE_INLINE void displacements(contact_block *restrict block, const real *restri
     }
 }
 
-/* force: T. f on the first = T - N n; moments about the centres: n x f = n x T times each lever r = R - overlap/2. (While
- * spheres grow, radii are below full size, but then there is no friction, hence no moment.) rolls: with the
- * moments of rolling friction, opposite for the two ends. */
+/* Makes the rows that are added to the loads. The force on the first sphere is f = T - N n; the moment about each centre is
+ * n x T times that sphere's lever r = R - overlap/2. (first_radius is that at full size. While spheres grow they are smaller,
+ * but then there is no friction and hence no moment.) force: T, N. rolls: add the moments of rolling friction, which are
+ * opposite for the two spheres. ends_differ: the second sphere's moment differs from the first's and gets a row of its own. */
 WIDE_INLINE void make_rows(contact_block *restrict block, const real *const force[3], const real *restrict first_radius, bool rolls,
                            bool ends_differ)
 {
@@ -164,7 +184,7 @@ WIDE_INLINE void make_rows(contact_block *restrict block, const real *const forc
     }
 }
 
-/* Whether gather_alike is what serves. */
+/* Whether gather_alike serves the list; else gather_any does. */
 static bool are_alike(const contact_list *pairs) { return pairs->constants == CONSTANTS_OF_ALL && !pairs->has_rolling; }
 
 void contact_block_forces(contact_list *list, size_t start, contact_block *block, const dem_contact_parameters *contact,
@@ -185,19 +205,21 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     else make_rows(block, force, first_radius, false, list->ends_differ);
 }
 
-/* Bytes from the first of spheres.load: which of them gets what the first ends of a block get, and the second. */
+/* Where to add the rows of a block: for each contact, the offset of the first sphere's load and of the second's from the
+ * beginning of spheres.load, in bytes. */
 typedef struct block_loads {
     uint32_t first[BLOCK], second[BLOCK];
 } block_loads;
 
 static uint32_t load_offset(size_t load) { return (uint32_t)(load * sizeof(row8)); }
 
-/* Of the spheres begin..end-1 of a block's contacts; what the others get is for nobody, who has several loads, so that sums
- * need not wait for each other. all: there are no others. */
+/* Finds the loads of a block's spheres, as far as they are among begin..end-1, the part's own. What other spheres would get is
+ * added to padding loads, which nobody reads; there are LOADS_A_PART of these in turn, so that one sum need not wait for the one
+ * before it. padding: the first of them. all: every sphere of the block is the part's own. */
 static void find_loads(block_loads *restrict to, const int32_t *restrict first, const int32_t *restrict second, size_t begin,
-                       size_t end, size_t nobody, bool all)
+                       size_t end, size_t padding, bool all)
 {
-    const uint32_t none = load_offset(nobody), start = (uint32_t)begin, count = (uint32_t)(end - begin);
+    const uint32_t none = load_offset(padding), start = (uint32_t)begin, count = (uint32_t)(end - begin);
     for (int k = 0; k < BLOCK; k++) {
         to->first[k] = load_offset((uint32_t)first[k]);
         to->second[k] = load_offset((uint32_t)second[k]);
@@ -209,35 +231,38 @@ static void find_loads(block_loads *restrict to, const int32_t *restrict first, 
     }
 }
 
-/* Adds a block's rows to their spheres' loads, while they are in the first-level cache. coming: as above, for their loads. */
+/* Adds a block's rows to its spheres' loads, contact after contact in the order of the list, while the rows are in the
+ * first-level cache. next_second: as for gather_alike; here their loads are prefetched. */
 static void add_to_loads(const contact_block *restrict block, const block_loads *to, bool ends_differ, row8 *loads,
-                         const int32_t *coming)
+                         const int32_t *next_second)
 {
     static const row8 on_second = { -1, -1, -1, 1, 1, 1, 0, 0 };
     const contact_row *restrict row = block->row, *restrict second_row = ends_differ ? block->second_row : block->row;
     char *restrict load = (char *)loads;
     for (int begin = 0; begin < BLOCK; begin += LANES) {
-#pragma GCC unroll 16 /* rows lie in an order that is known then */
+#pragma GCC unroll 16 /* unrolled, wide_row_slot is a constant */
         for (int lane = 0; lane < LANES; lane++) {
             const int k = begin + lane, from = begin + wide_row_slot(lane);
             row8 *const first = (row8 *)(load + to->first[k]), *const second = (row8 *)(load + to->second[k]);
-            if (coming) __builtin_prefetch(&loads[coming[k]], 1);
+            if (next_second) __builtin_prefetch(&loads[next_second[k]], 1);
             *first += row[from];
             *second = row8_fused(on_second, second_row[from], *second);
         }
     }
 }
 
-/* Contacts with walls come last in a sphere's sum. */
+/* Adds the rows of the contacts with walls of the spheres from..to-1. They come last in each sphere's sum. */
 WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, size_t to)
 {
     for (size_t k = list->wall_start[from]; k < list->wall_start[to]; k++) s->load[list->walls.first[k]] += list->walls.row[k];
 }
 
-/* The part's own up to `to` have all their forces from others. */
+/* The part's own spheres up to `to` have all their forces from other spheres: computes those from walls where that is still to be
+ * done, adds them, and lets single spheres take their step where the step has a leap (early motion). The new rows of
+ * spheres that other parts read go into the set of copies that the next step reads. */
 WIDE_INLINE void spheres_complete(list_cursor *cursor, size_t to)
 {
-    enum { AHEAD = 96 }; /* of three blocks or four */
+    enum { AHEAD = 96 }; /* as many spheres as three or four blocks complete */
     const pair_work *const work = cursor->work;
     neighbor_list *const list = work->list;
     spheres *const s = work->spheres;
@@ -256,8 +281,10 @@ WIDE_INLINE void spheres_complete(list_cursor *cursor, size_t to)
                             &cursor->shared);
 }
 
-/* One block, to the loads of the part's own spheres. rows: NULL: all are. coming: as above. */
-WIDE_INLINE void block_forces(list_cursor *cursor, contact_list *pairs, size_t b, const block_rows *rows, const int32_t *coming)
+/* Computes block b of a list and adds its rows to the loads of the part's own spheres. rows: where to read the spheres, of
+ * which some are copies of other parts' rows; NULL: all are the part's own. next_second: as for gather_alike. */
+WIDE_INLINE void block_forces(list_cursor *cursor, contact_list *pairs, size_t b, const block_rows *rows,
+                              const int32_t *next_second)
 {
     const pair_work *const work = cursor->work;
     const contact_parts *const parts = &work->list->parts;
@@ -268,24 +295,26 @@ WIDE_INLINE void block_forces(list_cursor *cursor, contact_list *pairs, size_t b
     const int32_t *const second_row = rows ? rows->second[work->front_copy] : second;
     const bool all_mobile = s->lining_count == 0 && (b + 1) * BLOCK <= pairs->count;
     block_loads loads;
-    if (are_alike(pairs)) gather_alike(block, s, first_row, second_row, rows ? 0 : parts->sphere[cursor->part + 1], coming);
-    else if (pairs->has_rolling) gather_any(block, s, first_row, second_row, coming, true);
-    else gather_any(block, s, first_row, second_row, coming, false);
-    if (coming && s->exceed_caches) send_for_block(pairs, (b + 1) * BLOCK);
+    if (are_alike(pairs)) gather_alike(block, s, first_row, second_row, rows ? 0 : parts->sphere[cursor->part + 1], next_second);
+    else if (pairs->has_rolling) gather_any(block, s, first_row, second_row, next_second, true);
+    else gather_any(block, s, first_row, second_row, next_second, false);
+    if (next_second && s->exceed_caches) prefetch_block(pairs, (b + 1) * BLOCK);
     contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &cursor->largest);
     find_loads(&loads, first, second, parts->sphere[cursor->part], parts->sphere[cursor->part + 1],
                loads_of_nobody(s, cursor->part), !rows && all_mobile);
-    add_to_loads(block, &loads, pairs->ends_differ, s->load, coming);
+    add_to_loads(block, &loads, pairs->ends_differ, s->load, next_second);
 }
 
-/* Of a list that is not gone through from block to block. */
-static __attribute__((noinline)) void block_forces_aside(list_cursor *cursor, contact_list *pairs, size_t b, const block_rows *rows)
+/* block_forces for the few blocks outside the main loop: not inlined a second time, and nothing is prefetched. */
+static __attribute__((noinline)) void block_forces_outlined(list_cursor *cursor, contact_list *pairs, size_t b,
+                                                            const block_rows *rows)
 {
     block_forces(cursor, pairs, b, rows, NULL);
 }
 
-/* Block b is done: spheres before the first of the next one have all their forces. A sphere is first in contacts with those
- * behind it in memory alone: behind its last one as first, no other contact reads its row in this step. */
+/* Block b is done: the spheres before the first sphere of the next block are complete. In each contact the first sphere is before
+ * the second in memory, and the list ascends by first spheres; so no later contact of this step has such a sphere at either
+ * end, and no later contact reads its row. */
 WIDE_INLINE void block_done(list_cursor *cursor, size_t b)
 {
     const int32_t *const next = cursor->work->list->pairs.first + (b + 1) * BLOCK;
@@ -298,14 +327,15 @@ void list_cursor_next_block(list_cursor *cursor)
     const contact_part *const own = &cursor->work->list->parts.part[cursor->part];
     const size_t b = cursor->next++;
     const bool is_across = cursor->across < own->across_count && own->across[cursor->across] == b;
-    const int32_t *const coming =
+    const int32_t *const next_second =
         cursor->work->spheres->are_many && cursor->next < cursor->end ? pairs->second + cursor->next * BLOCK : NULL;
-    block_forces(cursor, pairs, b, is_across ? &own->rows[cursor->across++] : NULL, coming);
+    block_forces(cursor, pairs, b, is_across ? &own->rows[cursor->across++] : NULL, next_second);
     block_done(cursor, b);
 }
 
 void list_cursor_complete(list_cursor *cursor, size_t to) { spheres_complete(cursor, to); }
 
+/* The first `done` contacts are replaced by padding while the block is computed, and put back afterwards with their histories. */
 void list_cursor_rest_of_block(list_cursor *cursor, size_t done)
 {
     contact_list *const pairs = &cursor->work->list->pairs;
@@ -325,7 +355,7 @@ void list_cursor_rest_of_block(list_cursor *cursor, size_t done)
     block_rows rows = { 0 };
     memcpy(rows.first[cursor->work->front_copy], first, sizeof rows.first[0]);
     memcpy(rows.second[cursor->work->front_copy], second, sizeof rows.second[0]);
-    block_forces_aside(cursor, pairs, b, &rows);
+    block_forces_outlined(cursor, pairs, b, &rows);
     memcpy(first, ends[0], sizeof ends[0]);
     memcpy(second, ends[1], sizeof ends[1]);
     for (int m = 0; m < numbers; m++) memcpy(pairs->memory[m] + b * BLOCK, kept[m], done * sizeof(real));
@@ -355,7 +385,8 @@ list_cursor list_cursor_begin(const pair_work *work, int part, contact_block *bl
     return cursor;
 }
 
-/* One part's blocks, after the copies of what earlier parts have. */
+/* Computes one part: first its copies of contacts that earlier parts have, then its own blocks. For each of the part's spheres
+ * that is the order of the list, where the contacts of earlier parts come first, too. */
 static void part_forces(pair_work *work, int part)
 {
     contact_part *const own = &work->list->parts.part[part];
@@ -363,7 +394,7 @@ static void part_forces(pair_work *work, int part)
     contact_block block;
     list_cursor cursor = list_cursor_begin(work, part, &block);
     for (size_t b = 0; b * BLOCK < own->copies.count; b++)
-        block_forces_aside(&cursor, &own->copies, b, &own->rows[own->across_count + b]);
+        block_forces_outlined(&cursor, &own->copies, b, &own->rows[own->across_count + b]);
     while (cursor.next < cursor.end) list_cursor_next_block(&cursor);
     if (cursor.complete < own_end) list_cursor_complete(&cursor, own_end);
     work->part[part].largest = wide_largest_lane(cursor.largest);

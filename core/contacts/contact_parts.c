@@ -1,3 +1,6 @@
+/* The division of a new list, in this order: find where each part begins; find the blocks with contacts across, and mark the
+ * spheres in such contacts; number these spheres; make the copies of contacts, and look up the rows that each block reads.
+ * Each pass is itself divided among the threads, and the next begins when all have finished. */
 #include "contact_parts.h"
 
 #include "array.h"
@@ -20,18 +23,21 @@ void contact_parts_clear(contact_parts *parts)
     memset(parts, 0, sizeof *parts);
 }
 
-/* ns, to deal by: of a contact, of one with a wall, of a sphere's step (core/SPEED.md, "Where a step's time goes"). */
+/* ns, by which the work is divided: a contact between spheres, a contact with a wall, a sphere's step (core/SPEED.md, "Where a
+ * step's time goes"). */
 static const double OF_CONTACT = 5.0, OF_WALL = 6.0, OF_SPHERE = 2.8;
 
-/* What all up to the first contact of a block takes, its sphere's others included. */
+/* ns: expected time of all contacts before the block, and of the steps and the contacts with walls of all spheres before the
+ * first sphere of the block. */
 static double cost_before(const contact_list *pairs, const uint32_t *wall_start, size_t block)
 {
     const size_t sphere = (size_t)pairs->first[block * BLOCK];
     return OF_CONTACT * (double)(block * BLOCK) + OF_WALL * wall_start[sphere] + OF_SPHERE * (double)sphere;
 }
 
-/* The slower of two neighbors gets less. Parts differ in what is not foreseen, above all in waiting for lines of memory that
- * other cores have written. At most a percent at a time: a part may have been interrupted. */
+/* Moves the borders between parts, so that the slower of two neighbors gets less next time. The expected times miss some of what
+ * parts wait for, above all cache lines that other cores have written. A border moves by at most one percent of a share at
+ * a time, because a part may have been slow only since the operating system interrupted it. even: ns, a share. */
 static void shift_parts(contact_parts *parts, double even)
 {
     static const double SHARE = 0.05, MOST = 0.01;
@@ -43,7 +49,7 @@ static void shift_parts(contact_parts *parts, double even)
     for (int p = 0; p < parts->count; p++) parts->part[p].took = 0;
 }
 
-/* Parts that take equally long. */
+/* Divides the blocks so that all parts are expected to take equally long, but for what shift_parts has found. */
 static void begin_parts(contact_parts *parts, const contact_list *pairs, const uint32_t *wall_start, size_t n, int count)
 {
     const size_t blocks = round_up_to_block(pairs->count) / BLOCK;
@@ -68,11 +74,11 @@ typedef struct deal_work {
     contact_parts *parts;
     const contact_list *pairs;
     spheres *spheres;
-    size_t shared[MOST_PARTS + 1]; /* spheres of each part */
+    size_t shared[MOST_PARTS + 1]; /* how many spheres of each part are in contacts across */
     dem_status status[MOST_PARTS];
 } deal_work;
 
-/* The spheres behind a part's own, lining not among them. */
+/* The mobile spheres behind those that a part owns: later parts own them. */
 typedef struct others {
     uint32_t begin, count;
 } others;
@@ -121,12 +127,14 @@ static dem_status rows_reserve(contact_part *part, size_t count)
     return DEM_OK;
 }
 
-/* Several parts may mark one and the same. */
+/* Marks a sphere as one in a contact across. Several threads may mark the same sphere at once, with the same value: the store is
+ * atomic, so that this is defined. */
 static void mark(const deal_work *work, int32_t i)
 {
     if ((size_t)i < work->spheres->mobile_count) __atomic_store_n(&work->parts->slot[i], 1, __ATOMIC_RELAXED);
 }
 
+/* Adds the block to the part's blocks with contacts across, and marks the spheres of these contacts. Errors: DEM_NO_MEMORY. */
 static dem_status mark_block(const deal_work *work, int part, size_t block)
 {
     if (across_append(&work->parts->part[part], block) != DEM_OK) return DEM_NO_MEMORY;
@@ -140,7 +148,8 @@ static dem_status mark_block(const deal_work *work, int part, size_t block)
     return DEM_OK;
 }
 
-/* A part's blocks with contacts across, whose first spheres are never before its own. */
+/* Finds a part's blocks with contacts across. The spheres of its contacts are never before those that it owns, so it is enough to
+ * look for spheres behind them. */
 static void find_across(void *context, int part, int parts)
 {
     (void)parts;
@@ -157,6 +166,8 @@ static void find_across(void *context, int part, int parts)
     }
 }
 
+/* Numbers the marked spheres that a part owns. The part lists them in `shared` at the index of its first sphere, where no other part
+ * writes; join_shared then closes the gaps. */
 static void find_shared(void *context, int part, int parts)
 {
     (void)parts;
@@ -165,7 +176,7 @@ static void find_shared(void *context, int part, int parts)
     const size_t begin = p->sphere[part];
     int32_t count = 0;
     for (size_t group = begin, next; group < p->sphere[part + 1]; group = next) {
-        int32_t any = 0; /* of most groups there is none */
+        int32_t any = 0; /* most groups have no marked sphere */
         next = group + LANES < p->sphere[part + 1] ? group + LANES : p->sphere[part + 1];
         for (size_t i = group; i < next; i++) any |= p->slot[i];
         for (size_t i = group; any && i < next; i++) {
@@ -177,7 +188,7 @@ static void find_shared(void *context, int part, int parts)
     work->shared[part] = (size_t)count;
 }
 
-/* Each part found its own where its spheres begin: one after the other now. */
+/* Moves the parts' lists in `shared` together, one behind the other, and sets shared_begin. */
 static void join_shared(deal_work *work)
 {
     contact_parts *const parts = work->parts;
@@ -190,8 +201,8 @@ static void join_shared(deal_work *work)
     parts->shared_begin[parts->count] = at;
 }
 
-/* Where another part hands out the row of its sphere, in the first of the turns. */
-static int32_t row_handed_out(const deal_work *work, int32_t i)
+/* Index of the copy of a sphere's row in the first set of copies. The sphere is in a contact across. */
+static int32_t copy_of_row(const deal_work *work, int32_t i)
 {
     const contact_parts *const parts = work->parts;
     int owner = 0;
@@ -199,22 +210,24 @@ static int32_t row_handed_out(const deal_work *work, int32_t i)
     return (int32_t)(work->spheres->first_copy + parts->shared_begin[owner]) + parts->slot[i] - 1;
 }
 
+/* Sets which rows a part reads for the spheres of a block of `list`, for either set of copies. */
 static void find_rows(const deal_work *work, int part, const contact_list *list, size_t block, block_rows *rows)
 {
     const int32_t *first = list->first + block * BLOCK, *second = list->second + block * BLOCK;
     const int32_t mobile = (int32_t)work->spheres->mobile_count;
-    const int32_t in_turn = (int32_t)work->parts->shared_begin[work->parts->count];
+    const int32_t second_set = (int32_t)work->parts->shared_begin[work->parts->count];
     for (size_t k = 0; k < BLOCK; k++) {
         const int32_t i = first[k], j = second[k];
         const bool has_i = is_own(work->parts, part, i) || i >= mobile, has_j = is_own(work->parts, part, j) || j >= mobile;
-        rows->first[0][k] = has_i ? i : row_handed_out(work, i);
-        rows->second[0][k] = has_j ? j : row_handed_out(work, j);
-        rows->first[1][k] = rows->first[0][k] + (has_i ? 0 : in_turn);
-        rows->second[1][k] = rows->second[0][k] + (has_j ? 0 : in_turn);
+        rows->first[0][k] = has_i ? i : copy_of_row(work, i);
+        rows->second[0][k] = has_j ? j : copy_of_row(work, j);
+        rows->first[1][k] = rows->first[0][k] + (has_i ? 0 : second_set);
+        rows->second[1][k] = rows->second[0][k] + (has_j ? 0 : second_set);
     }
 }
 
-/* Of each of the contacts that earlier parts have and this has a sphere in; to: NULL: they are counted alone. Returns how many. */
+/* Copies those contacts of earlier parts that have a sphere of this part, in the list's order. to: NULL: they are only counted.
+ * Returns how many there are. */
 static size_t copy_contacts(const deal_work *work, int part, contact_list *to)
 {
     const contact_list *const pairs = work->pairs;
@@ -233,6 +246,7 @@ static size_t copy_contacts(const deal_work *work, int part, contact_list *to)
     return count;
 }
 
+/* Makes a part's copies of contacts, pads them, and finds the rows of all its blocks across. Errors: DEM_NO_MEMORY. */
 static dem_status make_copies(const deal_work *work, int part)
 {
     contact_part *const own = &work->parts->part[part];
@@ -248,7 +262,8 @@ static dem_status make_copies(const deal_work *work, int part)
     return DEM_OK;
 }
 
-static void hand_out(const contact_parts *parts, spheres *s, int part)
+/* Copies the rows of a part's shared spheres into the front set. */
+static void copy_rows_of_part(const contact_parts *parts, spheres *s, int part)
 {
     size_t next = parts->shared_begin[part];
     contact_parts_copy_rows(parts, s, s->front_copy, parts->shared_begin[part + 1], s->mobile_count, &next);
@@ -258,7 +273,7 @@ static void complete_part(void *context, int part, int parts)
 {
     (void)parts;
     deal_work *const work = context;
-    hand_out(work->parts, work->spheres, part);
+    copy_rows_of_part(work->parts, work->spheres, part);
     work->status[part] = make_copies(work, part);
 }
 
@@ -277,6 +292,7 @@ static dem_status parts_reserve(contact_parts *parts, const contact_list *pairs,
     return enough ? DEM_OK : DEM_NO_MEMORY;
 }
 
+/* The first error of any part, or DEM_OK. */
 static dem_status worst(const deal_work *work)
 {
     for (int p = 0; p < work->parts->count; p++)
@@ -312,7 +328,7 @@ static void rows_of_part(void *context, int part, int parts)
 {
     (void)parts;
     const rows_work *const work = context;
-    hand_out(work->parts, work->spheres, part);
+    copy_rows_of_part(work->parts, work->spheres, part);
 }
 
 void contact_parts_hand_out(const contact_parts *parts, spheres *s)
