@@ -100,14 +100,14 @@ typedef struct granule_inputs {
 
 typedef struct process_type process_type; /* process_type.h */
 
-/* Who knows the beds that a spec can start from: the daemon its jobs, a worker a file. */
+/* Where the beds that a spec can start from are looked up: the daemon has those of its jobs, a worker that of a file. */
 typedef struct start_source {
     /* The canonical spec that the bed was made by (new reference), and its number of particles; NULL: there is no such bed,
      * and a problem says so. */
     json_t *(*find)(void *context, const start_inputs *start, double *particles, problem_list *problems);
     void *context;
     struct spec_memory *memory; /* of specs read before; NULL: none */
-    const client_watch *client; /* who waits while it is read; NULL: nobody who could leave */
+    const client_watch *client; /* the client that waits for the answer; NULL: none that could go away */
 } start_source;
 
 typedef struct job_spec {
@@ -144,8 +144,8 @@ typedef struct job_estimate {
  * False when there are problems, all of them listed; the spec is then cleared.
  * seed_if_missing: what to use where the request gives no seed (its low 53 bits). */
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);
-/* The same, and what it starts from is looked up and held against it. Without, a start is taken for good: so is that of a
- * spec that was looked at before. */
+/* As job_spec_parse, but also looks up the bed that the run starts from in `beds`, and compares it with the spec. Without `beds`
+ * the start is taken as valid, as it is in a spec that has been checked before. */
 bool job_spec_parse_with(const start_source *beds, const char *process, const json_t *request, uint64_t seed_if_missing,
                          job_spec *spec, problem_list *problems);
 void job_spec_clear(job_spec *spec);

@@ -60,15 +60,15 @@ typedef struct spec_field {
     field_kind kind;
     spec_group child; /* objects and lists: whose members they hold */
     bool required;
-    const char *spared_by;      /* the member that, where it is an object or a number, makes this one no longer required */
+    const char *spared_by;      /* a required field: the sibling that, given as an object or a number, makes it optional */
     const char *unit;           /* "" for a pure number */
     double minimum, maximum;    /* lists: of their length */
     bool minimum_open;          /* the minimum itself is not allowed */
     double least_size;          /* of either sign; 0: may be 0 */
     double fallback;            /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
-    const char *excludes;       /* the member that may be given instead */
-    const char *excludes_too;   /* another such member */
-    const char *spared_beside;  /* the member beside which there is no default */
+    const char *excludes;       /* the sibling that may be given instead of this field, never beside it */
+    const char *excludes_too;   /* another such sibling */
+    const char *spared_beside;  /* the sibling beside which this field has no default: left out, it is not given */
     const char *const *choices; /* ends with NULL */
     size_t offset;              /* of the double in the process's struct, or in the list's entry. Lists: of their first
                                  * entry; long ones: of the pointer to it. Objects or null: of a double that is NaN where

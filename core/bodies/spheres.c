@@ -3,8 +3,8 @@
 #include "array.h"
 #include "dem_rules.h"
 
-/* Of 2,300 all that a step needs is in the second-level cache; of 24,000 it is in the third; of 100,000 it is in none, but
- * comes from memory as fast as it is asked for. */
+/* From how many spheres on prefetching pays, prefetching of arrays read in order, and waves. All that a step needs of 2,300 spheres
+ * is in the second-level cache; of 24,000 it is in the third; of 100,000 it is in none. */
 enum { MANY = 10000, VERY_MANY = 50000, FOR_WAVES = 200000 };
 
 size_t spheres_count(const spheres *s) { return s->mobile_count + s->lining_count; }
@@ -90,7 +90,7 @@ dem_status spheres_init(spheres *s, const dem_scene_definition *definition, size
     s->in_waves = n >= FOR_WAVES;
     s->row_count = s->first_copy = all + 2;
     const dem_status status = clusters_init(&s->clusters, definition, bodies, joined);
-    s->load_count = n + n % 2 + LOADS_OF_NOBODY; /* two to a line */
+    s->load_count = n + n % 2 + PADDING_LOADS; /* two to a line */
     bool enough = status == DEM_OK;
     for (int k = 0; k < SPHERE_ARRAYS; k++) {
         void *memory = array_create(length_of(s, sphere_arrays[k].length), sphere_arrays[k].size);

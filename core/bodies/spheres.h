@@ -1,15 +1,15 @@
-/* The spheres of a scene: mobile ones first, then the lining's, then two that no list names but in its padding: one of
- * zeros at the origin, one of zeros far away. Of the mobile ones, those that are particles by themselves come first
- * then the spheres of clusters, cluster after cluster. Either kind lies in memory in an order that serves speed
- * (sorting.h); ids tell who is who. */
+/* The spheres of a scene. In memory the mobile ones come first, then the lining's, then two that only the padding of lists
+ * names: both have the radius zero, one is at the origin, the other far away. Among the mobile ones, single spheres
+ * (particles by themselves) come first, then the spheres of clusters, cluster after cluster. Both kinds are sorted by
+ * place for speed (sorting.h); an id tells which sphere of the definition it is. */
 #ifndef SPHERES_H
 #define SPHERES_H
 
 #include "cluster.h"
 #include "team.h"
 
-/* What a contact reads of a sphere: half a cache line in single precision, and what does not fit into that. wide.h reads them
- * by this order. */
+/* What a contact reads of a sphere: a row, which is half a cache line in single precision, and a rest, what does not fit into
+ * it. wide.h depends on the order of their members. */
 typedef struct sphere_row {
     on_ring place[3];
     real omega_x; /* rad/s, half a step behind the place, as all motion */
@@ -42,7 +42,7 @@ typedef struct spheres {
     size_t single_count; /* of the mobile: particles by themselves */
     size_t species_count;
     clusters clusters; /* the bodies that the other mobile spheres make up */
-    sphere_row *row;   /* (row_count) of mobile and lining and two; from first_copy on, of some again (contact_parts.h) */
+    sphere_row *row;   /* (row_count) mobile, lining, two of the padding; from first_copy on, the halo (contact_parts.h) */
     sphere_rest *rest; /* (row_count) */
     size_t row_count, first_copy;
     vector4 *place;            /* (mobile + lining + 2) m, z within one period */
@@ -52,9 +52,9 @@ typedef struct spheres {
     real *full_radius;         /* (mobile + lining) m */
     vector4 *velocity;         /* (mobile) m/s at the half step */
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
-    row8 *load;                /* (load_count) force N, torque N m about the centre, 0, 0: contacts only.
-                                                 * Zeros but between the forces and the motion. Behind those of the
-                                                 * mobile ones are some that nobody reads */
+    /* (load_count) force N, torque N m about the centre, 0, 0: of contacts only; zeros except between the forces and the motion.
+     * Behind the loads of the mobile spheres are padding loads, which are never read (padding_loads). */
+    row8 *load;
     size_t load_count;
     double *inverse_mass;                       /* (species) 1/kg, of a particle */
     double *inverse_inertia;                    /* (species) 1/(kg m2), of those that are spheres by themselves */
@@ -63,14 +63,14 @@ typedef struct spheres {
     vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */
     double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */
-    bool of_one_species;                        /* all of the mobile ones */
-    bool are_many;                              /* for the cache of a core: it pays to send for what comes next */
-    bool exceed_caches;                         /* all of them: and for what is read in turn */
+    bool of_one_species;                        /* all mobile spheres are of one species */
+    bool are_many;                              /* too many for the cache of one core: prefetching the next spheres pays */
+    bool exceed_caches;                         /* too many for the shared cache, too: prefetching what is read in order pays */
     bool in_waves;                              /* it pays to take several steps in one pass through memory: wave.h */
     double scale;                               /* share of full size that the mobile spheres have now */
     /* written in each step, apart from what all threads read */
-    _Alignas(ALIGNMENT) int front_copy; /* 0, 1: which of the two copies of a row is read next */
-    bool copies_hold;                   /* it is that of the rows of now */
+    _Alignas(ALIGNMENT) int front_copy; /* 0 or 1: which of the two sets of copies of rows (the halo) the next step reads */
+    bool copies_hold;                   /* that set equals the rows of now */
 } spheres;
 
 /* An array of the spheres: everything that is done with each of them alike follows from its row in this table. */
@@ -155,13 +155,14 @@ static inline int32_t particle_id(const spheres *s, size_t p)
 
 /* How many particles a species has: shares by number, every species within one of its share, the total exact. */
 size_t species_particles(const dem_scene_definition *definition, size_t species);
-/* Before any place is set: rows tell places apart modulo a length, the period along z (m; 0: none) or a whole part of it or
- * some diameters. */
+/* Sets the unit of the rows' places; to be called before any place is set. Rows keep places modulo a length, which is the period
+ * along z, a whole part of it, or some diameters. period: m; 0: not periodic. */
 void spheres_set_period(spheres *spheres, const dem_scene_definition *definition, double period);
-/* The first of a part's loads for what concerns nobody: no two parts write to one line of memory. */
-enum { LOADS_A_PART = 8, LOADS_OF_NOBODY = LOADS_A_PART * (MOST_PARTS + 1) };
-static inline size_t loads_of_nobody(const spheres *s, int part) { return s->load_count - LOADS_A_PART * (size_t)(part + 1); }
-/* Room for as many rows behind the others. */
+/* The first padding load of a part: forces on spheres that the part does not own are added there. Each part has its own, so that
+ * no two threads write to one cache line. */
+enum { LOADS_A_PART = 8, PADDING_LOADS = LOADS_A_PART * (MOST_PARTS + 1) };
+static inline size_t padding_loads(const spheres *s, int part) { return s->load_count - LOADS_A_PART * (size_t)(part + 1); }
+/* Makes room for `count` copies of rows behind all others. Errors: DEM_NO_MEMORY. */
 dem_status spheres_reserve_copies(spheres *spheres, size_t count);
 void spheres_forget_surface(spheres *spheres); /* no sphere was seen at the bed's inner surface */
 void spheres_pad(spheres *spheres);            /* the last two rows, also after a change of the counts */

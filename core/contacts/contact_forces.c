@@ -71,8 +71,8 @@ static void gather_alike(contact_block *restrict block, const spheres *s, const 
     }
 }
 
-/* Gathers a block of contacts between spheres of any sizes. next_second: as for gather_alike. spins: also gather the difference of
- * spins, which rolling friction needs. */
+/* Gathers a block of contacts between spheres of any sizes. next_second: as for gather_alike. spins: gather also the difference
+ * of spins, which rolling friction needs. */
 WIDE_INLINE void gather_any(contact_block *restrict block, const spheres *s, const int32_t *restrict first,
                             const int32_t *restrict second, const int32_t *next_second, bool spins)
 {
@@ -110,8 +110,8 @@ static void set_reach(contact_block *block, const spheres *s)
 }
 
 /* Unit normal and overlap of each contact. The overlap is reach - distance = (reach^2 - distance^2)/(reach + distance); the
- * difference of squares is exact where the two are near (wide_ring_gap2), so that a small overlap keeps its digits. Returns the larger of
- * `largest` and the block's overlaps, lane by lane, m. */
+ * difference of squares is exact where the two are near (wide_ring_gap2), so that a small overlap keeps its
+ * digits. Returns the larger of `largest` and the block's overlaps, lane by lane, m. */
 static wide normals(contact_block *restrict block, wide largest)
 {
     for (int k = 0; k < BLOCK; k += LANES) {
@@ -257,8 +257,8 @@ WIDE_INLINE void add_walls(const neighbor_list *list, spheres *s, size_t from, s
     for (size_t k = list->wall_start[from]; k < list->wall_start[to]; k++) s->load[list->walls.first[k]] += list->walls.row[k];
 }
 
-/* The part's own spheres up to `to` have all their forces from other spheres: computes those from walls where that is still to be
- * done, adds them, and lets single spheres take their step where the step has a leap (early motion). The new rows of
+/* The part's own spheres up to `to` have all their forces from other spheres: computes those from walls where that is still to
+ * be done, adds them, and lets single spheres take their step where the step has a leap (early motion). The new rows of
  * spheres that other parts read go into the set of copies that the next step reads. */
 WIDE_INLINE void spheres_complete(list_cursor *cursor, size_t to)
 {
@@ -300,8 +300,8 @@ WIDE_INLINE void block_forces(list_cursor *cursor, contact_list *pairs, size_t b
     else gather_any(block, s, first_row, second_row, next_second, false);
     if (next_second && s->exceed_caches) prefetch_block(pairs, (b + 1) * BLOCK);
     contact_block_forces(pairs, b * BLOCK, block, work->contact, false, work->dt, &cursor->largest);
-    find_loads(&loads, first, second, parts->sphere[cursor->part], parts->sphere[cursor->part + 1],
-               loads_of_nobody(s, cursor->part), !rows && all_mobile);
+    find_loads(&loads, first, second, parts->sphere[cursor->part], parts->sphere[cursor->part + 1], padding_loads(s, cursor->part),
+               !rows && all_mobile);
     add_to_loads(block, &loads, pairs->ends_differ, s->load, next_second);
 }
 
@@ -335,7 +335,7 @@ void list_cursor_next_block(list_cursor *cursor)
 
 void list_cursor_complete(list_cursor *cursor, size_t to) { spheres_complete(cursor, to); }
 
-/* The first `done` contacts are replaced by padding while the block is computed, and put back afterwards with their histories. */
+/* The first `done` contacts are replaced by padding while the block is computed, and then put back with their histories. */
 void list_cursor_rest_of_block(list_cursor *cursor, size_t done)
 {
     contact_list *const pairs = &cursor->work->list->pairs;

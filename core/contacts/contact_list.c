@@ -138,13 +138,13 @@ void contact_list_swap(contact_list *a, contact_list *b)
     take_memory(b, &c);
 }
 
-/* Where a contact is in the order of lists. */
+/* The key by which lists are ordered: first sphere, then second. */
 static inline uint64_t place_in_order(const contact_list *list, size_t slot)
 {
     return (uint64_t)(uint32_t)list->first[slot] << 32 | (uint32_t)list->second[slot];
 }
 
-/* The first slot that is not before `place`. */
+/* The first slot whose key is not less than `place`. */
 static size_t slot_at(const contact_list *list, uint64_t place)
 {
     size_t low = 0, high = list->count;

@@ -15,20 +15,22 @@
  * where radii are all the same and nothing resists rolling: then one row serves both ends, else each has one of its own. */
 typedef row8 contact_row;
 
-/* For whom a list holds what does not change in a step: nobody (a list before: who, and what they remember, is left), all
- * contacts together since they are alike, or each. */
+/* For which contacts a list has constants, the numbers that do not change from step to step. NONE: for no contact (the list of the
+ * pick before keeps only spheres and histories). ALL: one set for all contacts, because they are alike. EACH: a set for
+ * each contact. */
 typedef enum contact_constants { CONSTANTS_OF_NONE, CONSTANTS_OF_ALL, CONSTANTS_OF_EACH } contact_constants;
 
 enum { CONTACT_CONSTANTS = 5, CONSTANTS_OF_ROLLING = 1 };
 
 typedef struct contact_list {
-    bool has_rolling; /* else there are none of what is for it alone */
+    bool has_rolling; /* contacts resist rolling; else the arrays that only rolling friction needs are NULL */
     contact_constants constants;
-    /* (capacity) a multiple of BLOCK; slots behind count hold a pair that nobody reads */
+    /* Arrays are (capacity), a multiple of BLOCK. The slots from count to the end of the block are padding: a pair of spheres
+     * that exist, whose result is never read. */
     size_t count, capacity;
     int32_t *first;  /* sphere index */
     int32_t *second; /* sphere index, or that of the wall */
-    /* contact_history, an array for each number of it */
+    /* The contacts' histories: an array for each number of contact_history. */
     union {
         real *memory[CONTACT_NUMBERS];
         struct {
@@ -38,8 +40,9 @@ typedef struct contact_list {
             real *roll[3];
         };
     };
-    /* What does not change in a step; last what is for rolling friction alone. (constant_capacity) of all: one block, which
-     * serves every other. To add one: here; contact_constants.c and wall_reach.c set them. */
+    /* The constants, (constant_capacity); last those that only rolling friction needs. With CONSTANTS_OF_ALL an array has one
+     * block, which serves every block of contacts. A new constant is declared here and set in contact_constants.c (pairs) and
+     * wall_reach.c (walls). */
     size_t constant_capacity;
     union {
         real *constant[CONTACT_CONSTANTS];
@@ -51,10 +54,10 @@ typedef struct contact_list {
             real *rolling_friction; /* mu_r */
         };
     };
-    bool ends_differ;   /* in their moments */
-    damped_law damped;  /* of the list's materials, where contacts have a damped law */
-    real latch_damping; /* likewise, where Walton & Braun's: latch_damping_of */
-    contact_row *row;   /* of walls alone: what each contact gave at the last step */
+    bool ends_differ;   /* the two spheres of a contact may get different moments: each has a row of its own */
+    damped_law damped;  /* its coefficients for the list's materials, if the law is a damped one */
+    real latch_damping; /* latch_damping_of, if the law is Walton & Braun's */
+    contact_row *row;   /* (capacity) lists of walls only: the force and moment of each contact in the last step */
 } contact_list;
 
 _Static_assert(offsetof(contact_list, roll) - offsetof(contact_list, memory)
@@ -64,7 +67,7 @@ _Static_assert(offsetof(contact_list, rolling_friction) - offsetof(contact_list,
                    == (CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING) * sizeof(real *),
                "every constant is counted");
 
-/* How many of the arrays the list has. */
+/* How many arrays of histories, and of constants, the list has. */
 static inline int contact_list_numbers(const contact_list *list)
 {
     return list->has_rolling ? CONTACT_NUMBERS : CONTACT_NUMBERS - NUMBERS_OF_ROLLING;
@@ -73,7 +76,7 @@ static inline int contact_list_constants(const contact_list *list)
 {
     return list->has_rolling ? CONTACT_CONSTANTS : CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING;
 }
-/* Where the constants of the block at `start` are in their arrays. */
+/* Index, in the arrays of constants, of the first constant of the block of contacts that begins at `start`. */
 static inline size_t constants_of(const contact_list *list, size_t start)
 {
     return list->constants == CONSTANTS_OF_ALL ? 0 : start;
@@ -92,18 +95,21 @@ dem_status contact_list_init(contact_list *list, bool has_rolling, contact_const
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);
-/* Fill the slots from count up to the next whole block with a pair whose result nobody reads: it may have no radius, so
- * there may be NaN in it. */
+/* Fills the padding, the slots from count up to the next whole block, with the pair (first, second). Its result may be NaN, as
+ * its radii may be zero, and is never read. */
 void contact_list_pad(contact_list *list, int32_t first, int32_t second);
+/* Sets the history of a contact to zeros, that of a contact which has just begun. */
 void contact_list_forget(contact_list *list, size_t slot);
 contact_history contact_list_history(const contact_list *list, size_t slot);
 void contact_list_set_history(contact_list *list, size_t slot, const contact_history *history);
-/* Who, what they remember and the constants of each; of all: the latter once for the whole list. Both have room for it. */
+/* The first copies one contact: its spheres, its history and, with CONSTANTS_OF_EACH, its constants. The second copies the one set
+ * of constants of CONSTANTS_OF_ALL. `to` has room. */
 void contact_list_copy(contact_list *to, size_t slot, const contact_list *from, size_t k);
 void contact_list_copy_constants(contact_list *to, const contact_list *from);
-/* Exchanges who and what they remember. */
+/* Exchanges the spheres and the histories of two lists; their constants stay. */
 void contact_list_swap(contact_list *a, contact_list *b);
-/* Copy the histories of the contacts from..to-1 from the list before (same first, same second). */
+/* Gives the contacts from..to-1 the histories that they have in `before` (same first, same second); a contact that is not there
+ * begins with zeros. */
 void contact_list_carry(contact_list *list, const contact_list *before, size_t from, size_t to);
 
 #endif

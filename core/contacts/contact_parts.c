@@ -166,8 +166,8 @@ static void find_across(void *context, int part, int parts)
     }
 }
 
-/* Numbers the marked spheres that a part owns. The part lists them in `shared` at the index of its first sphere, where no other part
- * writes; join_shared then closes the gaps. */
+/* Numbers the marked spheres that a part owns. The part lists them in `shared` at the index of its first sphere, where no other
+ * part writes; join_shared then closes the gaps. */
 static void find_shared(void *context, int part, int parts)
 {
     (void)parts;

@@ -2,7 +2,7 @@
 
 #include "contact_block.h"
 
-/* Most contacts with walls are with a drum's cylinder. */
+/* Gathers a block of contacts as if all were with the cylinder, which most are with; `gather` then replaces the others. */
 static void gather_cylinder(contact_block *restrict block, const spheres *s, const int32_t *restrict first, double radius,
                             double rotation_rate)
 {
@@ -31,7 +31,7 @@ static void gather_cylinder(contact_block *restrict block, const spheres *s, con
     }
 }
 
-/* Slot k of the block: sphere i at any wall. Overlap = r - distance, from (r - distance)(r + |distance|) over
+/* Gathers slot k of the block: sphere i at any wall. Overlap = r - distance, from (r - distance)(r + |distance|) over
  * |distance| + r, as for spheres. */
 static void gather_wall(contact_block *restrict block, int k, const spheres *s, size_t i, const container_wall *w)
 {
@@ -51,7 +51,7 @@ static void gather_wall(contact_block *restrict block, int k, const spheres *s, 
     }
 }
 
-/* For rolling friction alone: less the wall's own turning about z. */
+/* Gathers the difference of spins, which only rolling friction needs: that of the sphere less that of the wall about z. */
 static void gather_spins(contact_block *restrict block, const contact_list *walls, size_t start, const container *c)
 {
     memcpy(block->spin, block->omega, sizeof block->spin);
@@ -72,7 +72,7 @@ static void gather(contact_block *restrict block, const contact_list *walls, siz
     }
 }
 
-/* The contacts from start on, a block of a list. */
+/* Computes the block of contacts that begins at `start`: their rows and histories. */
 static void block_of_walls(contact_list *walls, size_t start, const spheres *s, const container *c,
                            const dem_contact_parameters *contact, double dt, wide *largest)
 {
@@ -83,7 +83,8 @@ static void block_of_walls(contact_list *walls, size_t start, const spheres *s, 
     for (int k = 0; k < BLOCK; k++) walls->row[start + (size_t)k] = block.row[(k & -LANES) | wide_row_slot(k & (LANES - 1))];
 }
 
-/* A list of one block, with some contacts of another at its front. */
+/* A list of a single block, which holds copies of some contacts of another list: the way to compute part of a block while another
+ * thread computes the rest. */
 typedef struct contacts_aside {
     int32_t first[BLOCK], second[BLOCK];
     real memory[CONTACT_NUMBERS][BLOCK], constant[CONTACT_CONSTANTS][BLOCK];
@@ -113,13 +114,13 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
         memcpy(aside->memory[m], walls->memory[m] + from, (to - from) * sizeof(real));
     for (int c = 0; c < contact_list_constants(walls); c++)
         memcpy(aside->constant[c], walls->constant[c] + from, (to - from) * sizeof(real));
-    for (size_t k = 0; k < BLOCK; k++) { /* behind its own nobody's, at a place that there is */
+    for (size_t k = 0; k < BLOCK; k++) { /* the rest of the block is padding: it repeats a contact that exists */
         aside->first[k] = walls->first[k < to - from ? from + k : from];
         aside->second[k] = walls->second[k < to - from ? from + k : from];
     }
 }
 
-/* What they remember now, and their rows. */
+/* Copies histories and rows back into the list that the contacts came from. */
 static void take_back(const contacts_aside *aside, contact_list *walls, size_t from)
 {
     const size_t count = aside->list.count;
@@ -152,7 +153,7 @@ typedef struct wall_work {
     double largest[MOST_PARTS]; /* m, overlaps of each part */
 } wall_work;
 
-/* The blocks that begin with a sphere of the part's own, which is at hand here from the pairs' forces. */
+/* Computes the blocks that begin among the contacts of the part's own spheres, which are in the cache of this core. */
 static void walls_of_part(void *context, int part, int parts)
 {
     (void)parts;

@@ -5,21 +5,23 @@
 
 #include "neighbor_list.h"
 
-/* At the positions of this step, each contact into its own row of the list of walls, and its torque; updates what contacts
- * remember. dt: s, the step since the last call. Returns the largest overlap, m. */
+/* Computes all contacts with walls at the places of now: the force and moment of each contact go into its row of list->walls, and
+ * its torque about the axis into list->wall_torques. Updates the contacts' histories. dt: s, the step since the last call.
+ * Returns the largest overlap, m. */
 double contact_forces_with_walls(neighbor_list *list, const spheres *spheres, const container *container,
                                  const dem_contact_parameters *contact, double dt);
 
-/* N m about the axis, of all walls on the bed, as contact_forces_with_walls left it; positive turns counter-clockwise. */
+/* N m about the axis: the torque of all walls on the bed, summed from what contact_forces_with_walls has left. Positive turns
+ * counter-clockwise. */
 double wall_torque(const neighbor_list *list);
 
-/* contact_forces_with_walls, torques apart, of the contacts from..to-1, which are all in one block; nobody reads or writes
- * others. largest: m, the largest overlaps so far. */
+/* Computes the contacts from..to-1 with walls, which are all in one block, as contact_forces_with_walls does, but without the
+ * torques. Other threads may work on the other contacts of that block. largest: m, in each lane the largest overlap so far. */
 void contact_forces_with_some_walls(neighbor_list *list, size_t from, size_t to, const spheres *spheres, const container *container,
                                     const dem_contact_parameters *contact, double dt, wide *largest);
 
-/* What a contact does to the container. True only between contact_forces_with_walls and the move that follows: then
- * spheres and walls are still where the forces were computed. */
+/* What a contact does to the container. It may be asked for only between contact_forces_with_walls and the motion that follows,
+ * while spheres and walls are still where the forces were computed. */
 typedef struct wall_load {
     int wall;           /* index into the container's walls */
     double point[3];    /* m: of the wall, nearest to the sphere's centre */

@@ -41,10 +41,11 @@ static double share_of_bins(const bool bins[WALL_BINS])
     return covered / (double)WALL_BINS;
 }
 
-/* Slip of the surface against the drum, rad a revolution: of the spheres that were within d of it when a revolution began,
- * over that revolution. What falls from there goes on to count, and what comes there does not yet: of the spheres that are
- * there at one moment more than their share are on their way down. Until a revolution is over, of what there was of it.
- * Azimuths are the drum's own: what lags by less than half a turn from one look to the next is followed. */
+/* Slip of the bed's inner surface against the drum, rad a revolution. It is the mean over the spheres that were within d of the
+ * surface when a revolution began, followed through that revolution. A sphere that falls from the surface goes on to count,
+ * and one that comes there later does not count yet: of the spheres that are there at one moment, too many are falling. Until
+ * the first revolution is over, the mean is over the part that there has been. Azimuths are in the frame of the drum; a lag of
+ * less than half a turn between two calls is told from a lead. */
 static double surface_lag(dem_scene *scene, double inner, double d)
 {
     spheres *s = &scene->spheres;

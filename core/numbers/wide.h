@@ -35,7 +35,7 @@ typedef real row8 __attribute__((vector_size(8 * sizeof(real)))); /* force, torq
 
 typedef real half_row __attribute__((vector_size(4 * sizeof(real))));
 typedef on_ring ring_row __attribute__((vector_size(4 * sizeof(on_ring))));
-typedef double vector4 __attribute__((vector_size(32))); /* x, y, z and one unused */
+typedef double vector4 __attribute__((vector_size(32))); /* x, y, z and one that is not used */
 
 #define WIDE_INLINE static inline __attribute__((always_inline))
 
@@ -55,13 +55,13 @@ typedef wide wide_ring; /* LANES times on_ring */
 typedef wide_ints wide_ring;
 #endif
 
-/* What rows have (spheres.h, sphere_row), of LANES spheres, or of LANES pairs of them. */
+/* LANES rows (spheres.h, sphere_row), transposed: each member has one number of LANES spheres, or of LANES pairs of spheres. */
 typedef struct wide_rows {
-    wide_ring place[3]; /* of pairs: from the first to the second, the way round that is shorter */
-    wide v[3];          /* m/s; second less first */
-    wide omega[2];      /* rad/s, about x and y; sum of both */
+    wide_ring place[3]; /* ring units; of pairs: from the first to the second, the shorter way round */
+    wide v[3];          /* m/s; of pairs: the second's less the first's */
+    wide omega[2];      /* rad/s, about x and y; of pairs: the sum of both */
 } wide_rows;
-/* And what there is besides (sphere_rest), of LANES spheres. */
+/* What does not fit into the rows (spheres.h, sphere_rest), of LANES spheres, transposed. */
 typedef struct wide_rests {
     wide omega_z; /* rad/s */
     wide radius;  /* m */
@@ -75,7 +75,7 @@ typedef struct wide_rests {
 #include "wide_any.h"
 #endif
 
-/* LANES times ring_difference. */
+/* ring_difference (real.h) in each lane. */
 WIDE_INLINE wide_ring wide_ring_difference(wide_ring a, wide_ring b)
 {
 #ifdef DEM_DOUBLE
@@ -103,8 +103,9 @@ WIDE_INLINE wide_rests wide_rests_load(const void *rests, const int32_t *i)
 }
 #endif
 
-/* omega_z of spheres that mostly are less than LANES from each other, and ascend. end: the first whose rest must not be read;
- * 0: they may be any. */
+/* Gathers omega_z of the spheres i[0..LANES-1]. Fast where these ascend and are less than LANES apart, as the first spheres of
+ * neighboring contacts mostly are. end: the spheres before it ascend and may be read, even those that i does not name; 0: i may
+ * be in any order. */
 WIDE_INLINE wide wide_spins_in_order(const void *rests, const int32_t *i, size_t end)
 {
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
@@ -120,7 +121,8 @@ WIDE_INLINE wide wide_spins_in_order(const void *rests, const int32_t *i, size_t
     return wide_rests_load(rests, i).omega_z;
 }
 
-/* Those of LANES numbers whose bit is set, one after the other; room for LANES must be behind `to`. Returns how many. */
+/* Copies those of the LANES numbers `from` whose bit is set to `to`, without gaps. `to` has room for LANES numbers, all of which
+ * may be overwritten. Returns how many were copied. */
 WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from)
 {
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
@@ -128,7 +130,7 @@ WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from
     return (size_t)__builtin_popcount(bits);
 #else
     size_t n = 0;
-    for (int k = 0; k < LANES; k++) { /* no branch, which would be a toss of a coin */
+    for (int k = 0; k < LANES; k++) { /* no branch: it could not be predicted */
         to[n] = from[k];
         n += bits >> k & 1;
     }
@@ -136,8 +138,9 @@ WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from
 #endif
 }
 
-/* Those of LANES numbers whose bit is set in `bits`; of which only those exist whose bit is set in `before`, one after the
- * other from `from` on, and the others are 0. Room for LANES must be behind `to` and `from`. */
+/* Copies numbers from one compressed array to another. `from` has, without gaps, the numbers of those lanes whose bit is set in
+ * `before`; `to` gets, without gaps, those of the lanes whose bit is set in `bits`, and 0 where `from` has no number for such a
+ * lane. Both have room for LANES numbers: all of `from` may be read, and all of `to` overwritten. */
 WIDE_INLINE void wide_carry(real *to, uint32_t bits, const real *from, uint32_t before)
 {
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
@@ -207,7 +210,7 @@ WIDE_INLINE wide wide_minus_product(wide c, wide a, wide b)
 #endif
 }
 
-/* a b + c, rounded once, where m says so; else c, of which a zero may lose its sign. b is finite. */
+/* a b + c, rounded once, in the lanes of the mask m; c in the others, where a zero may lose its sign. b is finite. */
 WIDE_INLINE wide wide_fused_where(wide_mask m, wide a, wide b, wide c)
 {
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
@@ -227,7 +230,7 @@ WIDE_INLINE double wide_largest_lane(wide x)
 /* ---- one sphere's vectors ---- */
 
 #if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
-WIDE_INLINE vector4 vector4_of_three(const float *x) /* there may be anything behind them */
+WIDE_INLINE vector4 vector4_of_three(const float *x) /* three floats; the fourth is read, but not used */
 {
 #if WIDE_BYTES == 64
     return (vector4)_mm256_maskz_cvtps_pd(7, _mm_loadu_ps(x));
@@ -251,7 +254,8 @@ WIDE_INLINE half_row half_row_of(vector4 x) { return (half_row){ (real)x[0], (re
 WIDE_INLINE vector4 vector4_rint(vector4 x) { return (vector4){ rint(x[0]), rint(x[1]), rint(x[2]), rint(x[3]) }; }
 #endif
 
-/* A place (ring units), rounded to whole ones in single precision, and behind it the first number of w. */
+/* The first half of a sphere's row: its place in ring units, rounded to whole units in single precision, then the first number of
+ * w. */
 WIDE_INLINE half_row half_row_place(vector4 place, half_row w)
 {
 #ifdef DEM_DOUBLE
@@ -266,7 +270,7 @@ WIDE_INLINE half_row half_row_place(vector4 place, half_row w)
 #endif
 }
 
-/* a b + c, where a has zeros and ones: products are exact, so fused or not is the same. */
+/* a b + c, where all numbers of a are 0, 1 or -1: the products are exact, so that fused and separate operations give the same. */
 WIDE_INLINE row8 row8_fused(row8 a, row8 b, row8 c)
 {
 #if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
@@ -285,7 +289,7 @@ WIDE_INLINE vector4 vector4_fused(vector4 a, vector4 b, vector4 c)
 #endif
 }
 
-/* One number four times, from memory: that takes no arithmetic. */
+/* One number four times, loaded from memory: a broadcast costs no arithmetic instruction. */
 WIDE_INLINE vector4 vector4_from(const double *x)
 {
 #if WIDE_BYTES > 16
@@ -295,7 +299,7 @@ WIDE_INLINE vector4 vector4_from(const double *x)
 #endif
 }
 
-/* a, or the size of b where that is greater. */
+/* In each lane the greater of a and |b|. */
 WIDE_INLINE vector4 vector4_greater_size(vector4 a, vector4 b)
 {
 #if WIDE_BYTES == 64
@@ -323,7 +327,7 @@ WIDE_INLINE wide wide_inverse_cube_root_guess(wide x)
     return __builtin_convertvector((wide_floats)(INVERSE_CUBE_ROOT_MAGIC - __builtin_convertvector(third, wide_ints)), wide);
 }
 
-/* 1/sqrt(x), x^(-1/3) and x^(-1/4) for x > 0, as real.h has them for one. */
+/* 1/sqrt(x), x^(-1/3) and x^(-1/4) in each lane for x > 0, with the same rounding as their scalar counterparts in real.h. */
 WIDE_INLINE wide wide_inverse_root(wide x)
 {
     const real term[] = INVERSE_ROOT_TERMS;
@@ -360,8 +364,9 @@ WIDE_INLINE wide wide_inverse_fourth_root(wide x)
     return y;
 }
 
-/* By how much reach^2 exceeds the square of a displacement, which is x, all in units of the ring. A displacement has up to
- * 32 bits, a float 24: the squares of its high bits are exact, and so is what they leave of reach^2 where the two are near. */
+/* reach^2 - |x|^2, in ring units squared. apart: a displacement, which x becomes in floating point; reach: in ring units. A
+ * displacement has up to 32 bits and a float has 24, so it is split into high and low bits: the squares of the high bits are
+ * exact, and so is their difference from reach^2 where the two are near each other. */
 WIDE_INLINE wide wide_ring_gap2(const wide_ring apart[3], wide reach, wide x[3])
 {
     wide gap2 = reach * reach;

@@ -2,7 +2,8 @@
 
 #include "lost.h"
 
-/* what: its particles are spheres; the failure that is kept has the particles that these are, or are a part of. */
+/* Keeps a failure in the scene. `what` names spheres by their index; the failure that is kept names, by their id, the particles
+ * that these spheres are or belong to. Returns the status. */
 static dem_status fail(dem_scene *scene, const dem_failure *what)
 {
     scene->failure = *what;
@@ -29,13 +30,13 @@ static const char *const too_soft_for_loads[] =
     FOR_EACH_CONTAINER("the stiffness is too small for the loads and speeds in this ",
                        ": give a larger stiffness, or a smaller maximum_overlap and let it be chosen");
 
-/* What a place has to keep, by the wall that it would be beyond. NULL quantity: it is inside. */
+/* The bound that a sphere's place breaks: what it is (quantity), its value and its limit, m. NULL quantity: the place is inside. */
 typedef struct bound {
     double value, limit;
     const char *quantity;
 } bound;
 
-/* Inline: every sphere is looked at, and often. */
+/* The first bound that sphere i breaks. Inline, because it is called for every sphere, and often. */
 WIDE_INLINE bound bound_broken(const dem_scene *scene, size_t i)
 {
     const double *x = sphere_place(&scene->spheres, i);
@@ -125,7 +126,7 @@ static dem_status overlap_failure(dem_scene *scene, int32_t i, int32_t j, double
     return fail(scene, &what);
 }
 
-/* Where sphere i was `since` (s) ago, if it has moved by then: single spheres alone have. */
+/* Where sphere i was when the forces were computed. since: s, by which single spheres have moved on; others have not. */
 static vector4 place_before(const spheres *s, int32_t i, double since)
 {
     const size_t k = (size_t)i;

@@ -48,7 +48,7 @@ static bool check_choice(start_inputs *start, problem_list *problems)
         problem_list_add(problems, "/inputs/start/snapshot", "is given beside checkpoint; give one of the two");
     if (!*start->job && (!isnan(start->snapshot) || !isnan(start->checkpoint)))
         problem_list_add(problems, isnan(start->snapshot) ? "/inputs/start/checkpoint" : "/inputs/start/snapshot",
-                         "is given without a job; a file is what it is");
+                         "is given without start/job, and chooses among the beds of a job; name the job, or leave it out");
     if (*start->job && isnan(start->snapshot)) start->checkpoint = 1.0;
     return json_array_size(problems->errors) == before;
 }

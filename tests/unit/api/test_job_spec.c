@@ -787,8 +787,9 @@ static void a_start_is_one_thing_and_leaves_nothing_unsaid(void **state)
                    "/inputs/start/snapshot: is given beside checkpoint; give one of the two\n");
     expect_problem("start", "{\"job\": \"20261122-014455-3f9a2c71\", \"checkpoint\": false}",
                    "/inputs/start/checkpoint: is false; must be true, or be left out\n");
-    expect_problem("start", "{\"file\": \"a.hdf\", \"snapshot\": 1}",
-                   "/inputs/start/snapshot: is given without a job; a file is what it is\n");
+    expect_problem(
+        "start", "{\"file\": \"a.hdf\", \"snapshot\": 1}",
+        "/inputs/start/snapshot: is given without start/job, and chooses among the beds of a job; name the job, or leave it out\n");
     expect_problem("start", "{\"job\": \"20261122-014455-3f9a2c71\"}",
                    "/inputs/particle_count: is missing; must be given where the bed that start names is not at hand to be "
                    "counted\n");
