@@ -116,7 +116,8 @@ static outlook outlook_measure(const neighbor_list *list, const spheres *s, cons
     return out;
 }
 
-/* What has become of the last pick's: speeds add up to displacements, deviations to speeds. */
+/* Bounds of now, extrapolated from those of the last pick: the speed of then, times the time since then, adds to the displacement,
+ * and the largest deviation from the velocities of then adds to the speed. */
 static outlook outlook_since(const neighbor_list *list, double time_step)
 {
     const outlook *before = &list->at_pick;
@@ -133,8 +134,8 @@ static int safe_steps(const neighbor_list *list, const outlook *now, double time
     return (int)fmin(HORIZON, 1 + room / (now->largest_speed * time_step + 1e-300));
 }
 
-/* What spheres would stray in a whole horizon if they go on as since the last pick, and a fifth more: a wider margin lists
- * pairs in vain, a narrower one makes the list anew too often. */
+/* Chooses the next margin: how far spheres would stray in a whole horizon if they went on as since the last pick, and a fifth more.
+ * A wider margin lists pairs that do not touch; with a narrower one the list is picked too often. */
 static void choose_margin(neighbor_list *list)
 {
     if (!list->inner_valid || list->steps_since_pick == 0) return;

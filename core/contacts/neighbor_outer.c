@@ -59,7 +59,8 @@ static dem_status part_reserve(pair_part *part, size_t capacity)
     return DEM_OK;
 }
 
-/* Spheres of one cluster never meet: their ids follow each other, so those after i come first. */
+/* Drops the spheres of i's own cluster, which never count as touching: they follow i in memory, so they come first in `found`.
+ * Returns how many are left. */
 static size_t drop_own_particle(int32_t *found, size_t count, const spheres *s, size_t i)
 {
     if (i < s->single_count) return count;
@@ -104,7 +105,7 @@ static dem_status outer_part(const outer_work *work, int which, int parts)
     const spheres *const s = work->spheres;
     const size_t from = contact_parts_begin(work->shares, s->mobile_count, which, parts),
                  to = contact_parts_begin(work->shares, s->mobile_count, which + 1, parts);
-    pair_part own = list->part[which]; /* which lies in memory beside others' */
+    pair_part own = list->part[which]; /* a copy: the original shares cache lines with those of other threads */
     own.count = 0;
     dem_status status = parts == 1 ? part_reserve(&own, list->pair_count) : DEM_OK; /* as many as last time */
     for (size_t i = from; i < to && status == DEM_OK; i++) {
@@ -143,7 +144,8 @@ static dem_status outer_reserve(outer_list *list, size_t count)
     return DEM_OK;
 }
 
-/* Room for the parts' neighbors one after the other; of one part alone, its own memory. */
+/* Makes room for the neighbors of all parts, one part behind the other. With a single part its memory becomes the list's, and
+ * nothing is copied. Errors: DEM_NO_MEMORY. */
 static dem_status second_reserve(outer_list *list, int parts)
 {
     if (parts > 1 && list->pair_count <= list->second_capacity) return DEM_OK;

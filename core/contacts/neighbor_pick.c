@@ -11,11 +11,13 @@ static size_t begin_of_part(const neighbor_list *list, const spheres *s, int par
     return contact_parts_begin(&list->parts, s->mobile_count, part, parts);
 }
 
-/* Could the pairs touch within `duration`, both ends straying at most `margin` from straight paths, and `apart` (m) at the
- * most from where they are at one time? Along the line of centres now, r long, they are never nearer than
- * r + duration * (parting speed), which must not exceed the reach, with twice the margin. Both times r, and
- * r * reach <= (r^2 + reach^2)/2 for lack of a root: r^2 + 2 duration (dv.x) against reach^2, in units of the ring. In contact
- * arithmetic, whose rounding the reach is widened for. */
+/* Which of LANES pairs can touch within `duration` (s), as bits. Both spheres may stray by `margin` from straight paths, and by
+ * `apart` (m) from where they are at one moment (waves).
+ *
+ * With the centres r apart now, the distance never becomes less than r + duration * (parting speed); the pair can touch only if
+ * that is at most the reach, the sum of the radii plus twice the margin. Multiplied by r, and with r * reach replaced by its
+ * bound (r^2 + reach^2)/2 to avoid a root, the condition is r^2 + 2 duration (dv.x) <= reach^2, in ring units. It is computed
+ * with the rounding of contacts, for which the reach is widened. */
 static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, double duration, double apart)
 {
     enum { AHEAD = 4 * LANES };
@@ -37,7 +39,7 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
     return wide_mask_bits(wide_exceeds(reach * reach, nearest2));
 }
 
-/* What a pick is of, and what its parts find. */
+/* The input of a pick, and what its parts find. */
 typedef struct pick_work {
     neighbor_list *list;
     const spheres *spheres;
@@ -47,12 +49,12 @@ typedef struct pick_work {
     wall_outlook ahead;
     double apart;    /* m: pairs_in_reach */
     bool same_outer; /* as at the pick before */
-    /* how many pairs each part has in reach, and had at the pick before, and contacts with walls; then how many the parts
-     * before it have, had */
+    /* First, of each part, the number of pairs in reach now (now) and at the pick before (was), and of contacts with walls
+     * (walls). starts_of_parts then turns each count into the sum over the parts before it: where the part begins. */
     size_t now[MOST_PARTS + 1], was[MOST_PARTS + 1], walls[MOST_PARTS + 1];
 } pick_work;
 
-/* The first vector of pairs of a part's. */
+/* Index of a part's first group of LANES pairs in the outer list. */
 static size_t begin_of_groups(const pick_work *work, int part, int parts)
 {
     const neighbor_list *const list = work->list;
@@ -82,7 +84,7 @@ static void mark_in_reach(void *context, int part, int parts)
     for (size_t i = from; i < to; i++) memcpy(&list->picked_velocity[i], s->row[i].v, sizeof *list->picked_velocity);
 }
 
-/* Counts of the parts become where each begins. Returns the sum. */
+/* Replaces the count of each part by the sum of the counts before it. Returns the sum of all. */
 static size_t starts_of_parts(size_t *count, int parts)
 {
     size_t sum = 0;
@@ -115,8 +117,8 @@ static dem_status wall_rows_reserve(neighbor_list *list)
     return DEM_OK;
 }
 
-/* A part's pairs in reach, in the outer list's order. Where it is still the one of the last pick, each vector of it tells
- * what its pairs remember. */
+/* Writes a part's pairs in reach, in the order of the outer list. If the outer list is the one of the last pick, the bits of then
+ * and of now tell where each pair's history is, and histories are carried along; else contact_list_carry looks them up. */
 static void pick_pairs(const pick_work *work, int part, int parts)
 {
     neighbor_list *const list = work->list;
@@ -159,7 +161,7 @@ static void fill_walls(const pick_work *work, int part, int parts)
     contact_list_carry(&list->walls, &list->walls_before, work->walls[part], work->walls[part + 1]);
 }
 
-/* The lists at hand, of a part. */
+/* Fills a part's share of the new lists of pairs and of walls. */
 static void make_contacts(void *context, int part, int parts)
 {
     const pick_work *const work = context;
