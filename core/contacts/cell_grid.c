@@ -114,13 +114,32 @@ static size_t cell_of(const cell_grid *grid, const grid_level *level, const doub
     return level->first_cell + cell;
 }
 
+/* The spheres' own box and `skin` around it, no larger than the one from low to high: few spheres may be in a wide container.
+ * Along a periodic axis, all of it. Comparing so that a NaN counts for nothing. */
+static void set_box(cell_grid *grid, const spheres *s, const double low[3], const double high[3], double skin)
+{
+    double least[3] = { high[0], high[1], high[2] }, most[3] = { low[0], low[1], low[2] };
+    for (size_t i = 0; i < spheres_count(s); i++) {
+        const double *x = sphere_place(s, i);
+        for (int a = 0; a < 3; a++) {
+            least[a] = x[a] < least[a] ? x[a] : least[a];
+            most[a] = x[a] > most[a] ? x[a] : most[a];
+        }
+    }
+    for (int a = 0; a < 3; a++) {
+        const bool whole = a == 2 && grid->period > 0;
+        grid->low[a] = whole ? low[a] : fmax(low[a], least[a] - skin);
+        grid->high[a] = whole ? high[a] : fmin(high[a], most[a] + skin);
+    }
+}
+
 dem_status cell_grid_fill(cell_grid *grid, const spheres *s, const double low[3], const double high[3], double period, double skin)
 {
     const size_t n = spheres_count(s);
-    memcpy(grid->low, low, sizeof grid->low);
-    memcpy(grid->high, high, sizeof grid->high);
     grid->period = (real)period;
     grid->inverse_period = (real)(period > 0 ? 1 / period : 0);
+    grid->rounding = 1e-6 * (high[0] - low[0] + high[2] - low[2]);
+    set_box(grid, s, low, high, skin);
     const size_t cells = set_cells(grid, skin);
     if (reserve_cells(grid, cells) != DEM_OK || reserve_spheres(grid, n) != DEM_OK) return DEM_NO_MEMORY;
     memset(grid->start, 0, (cells + 1) * sizeof *grid->start);
@@ -186,9 +205,7 @@ size_t cell_grid_neighbors(const cell_grid *grid, const spheres *s, size_t i, do
 {
     const double *place = sphere_place(s, i);
     const real x[3] = { (real)place[0], (real)place[1], (real)place[2] };
-    /* rounding of three coordinates of the box's size, twice over */
-    const double rounding = 1e-6 * (grid->high[0] - grid->low[0] + grid->high[2] - grid->low[2]);
-    const double reach = s->full_radius[i] + skin + rounding;
+    const double reach = s->full_radius[i] + skin + grid->rounding;
     size_t count = 0;
     for (int l = 0; l < grid->level_count; l++) {
         const grid_level *level = &grid->level[l];

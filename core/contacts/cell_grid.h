@@ -17,7 +17,8 @@ typedef struct grid_level {
 enum { MOST_LEVELS = 12 };
 
 typedef struct cell_grid {
-    double low[3], high[3]; /* m */
+    double low[3], high[3]; /* m: the box that the cells divide */
+    double rounding;        /* m: of three coordinates of the container's size, twice over */
     real period, inverse_period;
     int level_count;
     grid_level level[MOST_LEVELS]; /* largest spheres first; the last one has all that are smaller, too */
@@ -32,8 +33,9 @@ typedef struct cell_grid {
 /* For these spheres, whose radii stay. */
 void cell_grid_init(cell_grid *grid, const spheres *spheres);
 void cell_grid_clear(cell_grid *grid);
-/* Sort all spheres into cells no smaller than their level's largest diameter and `skin`, over the box from low to high;
- * what lies outside goes to the cells at its border. period: m along z, which is then the box's height; 0: none. */
+/* Sort all spheres into cells no smaller than their level's largest diameter and `skin`, over as much of the container's
+ * box from low to high as they span; what lies outside goes to the cells at the border. period: m along z, which is then
+ * the box's height; 0: none. */
 dem_status cell_grid_fill(cell_grid *grid, const spheres *spheres, const double low[3], const double high[3], double period,
                           double skin);
 

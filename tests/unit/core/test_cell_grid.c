@@ -184,6 +184,48 @@ static void cells_are_no_more_than_some_for_each_sphere(void **unused)
     discard(&grid, &s);
 }
 
+/* Pairs whose gap is the skin but for a thousandth of the rounding, crowded far from the axis. */
+static void crowd(spheres *s, double corner, double width, double radius, double skin, dice *d)
+{
+    for (size_t i = 0; i < COUNT; i++) {
+        s->full_radius[i] = (real)radius;
+        double apart[3], length = 0;
+        for (int c = 0; c < 3; c++) {
+            s->place[i][c] = (c < 2 ? corner : width / 2) - dice_uniform(d, 0, width);
+            apart[c] = dice_uniform(d, -1, 1);
+            length = hypot(length, apart[c]);
+        }
+        if (i % 2 == 0) continue;
+        const double distance = 2 * (double)s->full_radius[i] + skin - 1e-11;
+        for (int c = 0; c < 3; c++) s->place[i][c] = s->place[i - 1][c] + distance * apart[c] / length;
+    }
+}
+
+/* Three hundred spheres in a millionth of the box: their cells are of their size, and rounding is that of the wide box. */
+static void a_crowd_in_a_wide_box_has_cells_of_its_size_and_all_its_pairs(void **unused)
+{
+    (void)unused;
+    enum { PERIODS = 2 };
+    static const double period_of[PERIODS] = { 0, 0.01 };
+    const double radius = 1e-4, skin = 5e-5;
+    for (int p = 0; p < PERIODS; p++) {
+        dice d = { 113 };
+        spheres s;
+        cell_grid grid;
+        scatter(&s, COUNT, 0.5, 0.7, radius, 1, &d);
+        crowd(&s, 0.35, 0.005, radius, skin, &d);
+        cell_grid_init(&grid, &s);
+        const double low[3] = { -0.5, -0.5, -0.5 * (p ? period_of[p] : 1) }, high[3] = { 0.5, 0.5, -low[2] };
+        assert_int_equal(cell_grid_fill(&grid, &s, low, high, period_of[p], skin), DEM_OK);
+        for (int a = 0; a < 3; a++) CHECK_BETWEEN(1 / grid.level[0].inverse_size[a], 2 * radius + skin, 2 * (2 * radius + skin));
+        for (size_t i = 0; i < COUNT; i += 2) {
+            int32_t found[COUNT + SPARE];
+            assert_int_equal(times_found(found, cell_grid_neighbors(&grid, &s, i, skin, found, COUNT), i + 1), 1);
+        }
+        discard(&grid, &s);
+    }
+}
+
 /* A place that is not a number, or far outside, gets some cell and is found by the checks of places. */
 static void a_place_outside_or_not_a_number_gets_a_cell_of_the_grid(void **unused)
 {
@@ -210,6 +252,7 @@ int main(void)
         cmocka_unit_test(with_too_little_room_the_count_is_still_right),
         cmocka_unit_test(every_sphere_is_in_its_cell_once_and_in_order),
         cmocka_unit_test(cells_are_no_more_than_some_for_each_sphere),
+        cmocka_unit_test(a_crowd_in_a_wide_box_has_cells_of_its_size_and_all_its_pairs),
         cmocka_unit_test(a_place_outside_or_not_a_number_gets_a_cell_of_the_grid),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
