@@ -234,26 +234,23 @@ bench-peers: all ## the same drum by LAMMPS and LIGGGHTS beside ours, taking tur
 	@$(PYTHON) tests/bench/report.py tests/bench/results --compiler "$(shell $(CC) --version | head -n 1)" --flags "$(CORE_FLAGS) $(call variant_flags,$(VARIANT))" \
 	  --peers $(BUILD)/peers.ndjson
 
-asan: test-packages ## unit and worker tests under the address and undefined-behavior sanitizers, in build/asan
-	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan SANITIZE="-fsanitize=address,undefined -fno-omit-frame-pointer" asan-run
-asan-run: programs $(UNIT_TESTS) $(KERNEL_TESTS)
-	@PYTHON=$(PYTHON) sh tests/run.sh $(BUILD) unit
+asan: test-packages ## unit tests under the address and undefined-behavior sanitizers, in build/asan
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan ISA=plain plain_FLAGS=-O1 SANITIZE="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" unit
 
-tsan: test-packages ## unit tests of the daemon under the thread sanitizer, in build/tsan
-	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan SANITIZE="-fsanitize=thread" asan-run
-
-openapi: programs ## write the schemas of inputs and results into api/openapi.yaml
-	@$(BUILD)/reposed openapi api/openapi.yaml
+tsan: test-packages ## unit tests under the thread sanitizer, in build/tsan
+	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan ISA=plain plain_FLAGS=-O1 SANITIZE="-fsanitize=thread" unit
 
 format: lint-packages ## clang-format over all C
 	@git ls-files '*.c' '*.h' | xargs clang-format -i
 
+# Of each file as it is compiled for any processor.
 lint: lint-packages ## clang-tidy and cppcheck
 	@rm -rf $(BUILD)/lint && mkdir -p $(BUILD)/lint
-	@bear --output $(BUILD)/lint/compile_commands.json -- $(MAKE) --no-print-directory BUILD=$(BUILD)/lint/objects programs >/dev/null
-	@clang-tidy --quiet -p $(BUILD)/lint $(CORE_SOURCES) $(wildcard api/*/*.c api/*/*/*.c server/*/*.c server/*/*/*.c) 2>/dev/null
-	@cppcheck --quiet --enable=warning,performance,portability --error-exitcode=1 \
-	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex $(addprefix -I,$(core_SEES) $(server/daemon_SEES)) $(API_SEES) -Iserver/worker/files -Iserver/worker/run core api server
+	@bear --output $(BUILD)/lint/compile_commands.json -- $(MAKE) --no-print-directory BUILD=$(BUILD)/lint/objects $(BUILD)/lint/objects/repose $(BUILD)/lint/objects/reposed >/dev/null
+	@printf '%s\n' $(CORE_SOURCES) $(wildcard api/*/*.c api/*/*/*.c server/*/*.c server/*/*/*.c) | xargs -P $(shell nproc) -n 8 clang-tidy --quiet -p $(BUILD)/lint 2>/dev/null
+	@cppcheck --quiet -j $(shell nproc) --enable=warning,performance,portability --error-exitcode=1 \
+	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex \
+	  $(addprefix -I,$(core_SEES) $(server/daemon_SEES)) $(API_SEES) -Iserver/worker/files -Iserver/worker/run core api server
 
 clean: ## remove what was built, and data folders in it; not while a daemon is at work on one of these
 	@for lock in $$(find $(BUILD) -maxdepth 4 -type f -name lock 2>/dev/null); do \
@@ -282,6 +279,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
-.PHONY: FORCE all programs demo serve test unit torture physics physics-programs reproduce check bench bench-peers asan asan-run tsan openapi format lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve test unit torture physics physics-programs reproduce check bench bench-peers asan tsan openapi format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)
