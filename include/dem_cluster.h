@@ -150,7 +150,8 @@ static inline void dem_stretches_sort(dem_stretch *stretch, size_t count)
 }
 
 /* In order. The row is left in that order, too, which is nearly that of the next column. */
-static inline size_t dem_cluster_column(const dem_cluster *cluster, double y, dem_in_row *row, size_t row_count, dem_stretch *stretch)
+static inline size_t dem_cluster_column(const dem_cluster *cluster, double y, dem_in_row *row, size_t row_count,
+                                        dem_stretch *stretch)
 {
     size_t count = 0, outside = 0;
     for (size_t k = 0; k < row_count; k++) {

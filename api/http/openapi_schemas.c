@@ -12,7 +12,8 @@
 #include "yaml_write.h"
 
 /* The last line by hand. */
-static const char marker[] = "    # From here on `reposed openapi FILE` writes what follows from the tables of inputs and results.\n";
+static const char marker[] =
+    "    # From here on `reposed openapi FILE` writes what follows from the tables of inputs and results.\n";
 enum { INDENT = 4, LONGEST_DOCUMENT = 4 << 20 };
 
 /* "DrumInputs" */
@@ -89,9 +90,7 @@ static json_t *summary_member(const field_column *column)
     const bool is_input = column->input != NULL;
     const char *meaning = is_input ? column->input->meaning : column->result->meaning;
     const char *unit = is_input ? column->input->unit : column->result->unit;
-    const char *type = strcmp(column->type, "REAL") == 0   ? "number"
-                       : strcmp(column->type, "TEXT") == 0 ? "string"
-                                                           : "integer";
+    const char *type = strcmp(column->type, "REAL") == 0 ? "number" : strcmp(column->type, "TEXT") == 0 ? "string" : "integer";
     json_t *schema = json_pack("{s:s}", "type", field_column_is_truth(column) ? "boolean" : type);
     if (unit && *unit) json_object_set_new(schema, "x-unit", json_string(unit));
     json_object_set_new(schema, "description",
@@ -112,15 +111,15 @@ static json_t *summary_of_process(const process_type *process, const field_colum
 
 static json_t *summary_schema(const field_column *const *list, size_t count)
 {
-    json_t *properties = json_pack("{s:{s:s}, s:{s:s, s:s, s:s}}", "threads", "type", "integer", "estimated_seconds", "type", "number",
-                                   "x-unit", "s", "description", "of wall clock, when it was submitted"),
+    json_t *properties = json_pack("{s:{s:s}, s:{s:s, s:s, s:s}}", "threads", "type", "integer", "estimated_seconds", "type",
+                                   "number", "x-unit", "s", "description", "of wall clock, when it was submitted"),
            *one_of = json_array();
     for (size_t i = 0; i < count; i++)
         if (!json_object_get(properties, list[i]->shown_as))
             json_object_set_new(properties, list[i]->shown_as, summary_member(list[i]));
     for (size_t p = 0; process_types[p]; p++) json_array_append_new(one_of, summary_of_process(process_types[p], list, count));
-    return json_pack("{s:s, s:s, s:[s, s], s:o, s:o, s:b}", "description", "Main inputs, and the main results once there are any", "type",
-                     "object", "required", "threads", "estimated_seconds", "oneOf", one_of, "properties", properties,
+    return json_pack("{s:s, s:s, s:[s, s], s:o, s:o, s:b}", "description", "Main inputs, and the main results once there are any",
+                     "type", "object", "required", "threads", "estimated_seconds", "oneOf", one_of, "properties", properties,
                      "additionalProperties", 0);
 }
 
@@ -201,7 +200,9 @@ bool openapi_file_update(const char *path)
         return false;
     }
     good = openapi_write(before.text ? before.text : "", before.length, &after);
-    if (!good) fprintf(stderr, "reposed: %s is no document of this service: the line \"%.*s\" is missing\n", path, (int)sizeof marker - 2, marker);
+    if (!good)
+        fprintf(stderr, "reposed: %s is no document of this service: the line \"%.*s\" is missing\n", path, (int)sizeof marker - 2,
+                marker);
     else if (!(good = write_file(path, &after))) fprintf(stderr, "reposed: %s can't be written: %s\n", path, strerror(errno));
     text_buffer_clear(&before);
     text_buffer_clear(&after);

@@ -13,8 +13,8 @@ typedef struct http_route {
     const char *parameters; /* " names " of the query parameters, each between spaces; others are refused. With a
                              * star where it may be given several times. f is json, wherever it is known */
     route_handler *handler;
-    bool slow; /* may take seconds: answered apart, so that nothing else waits for it */
-    bool open; /* needs no token */
+    bool slow;     /* may take seconds: answered apart, so that nothing else waits for it */
+    bool open;     /* needs no token */
     bool bodiless; /* a POST that needs no body, and so no Content-Type */
 } http_route;
 

@@ -97,7 +97,6 @@ double calibration_seconds_a_run(const calibration *machine, const calibration_l
 
 /* --- the file --- */
 
-
 static bool read_text(const json_t *document, const char *name, char *text, size_t size)
 {
     const char *value = json_string_value(json_object_get(document, name));

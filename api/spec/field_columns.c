@@ -46,11 +46,9 @@ static const char *type_of_result(const result_field *field)
 static void add_input(field_columns *columns, const process_type *process, const spec_field *field)
 {
     field_column *column = &columns->column[columns->count++];
-    *column = (field_column){ .type = type_of_input(field),
-                              .process = process,
-                              .input = field,
-                              .in_view = field->in_view,
-                              .is_listed = field->is_listed };
+    *column = (field_column){
+        .type = type_of_input(field), .process = process, .input = field, .in_view = field->in_view, .is_listed = field->is_listed
+    };
     write_name(column->table, sizeof column->table, "%s_input", process->name);
     write_name(column->name, sizeof column->name, "%s", field->column);
     write_name(column->shown_as, sizeof column->shown_as, "%s", field->column);

@@ -6,14 +6,14 @@
 #include "process_type.h"
 
 typedef struct field_column {
-    char table[40];             /* "drum_input", "repose_result" */
-    char name[64];              /* in its table */
-    char shown_as[64];          /* in the view, in summaries and in studies; columns of one such name are one there */
-    const char *type;           /* of SQL: "REAL", "INTEGER", "TEXT" */
+    char table[40];              /* "drum_input", "repose_result" */
+    char name[64];               /* in its table */
+    char shown_as[64];           /* in the view, in summaries and in studies; columns of one such name are one there */
+    const char *type;            /* of SQL: "REAL", "INTEGER", "TEXT" */
     const process_type *process; /* the first that has it */
-    const spec_field *input;    /* the row; NULL: it is a result */
-    const result_field *result; /* the first row of its name; NULL: it is an input */
-    int in_view, in_study;      /* places, as the rows say; 0: not there */
+    const spec_field *input;     /* the row; NULL: it is a result */
+    const result_field *result;  /* the first row of its name; NULL: it is an input */
+    int in_view, in_study;       /* places, as the rows say; 0: not there */
     bool is_listed;
     const char *run_error; /* shown_as of a single run's own error of it; NULL: there is none */
 } field_column;

@@ -254,7 +254,8 @@ static void write_told(const study_table *table, const json_t *row, text_buffer 
     }
 }
 
-static void write_head(const study_table *table, const json_t *inputs, const json_t *labels, const json_t *results, text_buffer *out)
+static void write_head(const study_table *table, const json_t *inputs, const json_t *labels, const json_t *results,
+                       text_buffer *out)
 {
     const char *name;
     json_t *unused;
@@ -272,8 +273,8 @@ static void write_head(const study_table *table, const json_t *inputs, const jso
     text_buffer_print(out, "\r\n");
 }
 
-static void write_row(const study_table *table, const json_t *row, const json_t *inputs, const json_t *labels, const json_t *results,
-                      text_buffer *out)
+static void write_row(const study_table *table, const json_t *row, const json_t *inputs, const json_t *labels,
+                      const json_t *results, text_buffer *out)
 {
     const char *name, *first = first_mean(table)->shown_as;
     json_t *unused;

@@ -19,6 +19,6 @@ void text_buffer_add_json_string(text_buffer *buffer, const char *text, size_t l
 /* Quoted where RFC 4180 asks, and where a semicolon or a tab would divide it. What a spreadsheet would run as a formula
  * gets an apostrophe before it, which makes it a text there; a text that is a number stays as it is. */
 void text_buffer_add_csv_field(text_buffer *buffer, const char *text, size_t length);
-void text_buffer_add_number(text_buffer *buffer, double value);                         /* shortest that reads back; "" never */
+void text_buffer_add_number(text_buffer *buffer, double value); /* shortest that reads back; "" never */
 
 #endif

@@ -8,7 +8,7 @@
 enum { TILE_CELLS = 16 }; /* a side */
 
 typedef struct density_tile {
-    int32_t column, row; /* of tiles: over s, over h */
+    int32_t column, row;                  /* of tiles: over s, over h */
     float value[TILE_CELLS * TILE_CELLS]; /* columns in s, then h upwards */
 } density_tile;
 
@@ -30,9 +30,9 @@ typedef struct density_grid {
     double core;        /* solid fraction of the bed's core: median over cells above half of the densest */
     density_tile *tile; /* (tile_count) in the order in which spheres came to them */
     size_t tile_count, tile_capacity;
-    int32_t *slot;      /* (slot_count, a power of two) of tiles by their place; -1: free */
+    int32_t *slot; /* (slot_count, a power of two) of tiles by their place; -1: free */
     size_t slot_count;
-    tile_place *order;  /* (tile_count) by column, then upwards */
+    tile_place *order; /* (tile_count) by column, then upwards */
     surface_heights surface;
     bool lacks_memory;  /* since it began: nothing in it is to be believed */
     double *kernel;     /* (kernels, KERNEL_POINTS) */

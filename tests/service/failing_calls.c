@@ -78,7 +78,8 @@ AROUND(ssize_t, pread, (int file, void *to, size_t size, off_t at), (file, to, s
 AROUND(ssize_t, pread64, (int file, void *to, size_t size, off_t at), (file, to, size, at), "read", is_regular(file), -1)
 AROUND(ssize_t, write, (int file, const void *from, size_t size), (file, from, size), "write", is_regular(file), -1)
 AROUND(ssize_t, pwrite, (int file, const void *from, size_t size, off_t at), (file, from, size, at), "write", is_regular(file), -1)
-AROUND(ssize_t, pwrite64, (int file, const void *from, size_t size, off_t at), (file, from, size, at), "write", is_regular(file), -1)
+AROUND(ssize_t, pwrite64, (int file, const void *from, size_t size, off_t at), (file, from, size, at), "write", is_regular(file),
+       -1)
 AROUND(int, fsync, (int file), (file), "fsync", true, -1)
 AROUND(int, fdatasync, (int file), (file), "fsync", true, -1)
 AROUND(int, rename, (const char *from, const char *to), (from, to), "rename", true, -1)

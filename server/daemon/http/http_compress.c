@@ -8,7 +8,7 @@
 #include <zlib.h>
 
 enum {
-    SHORTEST = 1 << 10,     /* bytes: what is shorter fits a packet or two anyway */
+    SHORTEST = 1 << 10, /* bytes: what is shorter fits a packet or two anyway */
     READ_AT_ONCE = 32 << 10,
     FED_AT_ONCE = 64 << 10, /* a millisecond or two of compressing */
     LEVEL = 5,
@@ -139,7 +139,8 @@ struct MHD_Response *http_compress_reply(http_response *response)
     text_buffer_init(&c->text, MOST_PIECE_BYTES);
     if (response->file >= 0) c->part = malloc(FED_AT_ONCE);
     struct MHD_Response *reply = NULL;
-    if ((c->part || response->file < 0) && deflateInit2(&c->z, LEVEL, Z_DEFLATED, WINDOW_BITS, MEMORY_LEVEL, Z_DEFAULT_STRATEGY) == Z_OK)
+    if ((c->part || response->file < 0)
+        && deflateInit2(&c->z, LEVEL, Z_DEFLATED, WINDOW_BITS, MEMORY_LEVEL, Z_DEFAULT_STRATEGY) == Z_OK)
         reply = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, READ_AT_ONCE, read_compressed, c, free_compressor);
     if (!reply) {
         free_compressor(c);

@@ -112,7 +112,7 @@ static bool bring_up_to_date(sqlite3 *database, const char *path)
     }
     field_tables tables;
     const bool good = field_tables_init(&tables) && field_tables_make(&tables, database) && migrate_from(database, path, version)
-                && field_tables_make_view(&tables, database);
+                      && field_tables_make_view(&tables, database);
     field_tables_clear(&tables);
     return good;
 }

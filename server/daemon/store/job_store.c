@@ -190,7 +190,8 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
         status = store_check_queue(store, 1);
         int64_t last = 0;
         if (status == STORE_OK) status = last_number(store, &last);
-        if (status == STORE_OK) status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &of_no_study, &machine);
+        if (status == STORE_OK)
+            status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &of_no_study, &machine);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);

@@ -194,7 +194,8 @@ store_status store_record_success(job_store *store, const job_claim *claim, cons
     store_status status = store_begin(store);
     if (status == STORE_OK) {
         status = end_job(store, claim, JOB_SUCCESSFUL, message, NULL);
-        if (status == STORE_OK) status = field_tables_insert_results(&store->fields, store->writer, claim->number, document, results);
+        if (status == STORE_OK)
+            status = field_tables_insert_results(&store->fields, store->writer, claim->number, document, results);
         status = store_end(store, status);
     }
     json_decref(results);
@@ -219,10 +220,10 @@ static store_status put_back(job_store *store, const job_claim *claim, bool uses
         return end_job(store, claim, JOB_FAILED, text, NULL);
     }
     int64_t changed;
-    const store_status status = sql_run(
-        store->writer, &changed,
-        "UPDATE job SET status='accepted', attempt=attempt+?, setbacks=0, not_before=0, message=?, updated=?, eta_seconds=NULL" FENCE,
-        "ittii", (int64_t)uses_attempt, message, now, claim->number, (int64_t)claim->attempt);
+    const store_status status = sql_run(store->writer, &changed,
+                                        "UPDATE job SET status='accepted', attempt=attempt+?, setbacks=0, not_before=0, message=?, "
+                                        "updated=?, eta_seconds=NULL" FENCE,
+                                        "ittii", (int64_t)uses_attempt, message, now, claim->number, (int64_t)claim->attempt);
     return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
 }
 
@@ -238,11 +239,11 @@ static store_status put_off(job_store *store, const job_claim *claim, const char
     time_text(now);
     int64_t changed;
     /* 2, 4, 8, ... s */
-    const store_status status = sql_run(store->writer, &changed,
-                                        "UPDATE job SET status='accepted', setbacks=setbacks+1,"
-                                        " not_before=?+min(?,2<<min(setbacks,16)), message=?, updated=?, eta_seconds=NULL" FENCE,
-                                        "ddttii", unix_seconds(), LONGEST_DELAY_OF_SETBACKS, message, now, claim->number,
-                                        (int64_t)claim->attempt);
+    const store_status status =
+        sql_run(store->writer, &changed,
+                "UPDATE job SET status='accepted', setbacks=setbacks+1,"
+                " not_before=?+min(?,2<<min(setbacks,16)), message=?, updated=?, eta_seconds=NULL" FENCE,
+                "ddttii", unix_seconds(), LONGEST_DELAY_OF_SETBACKS, message, now, claim->number, (int64_t)claim->attempt);
     return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
 }
 
@@ -257,11 +258,11 @@ store_status store_put_off(job_store *store, const job_claim *claim, const char 
 /* The oldest job still marked running, with a number above `after`. */
 static store_status next_orphan(job_store *store, int64_t after, job_claim *claim)
 {
-    sqlite3_stmt *statement =
-        sql_prepare(store->writer,
-                    "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study, attempts_before FROM job"
-                    " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
-                    "i", after);
+    sqlite3_stmt *statement = sql_prepare(
+        store->writer,
+        "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study, attempts_before FROM job"
+        " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
+        "i", after);
     return statement ? read_claim(statement, claim) : STORE_FAILED;
 }
 

@@ -58,13 +58,14 @@ static double correction_of_runs(sqlite3 *reader, const calibration *machine)
 {
     double ratio[RUNS];
     size_t count = 0;
-    sqlite3_stmt *statement =
-        sql_prepare(reader,
-                    "SELECT r.seconds, l.spheres, l.of_particle, l.law, l.friction, l.rolling_friction, l.in_double, l.threads,"
-                    " l.factor FROM (SELECT job, wall_seconds/steps AS seconds FROM run_result"
-                    "  WHERE steps>0 AND wall_seconds>" LEAST_SECONDS " ORDER BY job DESC LIMIT " AS_TEXT(RUNS) ") r"
-                    " JOIN job_load l ON l.job=r.job JOIN job ON job.number=r.job WHERE job.finished>?1 AND l.law BETWEEN 0 AND 2",
-                    "t", machine->made);
+    sqlite3_stmt *statement = sql_prepare(
+        reader,
+        "SELECT r.seconds, l.spheres, l.of_particle, l.law, l.friction, l.rolling_friction, l.in_double, l.threads,"
+        " l.factor FROM (SELECT job, wall_seconds/steps AS seconds FROM run_result"
+        "  WHERE steps>0 AND wall_seconds>" LEAST_SECONDS " ORDER BY job DESC LIMIT " AS_TEXT(
+            RUNS) ") r"
+                  " JOIN job_load l ON l.job=r.job JOIN job ON job.number=r.job WHERE job.finished>?1 AND l.law BETWEEN 0 AND 2",
+        "t", machine->made);
     if (!statement) return 1.0;
     int code;
     while ((code = sqlite3_step(statement)) == SQLITE_ROW && count < RUNS) {

@@ -77,16 +77,11 @@ bool query_connection_restrict(job_store *store)
 {
     sqlite3 *database = store->query;
     static const int limits[][2] = {
-        { SQLITE_LIMIT_LENGTH, QUERY_LONGEST_TEXT },
-        { SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL + 10 },
-        { SQLITE_LIMIT_COLUMN, MOST_COLUMNS },
-        { SQLITE_LIMIT_EXPR_DEPTH, 100 },
-        { SQLITE_LIMIT_COMPOUND_SELECT, 20 },
-        { SQLITE_LIMIT_VDBE_OP, 50000 },
-        { SQLITE_LIMIT_FUNCTION_ARG, 100 },
-        { SQLITE_LIMIT_ATTACHED, 0 },
-        { SQLITE_LIMIT_VARIABLE_NUMBER, 16 },
-        { SQLITE_LIMIT_TRIGGER_DEPTH, 1 },
+        { SQLITE_LIMIT_LENGTH, QUERY_LONGEST_TEXT }, { SQLITE_LIMIT_SQL_LENGTH, LONGEST_SQL + 10 },
+        { SQLITE_LIMIT_COLUMN, MOST_COLUMNS },       { SQLITE_LIMIT_EXPR_DEPTH, 100 },
+        { SQLITE_LIMIT_COMPOUND_SELECT, 20 },        { SQLITE_LIMIT_VDBE_OP, 50000 },
+        { SQLITE_LIMIT_FUNCTION_ARG, 100 },          { SQLITE_LIMIT_ATTACHED, 0 },
+        { SQLITE_LIMIT_VARIABLE_NUMBER, 16 },        { SQLITE_LIMIT_TRIGGER_DEPTH, 1 },
         { SQLITE_LIMIT_WORKER_THREADS, 0 },
     };
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) sqlite3_limit(database, limits[i][0], limits[i][1]);

@@ -140,7 +140,12 @@ static const char waiting_by_setbacks[] = "DROP INDEX job_waiting;"
 
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
-#define NO_TABLES_OF_ITS_OWN { { NULL } }
+#define NO_TABLES_OF_ITS_OWN                                                                                                       \
+    {                                                                                                                              \
+        {                                                                                                                          \
+            NULL                                                                                                                   \
+        }                                                                                                                          \
+    }
 
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },

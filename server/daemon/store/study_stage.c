@@ -65,7 +65,8 @@ static sqlite3 *open_stage(study_stage *stage)
                                 "CREATE TABLE start(id TEXT NOT NULL, job TEXT NOT NULL, snapshot REAL);",
                                 NULL, NULL, NULL)
                        == SQLITE_OK;
-    good = good && visit_tables(stage, copy_definition, database) == STORE_OK && sqlite3_exec(database, "BEGIN", NULL, NULL, NULL) == SQLITE_OK;
+    good = good && visit_tables(stage, copy_definition, database) == STORE_OK
+           && sqlite3_exec(database, "BEGIN", NULL, NULL, NULL) == SQLITE_OK;
     if (good) return database;
     log_line("a study's rows can't be kept: %s", sqlite3_errmsg(database));
     sqlite3_close(database);
@@ -163,7 +164,8 @@ static bool stage_job(void *context, const job_spec *spec, size_t index, int rep
     char *text = study_parts_write(&stage->parts, spec);
     store_status status = text ? STORE_OK : STORE_FAILED;
     if (repeat == 0) status = stage_case(stage, spec, index);
-    if (status == STORE_OK) status = store_insert_job(&stage->store->fields, stage->database, number, spec, id, text, &place, stage->machine);
+    if (status == STORE_OK)
+        status = store_insert_job(&stage->store->fields, stage->database, number, spec, id, text, &place, stage->machine);
     if (status == STORE_OK) status = stage_start(stage, spec, id);
     free(text);
     stage->status = status;
@@ -286,7 +288,8 @@ store_status study_stage_copy(study_stage *stage, int64_t study)
 {
     copied_rows rows = { .study = study };
     time_text(rows.now);
-    sqlite3_stmt *row = sql_prepare(stage->store->writer, "SELECT max(number,coalesce((SELECT max(number) FROM job),0)) FROM last_deleted", "");
+    sqlite3_stmt *row =
+        sql_prepare(stage->store->writer, "SELECT max(number,coalesce((SELECT max(number) FROM job),0)) FROM last_deleted", "");
     rows.last_job = row && sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int64(row, 0) : -1;
     sqlite3_finalize(row);
     return rows.last_job < 0 ? STORE_FAILED : visit_tables(stage, copy_table, &rows);

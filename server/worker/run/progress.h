@@ -15,7 +15,7 @@ typedef struct progress {
     double spheres;
     double settling_steps, rotation_steps; /* expected; the latter of a drum are known */
     bool may_end_early;                    /* as soon as all is at rest */
-    double steps_per_second; /* of late; 0: not known yet */
+    double steps_per_second;               /* of late; 0: not known yet */
     int64_t last_step;
 } progress;
 
