@@ -1,6 +1,6 @@
 # reposed: virtual rotary-drum tests. `make help` lists the targets.
 
-PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev
+PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core python3-owslib
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
@@ -134,7 +134,7 @@ $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
 	$(SAY) link $@
-	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lz -lm
+	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm
 # Changes when ISA or DOUBLE does, so that what is built for one is not taken for the other.
 $(BUILD)/variant: FORCE
 	@mkdir -p $(@D)
@@ -170,7 +170,7 @@ $(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) $(addprefix -I,$(server/daemon_SEES)) -Itests/unit $< $(BUILD)/libdaemon.a \
-	  $(BUILD)/libapi.a $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lz -lm -o $@
+	  $(BUILD)/libapi.a $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm -o $@
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
 define variant_tests

@@ -10,7 +10,7 @@
 #include "openapi_outline.h"
 #include "openapi_schemas.h"
 #include "status_info.h"
-#include "yaml_read.h"
+#include "yaml_text.h"
 
 static bool send_page_file(api_service *service, const http_request *request, http_response *response, const char *name,
                            const char *type)
@@ -75,10 +75,10 @@ static void show_outline(http_response *response)
     response->content_type = "application/vnd.oai.openapi+json;version=3.0";
 }
 
-static void respond_json_document(http_response *response, const char *text)
+static void respond_json_document(http_response *response, const text_buffer *text)
 {
     int line = 0;
-    json_t *document = text ? yaml_read(text, &line) : NULL;
+    json_t *document = text->text ? yaml_read(text->text, text->length, &line) : NULL;
     if (!document) {
         http_respond_problem(response, 500, NULL, "No OpenAPI document", "line %d of the file of --api-file can't be read as YAML",
                              line);
@@ -99,7 +99,7 @@ static void respond_document(const http_request *request, http_response *respons
     const bool as_json =
         !http_request_accepts(request, "application/vnd.oai.openapi")
         && (http_request_accepts(request, "application/vnd.oai.openapi+json") || http_request_accepts(request, "application/json"));
-    if (as_json) respond_json_document(response, differs ? whole.text : read.text);
+    if (as_json) respond_json_document(response, differs ? &whole : &read);
     text_buffer_clear(&read);
     if (as_json) {
         close(file);

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "field_columns.h"
-#include "yaml_write.h"
+#include "yaml_text.h"
 
 /* The last line by hand. */
 static const char marker[] =
@@ -159,9 +159,9 @@ bool openapi_write(const char *document, size_t length, text_buffer *out)
     json_t *schemas = line ? openapi_schemas() : NULL;
     if (!schemas) return false;
     text_buffer_add(out, document, (size_t)(line - document) + sizeof marker - 1);
-    yaml_write_members(out, schemas, INDENT);
+    const bool good = yaml_write_members(out, schemas, INDENT);
     json_decref(schemas);
-    return !out->failed;
+    return good;
 }
 
 bool openapi_read(int file, text_buffer *document)

@@ -385,7 +385,8 @@ def test_yaml_of_every_kind_that_documents_use_is_read_as_others_read_it(tmp_pat
     with contextmanager(run_daemon)(tmp_path, options=["--api-file", str(tmp_path / "any.yaml")]) as daemon:
         accept = {"Accept": "application/json"}
         assert daemon.get("/api", headers=accept).json() == yaml.safe_load(YAML)
-        for number, bad in enumerate(("a: {b: [1, 2}\n", "a: 1\n b: 2\n", "a: 1\na: 2\n", "a: 'open\n", "[" * 500, "- a\nb: 1\n")):
+        for number, bad in enumerate(("a: {b: [1, 2}\n", "a: 1\n b: 2\n", "a: 1\na: 2\n", "a: 'open\n", "[" * 500, "- a\nb: 1\n",
+                                       "a: &again 1\nb: *again\n", "a: !kind 1\n", "a: 1\n---\nb: 2\n", "[a]: 1\n", "")):
             (tmp_path / "any.yaml").write_text(bad)
             answer = daemon.get("/api", headers=accept)
             assert answer.status_code == 500 and "line" in answer.json()["detail"], (number, answer.text)
