@@ -66,6 +66,18 @@ void store_return_reader(job_store *store, sqlite3 *reader)
     pthread_mutex_unlock(&store->readers_lock);
 }
 
+store_status store_walk(job_store *store, sqlite3 *reader, sqlite3_stmt *statement, store_row_taker *take, void *context)
+{
+    store_status status = STORE_FAILED;
+    if (statement) {
+        int code;
+        while ((code = sqlite3_step(statement)) == SQLITE_ROW && take(statement, context)) continue;
+        status = sql_finish(statement, code);
+    }
+    store_return_reader(store, reader);
+    return status;
+}
+
 store_status store_begin(job_store *store)
 {
     pthread_mutex_lock(&store->write_lock);

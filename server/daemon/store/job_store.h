@@ -35,6 +35,10 @@ void store_close(job_store *store);
 
 sqlite3 *store_borrow_reader(job_store *store);
 void store_return_reader(job_store *store, sqlite3 *reader);
+/* Takes one row; false ends the walk. */
+typedef bool store_row_taker(sqlite3_stmt *row, void *context);
+/* Steps through a statement, which may be NULL, and gives the reader back. */
+store_status store_walk(job_store *store, sqlite3 *reader, sqlite3_stmt *statement, store_row_taker *take, void *context);
 /* Between begin and end this thread owns the writer. end commits where status is STORE_OK, else rolls back;
  * returns what became of it. */
 store_status store_begin(job_store *store);

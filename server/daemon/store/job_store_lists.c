@@ -221,21 +221,11 @@ store_status store_count_listed(job_store *store, const job_filter *filter, int6
 }
 
 /* A walk over rows of one job that begin with number, step and time. */
-typedef bool row_taker(sqlite3_stmt *row, void *context);
-
-static store_status walk(job_store *store, const char *sql, const char *id, int64_t after, int64_t limit, row_taker *take,
+static store_status walk(job_store *store, const char *sql, const char *id, int64_t after, int64_t limit, store_row_taker *take,
                          void *context)
 {
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql_prepare(reader, sql, "tii", id, after, limit);
-    store_status status = STORE_FAILED;
-    if (statement) {
-        int code;
-        while ((code = sqlite3_step(statement)) == SQLITE_ROW && take(statement, context)) continue;
-        status = sql_finish(statement, code);
-    }
-    store_return_reader(store, reader);
-    return status;
+    return store_walk(store, reader, sql_prepare(reader, sql, "tii", id, after, limit), take, context);
 }
 
 typedef struct sample_walk {

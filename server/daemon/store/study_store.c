@@ -121,22 +121,6 @@ store_status store_read_study(job_store *store, const char *id, char **text)
     return store_read_text(store, "SELECT document FROM study WHERE id=?", id, text);
 }
 
-/* Takes one row; false ends the walk. */
-typedef bool row_taker(sqlite3_stmt *row, void *context);
-
-/* Steps through a prepared statement, which may be NULL, and gives the reader back. */
-static store_status walk(job_store *store, sqlite3 *reader, sqlite3_stmt *statement, row_taker *take, void *context)
-{
-    store_status status = STORE_FAILED;
-    if (statement) {
-        int code;
-        while ((code = sqlite3_step(statement)) == SQLITE_ROW && take(statement, context)) continue;
-        status = sql_finish(statement, code);
-    }
-    store_return_reader(store, reader);
-    return status;
-}
-
 typedef struct study_walk {
     study_visitor *visit;
     study_case_visitor *visit_case;
@@ -158,7 +142,7 @@ store_status store_list_studies(job_store *store, int64_t before, int64_t limit,
     sqlite3 *reader = store_borrow_reader(store);
     sqlite3_stmt *statement = sql_prepare(reader, SELECT_STUDIES " WHERE number<? ORDER BY number DESC LIMIT ?", "ii",
                                           before ? before : INT64_MAX, limit);
-    return walk(store, reader, statement, take_study, &to);
+    return store_walk(store, reader, statement, take_study, &to);
 }
 
 static bool take_case(sqlite3_stmt *row, void *context)
@@ -177,7 +161,7 @@ store_status store_list_study_cases(job_store *store, const char *id, study_case
                                           "SELECT position, name, inputs, label FROM study_case"
                                           " WHERE study=(SELECT number FROM study WHERE id=?) ORDER BY position",
                                           "t", id);
-    return walk(store, reader, statement, take_case, &to);
+    return store_walk(store, reader, statement, take_case, &to);
 }
 
 /* Of the columns of a run the first say which job; the rest, by their own names, what it measured. */
@@ -221,5 +205,5 @@ store_status store_list_study_runs(job_store *store, const char *id, study_run_v
     sqlite3 *reader = store_borrow_reader(store);
     sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "t", id);
     text_buffer_clear(&sql);
-    return walk(store, reader, statement, take_run, &to);
+    return store_walk(store, reader, statement, take_run, &to);
 }

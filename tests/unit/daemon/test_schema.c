@@ -62,15 +62,33 @@ static void make_database(const char *path, int version)
     assert_int_equal(sqlite3_close(database), SQLITE_OK);
 }
 
+/* A folder for one database, whose path is written. */
+typedef struct database_folder {
+    char folder[40], path[64];
+} database_folder;
+
+static database_folder make_folder(void)
+{
+    database_folder made = { .folder = "/tmp/reposed_schema_XXXXXX" };
+    assert_non_null(mkdtemp(made.folder));
+    snprintf(made.path, sizeof made.path, "%s/reposed.sqlite", made.folder);
+    return made;
+}
+
+static void remove_folder(const database_folder *made)
+{
+    char command[64];
+    snprintf(command, sizeof command, "rm -r %s", made->folder);
+    assert_int_equal(system(command), 0);
+}
+
 static void every_earlier_version_is_brought_up_to_date_with_what_it_holds(void **state)
 {
     (void)state;
     for (int version = 1; version <= OLDER_VERSIONS; version++) {
-        char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
-        assert_non_null(mkdtemp(folder));
-        snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
-        make_database(path, version);
-        sqlite3 *database = database_open_writer(path);
+        const database_folder made = make_folder();
+        make_database(made.path, version);
+        sqlite3 *database = database_open_writer(made.path);
         assert_non_null(database);
         assert_int_equal(number_of(database, "PRAGMA user_version"), schema_version);
         assert_int_equal(number_of(database, "SELECT count(*) FROM run_summary WHERE process='drum' AND friction=.25"
@@ -82,8 +100,7 @@ static void every_earlier_version_is_brought_up_to_date_with_what_it_holds(void 
         run_sql(database, "INSERT INTO granule_input VALUES(1,.5,.063,NULL,30,9.81,1e-9)");
         run_sql(database, "INSERT INTO granule_result(job,minimum_omega2) VALUES(1,1.826)");
         sqlite3_close(database);
-        snprintf(text, sizeof text, "rm -r %s", folder);
-        assert_int_equal(system(text), 0);
+        remove_folder(&made);
     }
 }
 
@@ -114,16 +131,13 @@ static void a_new_database_has_the_columns_of_one_that_was_brought_up_to_date(vo
     (void)state;
     char *columns[2];
     for (int is_old = 0; is_old < 2; is_old++) {
-        char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
-        assert_non_null(mkdtemp(folder));
-        snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
-        if (is_old) make_database(path, OLDER_VERSIONS);
-        sqlite3 *database = database_open_writer(path);
+        const database_folder made = make_folder();
+        if (is_old) make_database(made.path, OLDER_VERSIONS);
+        sqlite3 *database = database_open_writer(made.path);
         assert_non_null(database);
         columns[is_old] = text_of(database, columns_of_all_tables);
         sqlite3_close(database);
-        snprintf(text, sizeof text, "rm -r %s", folder);
-        assert_int_equal(system(text), 0);
+        remove_folder(&made);
     }
     assert_string_equal(columns[0], columns[1]);
     assert_non_null(strstr(columns[0], "drum_input lining_diameter REAL"));
@@ -136,18 +150,16 @@ static void a_new_database_has_the_columns_of_one_that_was_brought_up_to_date(vo
 static void a_database_of_a_newer_program_is_refused(void **state)
 {
     (void)state;
-    char folder[] = "/tmp/reposed_schema_XXXXXX", path[64], text[100];
-    assert_non_null(mkdtemp(folder));
-    snprintf(path, sizeof path, "%s/reposed.sqlite", folder);
-    make_database(path, OLDER_VERSIONS);
+    const database_folder made = make_folder();
+    make_database(made.path, OLDER_VERSIONS);
     sqlite3 *database;
-    assert_int_equal(sqlite3_open(path, &database), SQLITE_OK);
+    assert_int_equal(sqlite3_open(made.path, &database), SQLITE_OK);
+    char text[100];
     snprintf(text, sizeof text, "PRAGMA user_version=%d", schema_version + 1);
     run_sql(database, text);
     sqlite3_close(database);
-    assert_null(database_open_writer(path));
-    snprintf(text, sizeof text, "rm -r %s", folder);
-    assert_int_equal(system(text), 0);
+    assert_null(database_open_writer(made.path));
+    remove_folder(&made);
 }
 
 int main(void)
