@@ -42,6 +42,7 @@ DAEMON_FLAGS := -D_GNU_SOURCE $(HARDENING) -pthread
 
 # The rooms: what is compiled in a folder sees the headers of these folders and no others, so that a layer which reaches
 # up does not compile. Each line may name the line of a folder below.
+core/rules_SEES := include
 core/numbers_SEES := include core/numbers
 core/bodies_SEES := $(core/numbers_SEES) core/bodies
 core/walls_SEES := $(core/bodies_SEES) core/walls
@@ -77,7 +78,9 @@ API_SEES := $(addprefix -I,$(sort $(api/process_SEES) $(api/http_SEES)))
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5-serial)
 HDF5_LIBS = $(shell pkg-config --libs hdf5-serial)
 
-CORE_SOURCES := $(wildcard core/*.c core/*/*.c)
+RULES_SOURCES := $(wildcard core/rules/*.c)
+CORE_SOURCES := $(filter-out $(RULES_SOURCES),$(wildcard core/*.c core/*/*.c))
+RULES := $(BUILD)/librules.a
 DEM := $(BUILD)/core/$(VARIANT)/libdem.a
 API := $(patsubst %.c,$(BUILD)/%.o,$(wildcard api/*/*.c api/*/*/*.c))
 WORKER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/worker/*.c server/worker/*/*.c))
@@ -112,11 +115,18 @@ $(BUILD)/core/$(1)/%.o: core/%.c Makefile
 	$(QUIET)$(CC) $(CFLAGS) $(CORE_FLAGS) $(call variant_flags,$(1)) $$(call sees,$$<) -c $$< -o $$@
 $(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_SOURCES))
 	@rm -f $$@ && ar rcs $$@ $$^
-$(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a
+$(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a $(RULES)
 	$(SAY) link $$@
 	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -ljansson -lm
 endef
 $(foreach v,$(VARIANTS),$(eval $(call core,$(v))))
+# The rules, which the core and the daemon have in common, are compiled once, for any processor.
+$(BUILD)/core/rules/%.o: core/rules/%.c Makefile
+	@mkdir -p $(@D)
+	$(SAY) compile $<
+	$(QUIET)$(CC) $(CFLAGS) $(CORE_FLAGS) $(call sees,$<) -c $< -o $@
+$(RULES): $(patsubst %.c,$(BUILD)/%.o,$(RULES_SOURCES))
+	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/api/%.o: api/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<
@@ -132,7 +142,7 @@ $(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 
 $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
-$(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a
+$(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm
 # Changes when ISA or DOUBLE does, so that what is built for one is not taken for the other.
@@ -140,50 +150,50 @@ $(BUILD)/variant: FORCE
 	@mkdir -p $(@D)
 	@echo $(VARIANT) | cmp -s - $@ || echo $(VARIANT) >$@
 FORCE:
-$(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(DEM) $(BUILD)/variant
+$(BUILD)/tests/bench/%: tests/bench/%.c tests/bench/bed.h $(BUILD)/libapi.a $(DEM) $(RULES) $(BUILD)/variant
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(addprefix -I,$(core_SEES)) $(API_SEES) $< $(BUILD)/libapi.a $(DEM) \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(addprefix -I,$(core_SEES)) $(API_SEES) $< $(BUILD)/libapi.a $(DEM) $(RULES) \
 	  $(LDFLAGS) -fopenmp -ljansson -lm -o $@
 # Unit tests see the insides of what they test, and are linked with that alone.
 $(BUILD)/libdaemon.a: $(DAEMON_PARTS)
 	@rm -f $@ && ar rcs $@ $^
-$(BUILD)/tests/unit/core/%: tests/unit/core/%.c $(DEM) $(BUILD)/variant
+$(BUILD)/tests/unit/core/%: tests/unit/core/%.c $(DEM) $(RULES) $(BUILD)/variant
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(VARIANT)) -Wno-psabi $(addprefix -I,$(core_SEES)) -Itests/unit $< \
-	  $(DEM) $(LDFLAGS) -fopenmp -lcmocka -lm -o $@
+	  $(DEM) $(RULES) $(LDFLAGS) -fopenmp -lcmocka -lm -o $@
 # The allocations of the core go through the test, which lets one fail.
 $(BUILD)/tests/unit/core/test_allocations: LDFLAGS += $(patsubst %,-Wl$(,)--wrap=%,malloc calloc realloc aligned_alloc free)
-$(BUILD)/tests/unit/api/%: tests/unit/api/%.c $(BUILD)/libapi.a
+$(BUILD)/tests/unit/api/%: tests/unit/api/%.c $(BUILD)/libapi.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) -Itests/unit $< $(BUILD)/libapi.a $(LDFLAGS) -lcmocka -ljansson -lm -o $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) -Itests/unit $< $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -lcmocka -ljansson -lm -o $@
 $(BUILD)/libworker.a: $(filter-out $(BUILD)/server/worker/main.o,$(WORKER))
 	@rm -f $@ && ar rcs $@ $^
-$(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD)/libapi.a $(BUILD)/core/single-plain/libdem.a
+$(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD)/libapi.a $(BUILD)/core/single-plain/libdem.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
-	  $(BUILD)/core/single-plain/libdem.a $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -ljansson -lm -o $@
-$(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD)/libapi.a
+	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -ljansson -lm -o $@
+$(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD)/libapi.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) $(addprefix -I,$(server/daemon_SEES)) -Itests/unit $< $(BUILD)/libdaemon.a \
-	  $(BUILD)/libapi.a $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm -o $@
+	  $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm -o $@
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
 define variant_tests
-$(BUILD)/tests/$(1)/%: tests/physics/%.c $(BUILD)/core/$(1)/libdem.a
+$(BUILD)/tests/$(1)/%: tests/physics/%.c $(BUILD)/core/$(1)/libdem.a $(RULES)
 	@mkdir -p $$(@D)
 	$(SAY) link $$@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) -Itests/unit $$< \
-	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
-$(BUILD)/tests/unit/core/%-$(1): tests/unit/core/%.c $(BUILD)/core/$(1)/libdem.a
+	  $(BUILD)/core/$(1)/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
+$(BUILD)/tests/unit/core/%-$(1): tests/unit/core/%.c $(BUILD)/core/$(1)/libdem.a $(RULES)
 	@mkdir -p $$(@D)
 	$(SAY) link $$@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(call variant_flags,$(1)) -Wno-psabi $(addprefix -I,$(core_SEES)) -Itests/unit $$< \
-	  $(BUILD)/core/$(1)/libdem.a $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
+	  $(BUILD)/core/$(1)/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka -lm -o $$@
 endef
 $(foreach v,$(VARIANTS),$(eval $(call variant_tests,$(v))))
 
@@ -247,7 +257,7 @@ format: lint-packages ## clang-format over all C
 lint: lint-packages ## clang-tidy and cppcheck
 	@rm -rf $(BUILD)/lint && mkdir -p $(BUILD)/lint
 	@bear --output $(BUILD)/lint/compile_commands.json -- $(MAKE) --no-print-directory BUILD=$(BUILD)/lint/objects $(BUILD)/lint/objects/repose $(BUILD)/lint/objects/reposed >/dev/null
-	@printf '%s\n' $(CORE_SOURCES) $(wildcard api/*/*.c api/*/*/*.c server/*/*.c server/*/*/*.c) | xargs -P $(shell nproc) -n 8 clang-tidy --quiet -p $(BUILD)/lint 2>/dev/null
+	@printf '%s\n' $(RULES_SOURCES) $(CORE_SOURCES) $(wildcard api/*/*.c api/*/*/*.c server/*/*.c server/*/*/*.c) | xargs -P $(shell nproc) -n 8 clang-tidy --quiet -p $(BUILD)/lint 2>/dev/null
 	@cppcheck --quiet -j $(shell nproc) --enable=warning,performance,portability --error-exitcode=1 \
 	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex \
 	  $(addprefix -I,$(core_SEES) $(server/daemon_SEES)) $(API_SEES) -Iserver/worker/files -Iserver/worker/run core api server

@@ -1,5 +1,5 @@
 /* The stream that fills a cylinder: where its inlet is, how fast particles enter, and how many of them it lets through.
- * Inline, because the daemon, which checks requests, does not link the core. Reasons: core/NUMERICS.md, "The stream". */
+ * A part of the rules (dem_rules.h). Reasons: core/NUMERICS.md, "The stream". */
 #ifndef DEM_STREAM_H
 #define DEM_STREAM_H
 
@@ -9,75 +9,37 @@
  * particles that bounce back want room too. */
 #define DEM_STREAM_MOST_SOLID 0.15
 
-static inline double dem_stream_widest(const dem_scene_definition *d)
-{
-    double reach = 0.0;
-    for (size_t s = 0; s < d->species_count; s++) reach = fmax(reach, dem_species_reach(&d->species[s]));
-    return 2.0 * reach;
-}
+double dem_stream_widest(const dem_scene_definition *d);
 
 /* m from the level of the bed up to the inlet: a mound as steep as 37 degrees below it, and three particles more. */
-static inline double dem_stream_clearance(const dem_scene_definition *d) { return 0.25 * d->diameter + 3.0 * dem_stream_widest(d); }
-
-/* m, of a flat bed of so many particles at a solid fraction. */
-static inline double dem_stream_height(const dem_scene_definition *d, double particles, double solid_fraction)
-{
-    const double area = DEM_PI / 4.0 * d->diameter * d->diameter;
-    return particles * dem_mean_volume(d->species, d->species_count) / (solid_fraction * area);
-}
+double dem_stream_clearance(const dem_scene_definition *d);
 
 /* Clusters pack looser than spheres. */
-static inline double dem_stream_usual_fraction(const dem_scene_definition *d)
-{
-    bool has_clusters = false;
-    for (size_t s = 0; s < d->species_count; s++) has_clusters = has_clusters || d->species[s].cluster.sphere_count > 1;
-    return has_clusters ? 0.5 : DEM_BED_SOLID_FRACTION;
-}
+double dem_stream_usual_fraction(const dem_scene_definition *d);
 
 /* Solid fraction that the level of the bed is counted by. A bed that is so high that it would come half the way up to the inlet,
  * were it as loose as its particles lie in a cylinder as narrow as this, is counted by that. */
-static inline double dem_stream_bed_fraction(const dem_scene_definition *d)
-{
-    const double usual = dem_stream_usual_fraction(d), poured = dem_poured_solid(d);
-    const double all = (double)d->particle_count, over = dem_stream_height(d, all, poured) - dem_stream_height(d, all, usual);
-    return over > 0.5 * dem_stream_clearance(d) ? poured : usual;
-}
+double dem_stream_bed_fraction(const dem_scene_definition *d);
+
+/* m, of a flat bed of so many particles at a solid fraction. */
+double dem_stream_height(const dem_scene_definition *d, double particles, double solid_fraction);
 
 /* m above the floor: level of a bed of so many particles, were it flat. */
-static inline double dem_stream_level(const dem_scene_definition *d, double particles)
-{
-    return dem_stream_height(d, particles, dem_stream_bed_fraction(d));
-}
+double dem_stream_level(const dem_scene_definition *d, double particles);
 
 /* m above the floor, of the centre of a particle that enters after so many others. */
-static inline double dem_stream_inlet_height(const dem_scene_definition *d, double particles)
-{
-    return dem_stream_level(d, particles) + dem_stream_clearance(d);
-}
+double dem_stream_inlet_height(const dem_scene_definition *d, double particles);
 
 /* m/s: what falls from the inlet to the level of the bed arrives with at least this. */
-static inline double dem_stream_least_impact_speed(const dem_scene_definition *d)
-{
-    return sqrt(2.0 * d->gravity * dem_stream_clearance(d));
-}
+double dem_stream_least_impact_speed(const dem_scene_definition *d);
 
 /* m/s, downward at the inlet; NaN where impact_speed is below the least. */
-static inline double dem_stream_entry_speed(const dem_scene_definition *d)
-{
-    return sqrt(d->stream.impact_speed * d->stream.impact_speed - 2.0 * d->gravity * dem_stream_clearance(d));
-}
+double dem_stream_entry_speed(const dem_scene_definition *d);
 
 /* Particles a second that make up `solid` of the flow at a speed. */
-static inline double dem_stream_rate(const dem_scene_definition *d, double solid, double speed)
-{
-    const double area = DEM_PI / 4.0 * d->stream.diameter * d->stream.diameter;
-    return solid * area * speed / dem_mean_volume(d->species, d->species_count);
-}
+double dem_stream_rate(const dem_scene_definition *d, double solid, double speed);
 
 /* 1/s: more would clog the inlet. */
-static inline double dem_stream_most_rate(const dem_scene_definition *d)
-{
-    return dem_stream_rate(d, DEM_STREAM_MOST_SOLID, dem_stream_entry_speed(d));
-}
+double dem_stream_most_rate(const dem_scene_definition *d);
 
 #endif

@@ -1,0 +1,85 @@
+/* One particle of a species: volume, mass, size and shape. */
+#include "dem_rules.h"
+
+#include <math.h>
+
+double dem_sphere_mass(double diameter, double density) { return DEM_PI / 6.0 * diameter * diameter * diameter * density; }
+
+double dem_species_volume(const dem_species *s)
+{
+    return s->cluster.sphere_count ? s->cluster.volume : dem_sphere_mass(s->diameter, 1.0);
+}
+
+double dem_species_mass(const dem_species *s)
+{
+    return s->cluster.sphere_count ? s->cluster.volume * s->density : dem_sphere_mass(s->diameter, s->density);
+}
+
+double dem_species_diameter(const dem_species *s)
+{
+    return s->cluster.sphere_count ? cbrt(6.0 / DEM_PI * s->cluster.volume) : s->diameter;
+}
+
+double dem_species_reach(const dem_species *s) { return s->cluster.sphere_count ? s->cluster.reach : 0.5 * s->diameter; }
+
+double dem_species_smallest_sphere(const dem_species *s)
+{
+    double smallest = s->cluster.sphere_count ? INFINITY : s->diameter;
+    for (size_t k = 0; k < s->cluster.sphere_count; k++) smallest = fmin(smallest, s->cluster.sphere[k].diameter);
+    return smallest;
+}
+
+double dem_species_largest_sphere(const dem_species *s)
+{
+    double largest = s->cluster.sphere_count ? 0.0 : s->diameter;
+    for (size_t k = 0; k < s->cluster.sphere_count; k++) largest = fmax(largest, s->cluster.sphere[k].diameter);
+    return largest;
+}
+
+double dem_largest_sphere(const dem_scene_definition *d)
+{
+    double largest = d->lining.diameter;
+    for (size_t k = 0; k < d->species_count; k++) largest = fmax(largest, dem_species_largest_sphere(&d->species[k]));
+    return largest;
+}
+
+double dem_species_contact_mass(const dem_species *s)
+{
+    const dem_cluster *c = &s->cluster;
+    if (c->sphere_count == 0) return dem_species_mass(s);
+    double arm2 = 0.0;
+    for (size_t k = 0; k < c->sphere_count; k++) {
+        const double *x = c->sphere[k].position;
+        arm2 = fmax(arm2, x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+    }
+    return s->density / (1.0 / c->volume + arm2 / fmin(c->inertia[0], fmin(c->inertia[1], c->inertia[2])));
+}
+
+double dem_mean_volume(const dem_species *species, size_t count)
+{
+    double volume = 0.0;
+    for (size_t s = 0; s < count; s++) volume += species[s].share * dem_species_volume(&species[s]);
+    return volume;
+}
+
+double dem_species_compactness(const dem_species *s)
+{
+    const dem_cluster *c = &s->cluster;
+    if (c->sphere_count < 2) return 1.0;
+    double axes2 = 1.0; /* product of the squares of the semi-axes, over (5/V)^3 */
+    for (int a = 0; a < 3; a++) axes2 *= 0.5 * (c->inertia[(a + 1) % 3] + c->inertia[(a + 2) % 3] - c->inertia[a]);
+    return c->volume / (4.0 / 3.0 * DEM_PI * sqrt(axes2 * pow(5.0 / c->volume, 3.0)));
+}
+
+double dem_bed_friction(double friction, const dem_species *species, size_t count)
+{
+    bool interlock = false;
+    for (size_t s = 0; s < count; s++) interlock = interlock || species[s].cluster.sphere_count > 1;
+    return interlock ? fmax(friction, 0.5) : friction;
+}
+
+bool dem_has_rolling_friction(const dem_scene_definition *d)
+{
+    return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->ends.rolling_friction > 0
+           || d->plate.rolling_friction > 0;
+}
