@@ -1,5 +1,8 @@
 // Talking with the daemon: JSON in, JSON out, and every failure an error that says what happened.
 
+// Where the service is: a proxy may put it below a path of its own.
+export const root = new URL('..', import.meta.url).pathname;
+
 const SILENCE = 20_000; // ms without a byte: an answer may take as long as it likes, while it comes
 
 // What the daemon answered, when it was not what we asked for. `status` 0: no answer at all.
@@ -70,11 +73,11 @@ export function listJobs({ status, q, study, cursor, limit }) {
   if (q) query.set('q', q);
   if (study) query.set('study', study);
   if (cursor) query.set('cursor', cursor);
-  return json(`/jobs?${query}`);
+  return json(`${root}jobs?${query}`);
 }
 
-export const jobPath = id => `/jobs/${encodeURIComponent(id)}`;
+export const jobPath = id => `${root}jobs/${encodeURIComponent(id)}`;
 export const dismissJob = id => json(`${jobPath(id)}?only=dismiss`, { method: 'DELETE' });
 
-export const studyPath = id => `/studies/${encodeURIComponent(id)}`;
+export const studyPath = id => `${root}studies/${encodeURIComponent(id)}`;
 export const dismissStudy = id => json(`${studyPath(id)}?only=dismiss`, { method: 'DELETE' });

@@ -1,7 +1,7 @@
 // What both pages show of their connection: live or not, what is wrong, and the question for a token. Asking to
 // confirm is here, too.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { ApiError, canBeToken, token } from './api.js';
+import { ApiError, canBeToken, root, token } from './api.js';
 
 export function showConnected() {
   byId('token').hidden = true;
@@ -17,7 +17,7 @@ export function showFailure(error, pause, refresh) {
   if (error.status === 401) showTokenProblem(token.read() ? 'The daemon does not take this token: it is not the content of its token file.' : '');
   const again = `Trying again in ${Math.round(pause / 1000)} s.`;
   if (error.status === 401) showTrouble('');
-  else if (isOfAddress(error)) showTrouble(`There is nothing to show at this address: ${error.message}.`, null, '/');
+  else if (isOfAddress(error)) showTrouble(`There is nothing to show at this address: ${error.message}.`, null, root);
   else if (error.status === 0) showTrouble(`The daemon is out of reach: ${error.message}. What you see may be old. ${again}`, refresh);
   else if (error.status) showTrouble(`The daemon answered ${error.status}: ${error.message} ${again}`, refresh);
   else showTrouble(`The answer was not understood: ${error.message}. ${again}`, refresh);

@@ -2,7 +2,7 @@
 // everything the daemon holds of the job; all results.
 import { h, replaceIfChanged } from './dom.js';
 import { bytes, clock, count, significant } from './format.js';
-import { ApiError, jobPath, json } from './api.js';
+import { ApiError, jobPath, json, root } from './api.js';
 import { anglePlot } from './angle_plot.js';
 import { viewOf } from './process_views.js';
 import { warningsOf } from './results.js';
@@ -92,12 +92,12 @@ function showLinks(box, job) {
   replaceIfChanged(box, job.status, () => [
     h('ul', { class: 'links' },
       job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results', `${job.jobID}-results.json`)) : null,
-      job.studyID ? h('li', null, h('a', { href: `/web/studies.html#${job.studyID}` }, 'Study')) : null,
+      job.studyID ? h('li', null, h('a', { href: `${root}web/studies.html#${job.studyID}` }, 'Study')) : null,
       h('li', null, fileLink(`${path}/spec`, 'Spec', `${job.jobID}-spec.json`)),
       h('li', null, fileLink(`${path}/log`, 'Log', `${job.jobID}-log.txt`)),
       series ? h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)', `${job.jobID}-samples.json`)) : null,
       series ? h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)', `${job.jobID}-samples.csv`)) : null,
-      fields ? h('li', null, fileLink(fields.href, 'Fields (HDF5)', `${job.jobID}-fields.hdf`)) : null),
+      fields ? h('li', null, fileLink(`${path}/fields.hdf`, 'Fields (HDF5)', `${job.jobID}-fields.hdf`)) : null),
     job.status === 'accepted' || !series ? null : snapshotList(path)]);
 }
 
@@ -107,7 +107,7 @@ function snapshotList(path) {
     if (!event.target.open) return;
     try {
       const { snapshots } = await json(`${path}/snapshots`);
-      list.replaceChildren(...snapshotLinks(snapshots));
+      list.replaceChildren(...snapshotLinks(path, snapshots));
     } catch (error) {
       list.replaceChildren(h('p', { class: 'quiet' }, `Snapshots not loaded: ${error.message}.`));
     }
@@ -115,12 +115,12 @@ function snapshotList(path) {
   return h('details', { class: 'snapshots', ontoggle: load }, h('summary', null, 'Snapshots (HDF5, for ParaView)'), list);
 }
 
-function snapshotLinks(snapshots) {
+function snapshotLinks(path, snapshots) {
   if (snapshots.length === 0) return [h('p', { class: 'quiet' }, 'None yet.')];
   const shown = snapshots.slice(-SNAPSHOTS_SHOWN);
   const left = snapshots.length - shown.length;
   return [
     left > 0 ? h('p', { class: 'quiet' }, `The last ${SNAPSHOTS_SHOWN} of ${count(snapshots.length)}.`) : null,
     h('ul', null, shown.map(({ href, time, bytes: size }) => h('li', null,
-      fileLink(href, href.split('/').pop()), ` at ${significant(time)} s, ${bytes(size)}`)))].filter(Boolean);
+      fileLink(`${path}/snapshots/${href.split('/').pop()}`, href.split('/').pop()), ` at ${significant(time)} s, ${bytes(size)}`)))].filter(Boolean);
 }

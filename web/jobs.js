@@ -1,7 +1,7 @@
 // The page: one list of jobs, newest first, never more of them than a page. It reads the view from the URL,
 // asks the daemon for that list again and again, and shows what changed.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { dismissJob, listJobs, token } from './api.js';
+import { dismissJob, listJobs, root, token } from './api.js';
 import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { answerInWords, count } from './format.js';
 import { createRow, nameOf } from './job_row.js';
@@ -130,7 +130,7 @@ function pageLink(text, cursor) {
 function showStudy() {
   byId('of-study').hidden = !view.study;
   if (view.study) replaceIfChanged(byId('of-study'), view.study, () => [
-    h('span', null, 'Only jobs of the study ', h('a', { href: `/web/studies.html#${view.study}` }, view.study)), h('a', { href: '/' }, 'Show all jobs')]);
+    h('span', null, 'Only jobs of the study ', h('a', { href: `${root}web/studies.html#${view.study}` }, view.study)), h('a', { href: root }, 'Show all jobs')]);
 }
 
 function showEmptiness(list) {
@@ -144,7 +144,7 @@ function showEmptiness(list) {
 function noMatch() {
   const wanted = [view.status && `${view.status}`, view.q && `matching “${view.q}”`].filter(Boolean).join(', ');
   return [h('h2', null, 'No such jobs'), h('p', null, `Nothing here is ${wanted || 'that old'}.`),
-    h('p', null, h('a', { href: '/' }, 'Show all jobs'))];
+    h('p', null, h('a', { href: root }, 'Show all jobs'))];
 }
 
 function firstJob() {
@@ -156,7 +156,7 @@ function firstJob() {
     h('pre', { tabindex: '0' }, h('code', null,
       `curl${bearer} ${location.origin}/processes/drum/execution \\\n  --json '${JSON.stringify({ inputs })}'\n`
       + `curl${bearer} '${location.origin}/jobs?limit=1'`)),
-    h('p', null, 'It appears here by itself. ', h('a', { href: '/processes/drum' }, 'Every input'),
+    h('p', null, 'It appears here by itself. ', h('a', { href: `${root}processes/drum` }, 'Every input'),
       ' has a unit, a range and, but for the drum and its particles, a default.')];
 }
 

@@ -1,6 +1,6 @@
 // The page of studies: a list, newest first, or one study, the one that the address names after its #.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { dismissStudy, json, studyPath, token } from './api.js';
+import { dismissStudy, json, root, studyPath, token } from './api.js';
 import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { clock, count, duration, secondsBetween } from './format.js';
 import { startPolling } from './polling.js';
@@ -40,7 +40,7 @@ const casesOf = study => study.cases === 1 ? '1 case' : `${count(study.cases)} c
 // --- the list ---
 
 async function askForList() {
-  const { studies, links } = await json(`/studies?limit=${PAGE}${cursor ? `&cursor=${cursor}` : ''}`);
+  const { studies, links } = await json(`${root}studies?limit=${PAGE}${cursor ? `&cursor=${cursor}` : ''}`);
   if (wanted()) return true;
   showConnected();
   document.title = 'reposed: studies';
@@ -135,7 +135,7 @@ function links(id) {
     h('li', null, fileLink(`${path}/results.csv`, 'Results (CSV)', `${id}-results.csv`)),
     h('li', null, fileLink(`${path}/results`, 'Results (JSON)', `${id}-results.json`)),
     h('li', null, fileLink(`${path}/spec`, 'Study', `${id}-study.json`)),
-    h('li', null, h('a', { href: `/?study=${encodeURIComponent(id)}` }, 'Its jobs')));
+    h('li', null, h('a', { href: `${root}?study=${encodeURIComponent(id)}` }, 'Its jobs')));
 }
 
 async function stop(study) {

@@ -1,6 +1,8 @@
 // What is being looked at, kept in the URL so that a reload, a bookmark or a colleague sees the same:
 // ?status=failed&q=table+1&study=ID&cursor=...&open=ID,ID
 
+import { root } from './api.js';
+
 export const STATES = ['accepted', 'running', 'successful', 'failed', 'dismissed'];
 
 export function readView() {
@@ -23,7 +25,7 @@ export function addressOf({ status, q, study, cursor, open }) {
   if (cursor) query.set('cursor', cursor);
   if (open?.size) query.set('open', [...open].join(','));
   const text = query.toString();
-  return text ? `/?${text}` : '/';
+  return text ? `${root}?${text}` : root;
 }
 
 // Another list is a step the back button can undo; typing a search or opening a row is not.

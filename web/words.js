@@ -1,5 +1,5 @@
 // What the page calls the results, and how it writes each, is told by the description of their process: title, x-unit, x-shown.
-import { json } from './api.js';
+import { json, root } from './api.js';
 import { count, degrees, duration, millimetres, significant, VERDICTS } from './format.js';
 
 export const METHODS = {
@@ -29,7 +29,7 @@ const MEANINGS = {
 const described = new Map();
 async function describe(process) {
   if (!described.has(process)) {
-    const { inputs, outputs } = await json(`/processes/${encodeURIComponent(process)}`);
+    const { inputs, outputs } = await json(`${root}processes/${encodeURIComponent(process)}`);
     described.set(process, {
       schemas: Object.fromEntries(Object.entries(outputs).map(([name, { schema }]) => [name, schema])),
       listed: listedIn(inputs).sort((a, b) => a.order - b.order),

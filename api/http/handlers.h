@@ -5,7 +5,10 @@
 #include "routes.h"
 
 /* handlers_service.c */
-route_handler show_landing, show_conformance, show_api, show_asset, show_health, show_readiness, show_metrics;
+route_handler show_landing, show_conformance, show_asset, show_health, show_readiness, show_metrics;
+route_handler list_problems, show_problem;
+/* handlers_api.c */
+route_handler show_api;
 /* handlers_processes.c */
 route_handler list_processes, show_process, execute_process;
 /* handlers_jobs.c */
@@ -13,8 +16,7 @@ route_handler list_jobs, show_job, remove_job, retry_job;
 /* handlers_results.c */
 route_handler show_results, show_spec, show_log;
 /* handlers_series.c */
-route_handler list_samples, list_snapshots, send_snapshot;
-route_handler list_samples, list_snapshots, send_fields;
+route_handler list_samples, list_snapshots, send_snapshot, send_fields;
 /* handlers_studies.c */
 route_handler create_study, list_studies, show_study, remove_study, show_study_results, show_study_csv, show_study_spec;
 /* handlers_query.c */
@@ -27,9 +29,14 @@ void respond_no_such_job(http_response *response, const char *id);
 bool find_job(api_service *service, const http_request *request, http_response *response, job_record *job);
 
 /* Shared between handlers of lists: the address of this list with the filters it was asked with; cursor 0: as it was
- * asked. And of tables: is CSV asked for? False: an unknown format, and the response says so. */
+ * asked. And of tables: is CSV asked for? */
 json_t *list_link(const http_request *request, const char *rel, int64_t cursor);
-bool read_format(const http_request *request, http_response *response, bool *csv);
+bool wants_csv(const http_request *request);
+/* The page shows it: true, and the answer leads there, where f=html asks for that. printf-like. */
+bool leads_to_page(const http_request *request, http_response *response, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+/* The file name under which the answer may be kept, which begins with the id of the job or study; see http_response. */
+void name_file(http_response *response, const char *id, const char *end, bool is_attachment);
 /* The query of GET /jobs (job_filter.c). False: *problem says what is wrong with it. */
 bool read_job_filter(const http_request *request, job_filter *filter, char *problem, size_t size);
 /* Shared between handlers that take a document. parse_body: NULL, and the response says why. */

@@ -1,4 +1,5 @@
 /* The list of jobs, one job, and dismissing, deleting or trying it again. */
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +27,7 @@ void respond_store_failure(http_response *response, store_status status, const c
 
 void respond_no_such_job(http_response *response, const char *id)
 {
-    http_respond_problem(response, 404, OGC_EXCEPTION "no-such-job", "No such job", "there is no job \"%s\"; /jobs lists them", id);
+    http_respond_problem(response, 404, NULL, "No such job", "there is no job \"%s\"; /jobs lists them", id);
 }
 
 bool find_job(api_service *service, const http_request *request, http_response *response, job_record *job)
@@ -51,7 +52,10 @@ void show_job(api_service *service, const http_request *request, http_response *
     }
     job_record job;
     if (!find_job(service, request, response, &job)) return;
-    if (!has_ended(&job) && request->may_wait && request->waited < (double)wait) response->wait = (double)wait - request->waited;
+    if (leads_to_page(request, response, "/?open=%s", job.id)) /* at once */
+        ;
+    else if (!has_ended(&job) && request->may_wait && request->waited < (double)wait)
+        response->wait = (double)wait - request->waited;
     else http_respond_json(response, 200, status_info(&job));
     job_record_clear(&job);
 }
@@ -162,6 +166,42 @@ static void add_escaped(text_buffer *out, const char *text)
     }
 }
 
+bool leads_to_page(const http_request *request, http_response *response, const char *format, ...)
+{
+    const char *asked = http_request_parameter(request, "f");
+    if (!asked || strcmp(asked, "html") != 0) return false;
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(response->location, sizeof response->location, format, arguments);
+    va_end(arguments);
+    http_respond_text(response, 303, "text/html; charset=utf-8", strdup(""), 0);
+    return true;
+}
+
+void name_file(http_response *response, const char *id, const char *end, bool is_attachment)
+{
+    snprintf(response->file_name, sizeof response->file_name, "%.40s%.50s", id, end);
+    response->is_attachment = is_attachment;
+}
+
+/* The page shows what some of the filters let through; it knows no others. */
+static bool leads_to_list(const http_request *request, http_response *response)
+{
+    static const char *const shown[] = { "status", "q", "study", "cursor" };
+    text_buffer query;
+    text_buffer_init(&query, 500);
+    text_buffer_add(&query, "", 0);
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
+        const char *value = http_request_parameter(request, shown[i]);
+        if (!value) continue;
+        text_buffer_print(&query, "%c%s=", query.length ? '&' : '?', shown[i]);
+        add_escaped(&query, value);
+    }
+    const bool leads = leads_to_page(request, response, "/%s", query.text && !query.failed ? query.text : "");
+    text_buffer_clear(&query);
+    return leads;
+}
+
 json_t *list_link(const http_request *request, const char *rel, int64_t cursor)
 {
     text_buffer href;
@@ -197,6 +237,7 @@ void list_jobs(api_service *service, const http_request *request, http_response 
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
         return;
     }
+    if (leads_to_list(request, response)) return;
     job_page page = { .jobs = json_array(), .limit = filter.limit };
     filter.limit++; /* one more than asked for says whether there is a next page */
     const store_status status = store_list_jobs(service->store, &filter, add_job_to_page, &page);

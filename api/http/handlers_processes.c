@@ -29,8 +29,7 @@ void list_processes(api_service *service, const http_request *request, http_resp
 
 static void respond_no_such_process(http_response *response, const char *process)
 {
-    http_respond_problem(response, 404, OGC_EXCEPTION "no-such-process", "No such process",
-                         "there is no process \"%s\"; /processes lists them", process);
+    http_respond_problem(response, 404, NULL, "No such process", "there is no process \"%s\"; /processes lists them", process);
 }
 
 void show_process(api_service *service, const http_request *request, http_response *response)
@@ -49,8 +48,7 @@ json_t *parse_body(const http_request *request, http_response *response)
         return NULL;
     }
     json_t *document = json_text_load(request->body ? request->body : "", request->body_length, &problems);
-    if (!document)
-        http_respond_json(response, 400, problem_json(400, "about:blank", "Not JSON", "the body can't be read", &problems));
+    if (!document) http_respond_problems(response, 400, "Not JSON", "the body can't be read", &problems);
     problem_list_clear(&problems);
     return document;
 }
@@ -126,9 +124,8 @@ static bool read_spec(api_service *service, const process_type *type, const http
             good = false;
         }
         if (!good)
-            http_respond_json(response, 400,
-                              problem_json(400, "about:blank", "The specification can't be run",
-                                           "each entry of errors names a member, what it is and what it may be", &problems));
+            http_respond_problems(response, 400, "The specification can't be run",
+                                  "each entry of errors names a member, what it is and what it may be", &problems);
         problem_list_clear(&problems);
     }
     json_decref(document);

@@ -75,14 +75,13 @@ static void respond_query_failure(http_response *response, query_status status, 
 void run_query(api_service *service, const http_request *request, http_response *response)
 {
     const char *sql = http_request_parameter(request, "sql");
-    const char *format = http_request_parameter(request, "format");
-    query_table table = { .csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv") };
-    if (!sql || (format && !table.csv && strcmp(format, "json") != 0)) {
-        http_respond_problem(response, 400, NULL, "Bad parameter", "%s",
-                             sql ? "parameter format must be json or csv"
-                                 : "parameter sql is missing; for example /query?sql=select+friction,angle_deg+from+run_summary");
+    query_table table = { .csv = wants_csv(request) };
+    if (!sql) {
+        http_respond_problem(response, 400, NULL, "Bad parameter",
+                             "parameter sql is missing; for example /query?sql=select+friction,angle_deg+from+run_summary");
         return;
     }
+    name_file(response, "query", table.csv ? ".csv" : ".json", table.csv);
     text_buffer_init(&table.out, table.csv ? QUERY_CSV_BYTES : QUERY_BYTES);
     char problem[400];
     const query_status status = store_query(service->store, sql, &request->client, take_row, &table, problem, sizeof problem);

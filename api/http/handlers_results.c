@@ -5,14 +5,23 @@
 
 #include "handlers.h"
 
+/* As the worker names what went wrong. */
+static bool failure_is_numerical(const json_t *failure)
+{
+    static const char *const kinds[] = { "not-a-number", "overlap-too-large", "particle-escaped", "never-settled" };
+    const char *kind = json_string_value(json_object_get(failure, "status"));
+    for (size_t i = 0; kind && i < sizeof kinds / sizeof kinds[0]; i++)
+        if (strcmp(kinds[i], kind) == 0) return true;
+    return false;
+}
+
 static void respond_failure(api_service *service, http_response *response, const job_record *job)
 {
-    json_t *problem = problem_json(404, "about:blank", "The job failed", job->message, NULL);
     char *text = NULL;
-    if (store_read_failure(service->store, job->id, &text) == STORE_OK)
-        json_object_set_new(problem, "failure", json_loads(text, 0, NULL));
+    json_t *failure = store_read_failure(service->store, job->id, &text) == STORE_OK ? json_loads(text, 0, NULL) : NULL;
     free(text);
-    http_respond_json(response, 404, problem);
+    http_respond_failure(response, failure_is_numerical(failure) ? "The job failed in its numbers" : "The job failed", job->message,
+                         failure);
 }
 
 static void respond_stored_text(http_response *response, store_status status, char *text, const char *wanted)
@@ -29,14 +38,14 @@ void show_results(api_service *service, const http_request *request, http_respon
     if (job.status == JOB_SUCCESSFUL) {
         const store_status status = store_read_results(service->store, job.id, &text);
         respond_stored_text(response, status, text, "read the results");
+        name_file(response, job.id, "-results.json", false);
     } else if (job.status == JOB_FAILED) {
         respond_failure(service, response, &job);
     } else if (job.status == JOB_DISMISSED) {
         http_respond_problem(response, 404, NULL, "The job was dismissed", "job %s was dismissed before it had results", job.id);
     } else {
-        http_respond_problem(response, 404, OGC_EXCEPTION "result-not-ready", "Result not ready",
-                             "job %s is %s; /jobs/%s?wait=60 answers when it has ended", job.id, job_status_name(job.status),
-                             job.id);
+        http_respond_problem(response, 404, NULL, "Result not ready", "job %s is %s; /jobs/%s?wait=60 answers when it has ended",
+                             job.id, job_status_name(job.status), job.id);
     }
     job_record_clear(&job);
 }
@@ -48,6 +57,7 @@ void show_spec(api_service *service, const http_request *request, http_response 
     char *text = NULL;
     const store_status status = store_read_spec(service->store, job.id, &text);
     respond_stored_text(response, status, text, "read the specification");
+    name_file(response, job.id, "-spec.json", false);
     job_record_clear(&job);
 }
 
@@ -59,5 +69,6 @@ void show_log(api_service *service, const http_request *request, http_response *
     if (store_open_log(service->store, job.id, &file) == STORE_OK)
         http_respond_file(request, response, file, "text/plain; charset=utf-8", HTTP_FILE_GROWING);
     else /* no worker has said anything yet */ http_respond_text(response, 200, "text/plain; charset=utf-8", strdup(""), 0);
+    name_file(response, job.id, "-log.txt", false);
     job_record_clear(&job);
 }

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "handlers.h"
+#include "http_accept.h"
 
 enum { SERIES_LIMIT = 10000, SERIES_BYTES = 64 << 20, SAMPLES_IN_A_PIECE = 500 };
 
@@ -26,8 +27,9 @@ static bool series_take(series_page *series, int64_t number)
     return true;
 }
 
+/* end, is_attachment: of the file's name. */
 static bool open_series(api_service *service, const http_request *request, http_response *response, series_page *series,
-                        int64_t *after)
+                        int64_t *after, const char *end, bool is_attachment)
 {
     char problem[160];
     if (!http_request_integer(request, "after", -1, INT64_MAX, -1, after, problem, sizeof problem)
@@ -39,6 +41,7 @@ static bool open_series(api_service *service, const http_request *request, http_
     if (!find_job(service, request, response, &job)) return false;
     job_record_clear(&job);
     series->id = request->segment[0];
+    name_file(response, series->id, end, is_attachment);
     series->base = response->base;
     text_buffer_init(&series->out, SERIES_BYTES);
     return true;
@@ -114,14 +117,10 @@ static bool add_sample_csv(void *context, const sample_row *row)
     return true;
 }
 
-bool read_format(const http_request *request, http_response *response, bool *csv)
+bool wants_csv(const http_request *request)
 {
-    const char *format = http_request_parameter(request, "format");
-    if (!format) format = http_request_parameter(request, "f");
-    *csv = format ? strcmp(format, "csv") == 0 : http_request_accepts(request, "text/csv");
-    if (!format || *csv || strcmp(format, "json") == 0) return true;
-    http_respond_problem(response, 400, NULL, "Bad parameter", "parameter format is \"%.40s\"; must be json or csv", format);
-    return false;
+    static const http_format formats[] = { { "json", "application/json" }, { "csv", "text/csv" } };
+    return http_format_choose(request, formats, 2) == 1;
 }
 
 /* All samples as CSV, a piece at a time: what is in memory does not grow with the run. */
@@ -177,8 +176,8 @@ void list_samples(api_service *service, const http_request *request, http_respon
 {
     series_page series = { 0 };
     int64_t after;
-    bool csv;
-    if (!read_format(request, response, &csv) || !open_series(service, request, response, &series, &after)) return;
+    const bool csv = wants_csv(request);
+    if (!open_series(service, request, response, &series, &after, csv ? "-samples.csv" : "-samples.json", csv)) return;
     if (csv && !http_request_parameter(request, "limit")) {
         stream_samples(service, request, response, after);
         return;
@@ -210,7 +209,7 @@ void list_snapshots(api_service *service, const http_request *request, http_resp
 {
     series_page series = { 0 };
     int64_t after;
-    if (!open_series(service, request, response, &series, &after)) return;
+    if (!open_series(service, request, response, &series, &after, "-snapshots.json", false)) return;
     text_buffer_print(&series.out, "{\"snapshots\":[");
     const store_status status = store_list_snapshots(service->store, series.id, after, series.limit + 1, add_snapshot, &series);
     add_links(&series, "snapshots");
@@ -232,6 +231,9 @@ void send_snapshot(api_service *service, const http_request *request, http_respo
     const int64_t number = snapshot_number(request->segment[1]);
     int file;
     const store_status status = number < 0 ? STORE_NOT_FOUND : store_open_snapshot(service->store, job.id, number, &file);
+    char end[40];
+    snprintf(end, sizeof end, "-%06lld.hdf", (long long)number);
+    name_file(response, job.id, end, true);
     if (status == STORE_OK) http_respond_file(request, response, file, "application/x-hdf5", HTTP_FILE_IMMUTABLE);
     else if (status == STORE_NOT_FOUND)
         http_respond_problem(response, 404, NULL, "No such snapshot",
@@ -245,10 +247,11 @@ void send_fields(api_service *service, const http_request *request, http_respons
     job_record job;
     if (!find_job(service, request, response, &job)) return;
     int file;
+    name_file(response, job.id, "-fields.hdf", true);
     if (store_open_fields(service->store, job.id, &file) == STORE_OK)
         http_respond_file(request, response, file, "application/x-hdf5", HTTP_FILE_IMMUTABLE);
     else
-        http_respond_problem(response, 404, NULL, "No fields",
+        http_respond_problem(response, 404, NULL, "No such file",
                              "job %s has no fields.hdf; a drum has it when its run is over, other tests never", job.id);
     job_record_clear(&job);
 }

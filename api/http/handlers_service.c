@@ -1,16 +1,15 @@
-/* The service about itself: landing page, conformance, OpenAPI document, the page's files, health, metrics. */
+/* The service about itself: landing page, conformance, kinds of problem, the page's files, health,
+ * metrics. */
 #include <ctype.h>
-#include <errno.h>
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
 #include "handlers.h"
-#include "openapi_outline.h"
-#include "openapi_schemas.h"
+#include "http_accept.h"
+#include "problem_kinds.h"
 #include "status_info.h"
-#include "yaml_text.h"
 
 static bool send_page_file(api_service *service, const http_request *request, http_response *response, const char *name,
                            const char *type)
@@ -27,11 +26,10 @@ static json_t *landing_links(void)
     static const char *const links[][3] = {
         { "self", "application/json", "/" },
         { "alternate", "text/html", "/" },
-        { "service-desc", "application/vnd.oai.openapi;version=3.1", "/api" },
-        /* The types that clients in use know; JSON is YAML, too. */
         { "service-desc", "application/vnd.oai.openapi+json;version=3.0", "/api?f=json" },
-        { "service-desc", "application/vnd.oai.openapi;version=3.0", "/api?f=json" },
-        { "service-desc", "application/vnd.oai.openapi+json;version=3.1", "/api" },
+        { "service-desc", "application/vnd.oai.openapi;version=3.0", "/api?f=yaml" },
+        { "service-desc", "application/vnd.oai.openapi+json;version=3.1", "/api?f=json&version=3.1" },
+        { "service-desc", "application/vnd.oai.openapi;version=3.1", "/api?f=yaml&version=3.1" },
         { "http://www.opengis.net/def/rel/ogc/1.0/conformance", "application/json", "/conformance" },
         { "http://www.opengis.net/def/rel/ogc/1.0/processes", "application/json", "/processes" },
         { "http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json", "/jobs" },
@@ -47,10 +45,11 @@ static json_t *landing_links(void)
     return list;
 }
 
-/* A browser names text/html; curl's wildcard gets what a program can read. */
+/* A browser prefers text/html; curl's wildcard gets what a program can read. */
 void show_landing(api_service *service, const http_request *request, http_response *response)
 {
-    if (!http_request_parameter(request, "f") && http_request_accepts(request, "text/html")
+    static const http_format formats[] = { { "json", "application/json" }, { "html", "text/html" } };
+    if (http_format_choose(request, formats, 2) == 1
         && send_page_file(service, request, response, "index.html", "text/html; charset=utf-8"))
         return;
     http_respond_json(response, 200,
@@ -69,63 +68,31 @@ void show_conformance(api_service *service, const http_request *request, http_re
     http_respond_json(response, 200, json_pack("{s:o}", "conformsTo", list));
 }
 
-static void show_outline(http_response *response)
+static json_t *problem_document(const problem_kind *kind, const char *base)
 {
-    http_respond_json(response, 200, openapi_outline(response->base));
-    response->content_type = "application/vnd.oai.openapi+json;version=3.0";
+    const bool is_ogc = strchr(kind->name, ':') != NULL;
+    return json_pack("{s:o, s:s, s:s}", "type",
+                     is_ogc ? json_string(kind->name) : json_sprintf("%s" PROBLEMS_PATH "%s", base, kind->name), "title",
+                     kind->title, "description", kind->meaning);
 }
 
-static void respond_json_document(http_response *response, const text_buffer *text)
+void list_problems(api_service *service, const http_request *request, http_response *response)
 {
-    int line = 0;
-    json_t *document = text->text ? yaml_read(text->text, text->length, &line) : NULL;
-    if (!document) {
-        http_respond_problem(response, 500, NULL, "No OpenAPI document", "line %d of the file of --api-file can't be read as YAML",
-                             line);
-        return;
-    }
-    http_respond_json(response, 200, document);
-    response->content_type = "application/vnd.oai.openapi+json;version=3.1";
+    (void)service, (void)request;
+    json_t *list = json_array();
+    for (size_t i = 0; i < problem_kind_count; i++)
+        json_array_append_new(list, problem_document(&problem_kinds[i], response->base));
+    http_respond_json(response, 200, json_pack("{s:o}", "problems", list));
 }
 
-/* The file, with the schemas of this very program; where it has them already it is sent as it is. */
-static void respond_document(const http_request *request, http_response *response, int file)
+void show_problem(api_service *service, const http_request *request, http_response *response)
 {
-    static const char type[] = "application/vnd.oai.openapi;version=3.1";
-    text_buffer read, whole;
-    text_buffer_init(&whole, 4 << 20);
-    const bool differs = openapi_read(file, &read) && read.text && openapi_write(read.text, read.length, &whole)
-                         && (whole.length != read.length || memcmp(whole.text, read.text, read.length) != 0);
-    const bool as_json =
-        !http_request_accepts(request, "application/vnd.oai.openapi")
-        && (http_request_accepts(request, "application/vnd.oai.openapi+json") || http_request_accepts(request, "application/json"));
-    if (as_json) respond_json_document(response, differs ? &whole : &read);
-    text_buffer_clear(&read);
-    if (as_json) {
-        close(file);
-        text_buffer_clear(&whole);
-        return;
-    }
-    if (differs) {
-        close(file);
-        http_respond_text(response, 200, type, whole.text, whole.length);
-        return;
-    }
-    text_buffer_clear(&whole);
-    http_respond_file(request, response, file, type, HTTP_FILE_CHANGING);
-}
-
-void show_api(api_service *service, const http_request *request, http_response *response)
-{
-    if (http_request_parameter(request, "f")) {
-        show_outline(response);
-        return;
-    }
-    const int file = open(service->api_file, O_RDONLY | O_CLOEXEC);
-    if (file < 0)
-        http_respond_problem(response, 404, NULL, "No OpenAPI document", "the file of --api-file can't be read: %s",
-                             strerror(errno));
-    else respond_document(request, response, file);
+    (void)service;
+    const problem_kind *kind = problem_kind_named(request->segment[0]);
+    if (kind) http_respond_json(response, 200, problem_document(kind, response->base));
+    else
+        http_respond_problem(response, 404, NULL, "Not found", "there is no kind of problem \"%s\"; /problems lists them",
+                             request->segment[0]);
 }
 
 /* The kinds of file a page is made of; anything else in the folder stays inside. NULL: not one of them. */

@@ -75,9 +75,8 @@ static void check_and_add(api_service *service, const http_request *request, htt
         http_respond_problem(response, 503, NULL, "Nobody waits", "the client has left, and nothing of the study was added");
     else if (store_stage_status(stage) != STORE_OK) respond_store_failure(response, store_stage_status(stage), "keep the study");
     else
-        http_respond_json(response, 400,
-                          problem_json(400, "about:blank", "The study can't be run, and none of its jobs was added",
-                                       "each entry of errors names a place in the study, what is there and what may be", problems));
+        http_respond_problems(response, 400, "The study can't be run, and none of its jobs was added",
+                              "each entry of errors names a place in the study, what is there and what may be", problems);
     problem_list_clear(&warnings);
     store_drop_stage(stage);
 }
@@ -120,6 +119,7 @@ void show_study(api_service *service, const http_request *request, http_response
     if (!find_study(service, request, response, &study)) return;
     const job_status status = study_status(&study);
     const bool has_ended = status != JOB_ACCEPTED && status != JOB_RUNNING;
+    if (leads_to_page(request, response, "/web/studies.html#%s", study.id)) return;
     if (!has_ended && request->may_wait && request->waited < (double)wait) response->wait = (double)wait - request->waited;
     else http_respond_json(response, 200, study_info(&study));
 }
@@ -150,6 +150,7 @@ void list_studies(api_service *service, const http_request *request, http_respon
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
         return;
     }
+    if (leads_to_page(request, response, "/web/studies.html")) return;
     page.studies = json_array();
     const store_status status = store_list_studies(service->store, before, page.limit + 1, add_study_to_page, &page);
     if (status != STORE_OK) {
@@ -170,6 +171,7 @@ void show_study_spec(api_service *service, const http_request *request, http_res
     const store_status status = store_read_study(service->store, study.id, &text);
     if (status == STORE_OK) http_respond_text(response, 200, "application/json", text, strlen(text));
     else respond_store_failure(response, status, "read the study");
+    name_file(response, study.id, "-spec.json", false);
 }
 
 static void delete_study(api_service *service, http_response *response, const study_record *study)
@@ -253,6 +255,7 @@ static void show_table(api_service *service, const http_request *request, http_r
     char version[72];
     if (!find_study(service, request, response, &study)) return;
     /* Nothing in it changes but with a job's state. */
+    name_file(response, study.id, csv ? "-results.csv" : "-results.json", csv);
     snprintf(version, sizeof version, "%s-%s-%lld", csv ? "csv" : "json", study.updated, (long long)limit);
     if (http_respond_unchanged(request, response, version) || !tabulate(service, study.id, response, &table)) return;
     while ((int64_t)json_array_size(table.cases) > limit) json_array_remove(table.cases, json_array_size(table.cases) - 1);
@@ -271,12 +274,12 @@ static void show_table(api_service *service, const http_request *request, http_r
 
 void show_study_results(api_service *service, const http_request *request, http_response *response)
 {
-    bool csv;
+    const bool csv = wants_csv(request);
     int64_t limit;
     char problem[160];
     if (!http_request_integer(request, "limit", 1, INT64_MAX, INT64_MAX, &limit, problem, sizeof problem))
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
-    else if (read_format(request, response, &csv)) show_table(service, request, response, csv, csv ? INT64_MAX : limit);
+    else show_table(service, request, response, csv, csv ? INT64_MAX : limit);
 }
 
 void show_study_csv(api_service *service, const http_request *request, http_response *response)

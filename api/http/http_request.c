@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 
 static bool path_is_plain(const char *path)
 {
@@ -115,19 +114,5 @@ bool http_request_integer(const http_request *request, const char *name, int64_t
     }
     snprintf(problem, problem_size, "parameter %s is \"%.40s\"; must be a whole number in [%lld, %lld]", name, text, (long long)low,
              (long long)high);
-    return false;
-}
-
-bool http_request_accepts(const http_request *request, const char *media_type)
-{
-    const size_t length = strlen(media_type);
-    for (const char *at = request->accept; at && *at; at = strchr(at, ',')) {
-        at += strspn(at, ", \t");
-        if (strncasecmp(at, media_type, length) == 0 && strchr(",; \t", at[length])) {
-            const char *end = strchrnul(at, ',');
-            const char *quality = strstr(at, "q=");
-            return !quality || quality > end || strtod(quality + 2, NULL) > 0.0;
-        }
-    }
     return false;
 }

@@ -50,8 +50,10 @@ typedef struct http_response {
     int file;   /* owned descriptor, or -1: length bytes from offset are sent */
     uint64_t offset, length;
     http_pieces pieces;        /* what comes after the body */
-    char base[HTTP_BASE_SIZE]; /* "http://host:port", put before addresses that begin with /; "": they stay as they are */
-    char location[HTTP_BASE_SIZE + 160], etag[80], content_range[80], allow[64], link[HTTP_BASE_SIZE + 200];
+    char base[HTTP_BASE_SIZE]; /* "http://host:port[/prefix]", put before addresses that begin with /; "": they stay as they are */
+    char file_name[100];       /* under which a client may keep the body; "": none */
+    bool is_attachment;        /* to be kept rather than shown */
+    char location[HTTP_BASE_SIZE + 520], etag[80], content_range[80], allow[64], link[HTTP_BASE_SIZE + 200];
     const char *cache_control, *preference_applied, *authenticate, *accept_ranges;
     int retry_after; /* s; 0: no such header */
     bool wants_lane; /* nothing to say yet: it may take long; call the handler again with in_lane */
@@ -68,16 +70,18 @@ bool http_request_values(const http_request *request, const char *name, http_val
 /* Whole number in [low, high]; `missing` where the parameter is not given. False: *problem says what is wrong. */
 bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing, int64_t *value,
                           char *problem, size_t problem_size);
-/* Does the Accept header name this media type (exactly, not by a wildcard)? */
-bool http_request_accepts(const http_request *request, const char *media_type);
-
 void http_response_init(http_response *response);
 void http_response_clear(http_response *response);
 void http_respond_json(http_response *response, int status, json_t *document); /* takes the reference; NULL: no memory */
 void http_respond_text(http_response *response, int status, const char *content_type, char *text, size_t length); /* takes text */
-/* type NULL: about:blank. */
+/* type NULL: that of the kind of problem which has this title (problem_kinds.h). */
 void http_respond_problem(http_response *response, int status, const char *type, const char *title, const char *format, ...)
     __attribute__((format(printf, 5, 6)));
+/* The same with a list of problems, of which errors may be NULL. */
+void http_respond_problems(http_response *response, int status, const char *title, const char *detail,
+                           const problem_list *problems);
+/* The results of a job that failed; takes the reference to what its worker told, which may be NULL. */
+void http_respond_failure(http_response *response, const char *title, const char *detail, json_t *failure);
 /* Names the version of what is answered, for the client to ask again by If-None-Match. True: it has that one, and 304 says so. */
 bool http_respond_unchanged(const http_request *request, http_response *response, const char *version);
 /* Sends a file that was opened, whole or the part asked for; takes the descriptor. immutable: it never changes

@@ -7,6 +7,7 @@
 
 #include "http_range.h"
 #include "http_request.h"
+#include "problem_kinds.h"
 
 void http_response_init(http_response *response) { *response = (http_response){ .status = 500, .file = -1 }; }
 
@@ -60,6 +61,15 @@ void http_respond_json(http_response *response, int status, json_t *document)
                       text ? strlen(text) : 0);
 }
 
+static void set_type(const http_response *response, json_t *document, const char *title)
+{
+    const problem_kind *kind = problem_kind_titled(title);
+    if (!kind || !document) return;
+    json_object_set_new(document, "type",
+                        strchr(kind->name, ':') ? json_string(kind->name)
+                                                : json_sprintf("%s" PROBLEMS_PATH "%s", response->base, kind->name));
+}
+
 void http_respond_problem(http_response *response, int status, const char *type, const char *title, const char *format, ...)
 {
     char *detail = NULL;
@@ -67,8 +77,26 @@ void http_respond_problem(http_response *response, int status, const char *type,
     va_start(arguments, format);
     if (vasprintf(&detail, format, arguments) < 0) detail = NULL;
     va_end(arguments);
-    http_respond_json(response, status, problem_json(status, type ? type : "about:blank", title, detail ? detail : title, NULL));
+    json_t *document = problem_json(status, type ? type : "about:blank", title, detail ? detail : title, NULL);
+    if (!type) set_type(response, document, title);
+    http_respond_json(response, status, document);
     free(detail);
+}
+
+void http_respond_problems(http_response *response, int status, const char *title, const char *detail, const problem_list *problems)
+{
+    json_t *document = problem_json(status, "about:blank", title, detail, problems);
+    set_type(response, document, title);
+    http_respond_json(response, status, document);
+}
+
+void http_respond_failure(http_response *response, const char *title, const char *detail, json_t *failure)
+{
+    json_t *document = problem_json(404, "about:blank", title, detail, NULL);
+    set_type(response, document, title);
+    if (document && failure) json_object_set(document, "failure", failure);
+    json_decref(failure);
+    http_respond_json(response, 404, document);
 }
 
 /* From the file that is being sent, not from what a table says about it: files are replaced by rename only, so

@@ -67,6 +67,7 @@ static bool is_given_before(const http_request *request, size_t i)
 /* A misspelt filter would silently list everything; of two values one would silently not count. */
 static bool parameters_are_good(const http_route *route, const http_request *request, http_response *response)
 {
+    const char *formats = route->formats ? route->formats : " json ";
     for (size_t i = 0; i < request->parameter_count; i++) {
         const char *name = request->parameter[i].name, *end = find_parameter(route->parameters, name);
         if (!end)
@@ -74,18 +75,34 @@ static bool parameters_are_good(const http_route *route, const http_request *req
                                  name, route->parameters[0] ? route->parameters : " none");
         else if (*end != '*' && is_given_before(request, i))
             http_respond_problem(response, 400, NULL, "Bad parameter", "query parameter \"%.40s\" is given twice", name);
-        else if (strcmp(name, "f") == 0 && strcmp(request->parameter[i].value, "json") != 0)
-            http_respond_problem(response, 400, NULL, "Bad parameter", "parameter f is \"%.40s\"; must be json",
-                                 request->parameter[i].value);
+        else if ((strcmp(name, "f") == 0 || strcmp(name, "format") == 0) && !find_parameter(formats, request->parameter[i].value))
+            http_respond_problem(response, 400, NULL, "Bad parameter", "parameter %s is \"%.40s\"; must be one of:%s", name,
+                                 request->parameter[i].value, formats);
         else continue;
         return false;
     }
     return true;
 }
 
+void route_set_base(const api_service *service, const http_request *request, http_response *response)
+{
+    if (service->public_url) snprintf(response->base, sizeof response->base, "%.310s", service->public_url);
+    else if (request->host) snprintf(response->base, sizeof response->base, "http://%.300s", request->host);
+}
+
+void route_strip_prefix(const api_service *service, http_request *request)
+{
+    const char *host = service->public_url ? strstr(service->public_url, "://") : NULL;
+    const char *prefix = host ? strchr(host + 3, '/') : NULL;
+    const size_t length = prefix ? strlen(prefix) : 0;
+    if (length == 0 || strncmp(request->path, prefix, length) != 0) return;
+    if (request->path[length] == '/') request->path += length;
+    else if (request->path[length] == '\0') request->path = "/";
+}
+
 void route_respond(const http_route *route, api_service *service, const http_request *request, http_response *response)
 {
-    if (request->host) snprintf(response->base, sizeof response->base, "http://%.300s", request->host);
+    route_set_base(service, request, response);
     if (parameters_are_good(route, request, response)) route->handler(service, request, response);
     if (response->location[0] != '/') return;
     const size_t length = strlen(response->location), before = strlen(response->base);

@@ -11,17 +11,22 @@ typedef struct http_route {
     const char *method;     /* GET answers HEAD, too */
     const char *pattern;    /* "/jobs/{}/log": {} stands for one segment of at most 64 characters */
     const char *parameters; /* " names " of the query parameters, each between spaces; others are refused. With a
-                             * star where it may be given several times. f is json, wherever it is known */
+                             * star where it may be given several times */
     route_handler *handler;
-    bool slow;     /* may take seconds: answered apart, so that nothing else waits for it */
-    bool open;     /* needs no token */
-    bool bodiless; /* a POST that needs no body, and so no Content-Type */
+    const char *formats; /* " names " that f, and format, may have; NULL: " json " */
+    bool slow;           /* may take seconds: answered apart, so that nothing else waits for it */
+    bool open;           /* needs no token */
+    bool bodiless;       /* a POST that needs no body, and so no Content-Type */
 } http_route;
 
 enum { MOST_ROUTES = 39 }; /* for what is counted by route */
 extern const http_route route_table[];
 extern const size_t route_count;
 
+/* What addresses in the answer begin with. */
+void route_set_base(const api_service *service, const http_request *request, http_response *response);
+/* Takes the prefix of the public address off the path: a proxy may leave it there. */
+void route_strip_prefix(const api_service *service, http_request *request);
 /* The route for request->method and ->path, its segments filled in. NULL: the response says why not. */
 const http_route *routes_match(const http_route *table, size_t count, http_request *request, http_response *response);
 /* Refuses unknown parameters, then calls the handler; its addresses then name the host that was asked. */

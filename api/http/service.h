@@ -14,6 +14,7 @@ typedef struct api_service {
     job_store *store;
     int web_folder;                     /* descriptor of the page's folder; -1: none */
     const char *api_file;               /* the OpenAPI document, YAML */
+    const char *public_url;             /* what addresses begin with, without / at the end; NULL: with the host that was asked */
     int default_threads;                /* of a job that does not ask */
     void *daemon;                       /* first argument of the functions below */
     void (*jobs_changed)(void *daemon); /* a job was added, dismissed or put into the queue again */
@@ -21,7 +22,5 @@ typedef struct api_service {
     bool (*is_ready)(void *daemon, char *why_not, size_t size);
     void (*write_metrics)(void *daemon, text_buffer *out);
 } api_service;
-
-#define OGC_EXCEPTION "http://www.opengis.net/def/exceptions/ogcapi-processes-1/1.0/"
 
 #endif

@@ -133,6 +133,7 @@ static bool open_parts(parts *all)
     all->service = (api_service){ .store = all->store,
                                   .web_folder = open(all->settings.web, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
                                   .api_file = all->settings.api_file,
+                                  .public_url = all->settings.public_url,
                                   .default_threads = all->settings.threads,
                                   .daemon = all,
                                   .jobs_changed = jobs_changed_by_request,

@@ -24,6 +24,7 @@ static const char usage[] = "reposed: virtual rotary-drum tests over HTTP\n"
                             "  --queue-limit N      jobs that may wait, 1 to 1000000 (10000); a study that makes more is refused\n"
                             "  --token-file FILE    clients must send \"Authorization: Bearer\" with its text; mode 0600\n"
                             "  --allow-host NAME    accept this name in the Host header; may be given 8 times\n"
+                            "  --public-url URL     what addresses begin with for clients, as https://host/prefix behind a proxy\n"
                             "  --port-file FILE     write the port there once it is open\n"
                             "  --worker PATH        the worker program (repose, beside this one)\n"
                             "  --web DIR            the page (../web from this program)\n"
@@ -55,6 +56,31 @@ static bool read_number(const char *name, const char *text, int low, int high, i
 
 static void copy_path(char path[4096], const char *text) { snprintf(path, 4096, "%s", text); }
 
+/* "http[s]://host[:port][/prefix]"; it goes into addresses as it is. */
+static bool take_public_url(config *settings, const char *value)
+{
+    static char kept[300];
+    static const char path[] = "/abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~", *letters = path + 1;
+    const char *host = strncmp(value, "https://", 8) == 0 ? value + 8 : strncmp(value, "http://", 7) == 0 ? value + 7 : NULL;
+    size_t length = strlen(value);
+    while (host && length > 0 && value[length - 1] == '/') length--;
+    const size_t name = host ? (*host == '[' ? strcspn(host, "]") + 1 : strspn(host, letters)) : 0;
+    const char *rest = host && name > 0 && name < sizeof settings->public_host ? host + name : "?";
+    if (*rest == ':') rest += 1 + strspn(rest + 1, "0123456789");
+    const bool good = (*rest == '\0' || *rest == '/') && rest[strspn(rest, path)] == '\0' && !strstr(rest, "//")
+                      && !strstr(rest, "/.") && length < sizeof kept;
+    if (!good) {
+        fprintf(stderr, "reposed: --public-url is \"%s\"; must be http:// or https:// with a host and perhaps a port and a path\n",
+                value);
+        return false;
+    }
+    snprintf(kept, sizeof kept, "%.*s", (int)length, value);
+    const bool six = *host == '[';
+    snprintf(settings->public_host, sizeof settings->public_host, "%.*s", (int)(six ? name - 2 : name), host + six);
+    settings->public_url = kept;
+    return true;
+}
+
 static bool take_option(config *settings, const char *name, const char *value)
 {
     if (strcmp(name, "port") == 0) return read_number(name, value, 0, 65535, &settings->port);
@@ -68,6 +94,7 @@ static bool take_option(config *settings, const char *name, const char *value)
     if (strcmp(name, "worker") == 0) copy_path(settings->worker, value);
     if (strcmp(name, "web") == 0) copy_path(settings->web, value);
     if (strcmp(name, "api-file") == 0) copy_path(settings->api_file, value);
+    if (strcmp(name, "public-url") == 0) return take_public_url(settings, value);
     if (strcmp(name, "allow-host") == 0) {
         if (settings->allowed_hosts == CONFIG_HOSTS) {
             fprintf(stderr, "reposed: --allow-host is given more than %d times\n", CONFIG_HOSTS);
@@ -81,10 +108,10 @@ static bool take_option(config *settings, const char *name, const char *value)
 static enum config_outcome read_options(config *settings, int argc, char **argv)
 {
     static const struct option options[] = {
-        { "host", 1, NULL, 0 },      { "port", 1, NULL, 0 },        { "data", 1, NULL, 0 },       { "workers", 1, NULL, 0 },
-        { "threads", 1, NULL, 0 },   { "queue-limit", 1, NULL, 0 }, { "token-file", 1, NULL, 0 }, { "allow-host", 1, NULL, 0 },
-        { "port-file", 1, NULL, 0 }, { "worker", 1, NULL, 0 },      { "web", 1, NULL, 0 },        { "api-file", 1, NULL, 0 },
-        { "help", 0, NULL, 'h' },    { NULL, 0, NULL, 0 },
+        { "host", 1, NULL, 0 },       { "port", 1, NULL, 0 },        { "data", 1, NULL, 0 },       { "workers", 1, NULL, 0 },
+        { "threads", 1, NULL, 0 },    { "queue-limit", 1, NULL, 0 }, { "token-file", 1, NULL, 0 }, { "allow-host", 1, NULL, 0 },
+        { "port-file", 1, NULL, 0 },  { "worker", 1, NULL, 0 },      { "web", 1, NULL, 0 },        { "api-file", 1, NULL, 0 },
+        { "public-url", 1, NULL, 0 }, { "help", 0, NULL, 'h' },      { NULL, 0, NULL, 0 },
     };
     int which = 0;
     for (int code; (code = getopt_long(argc, argv, "h", options, &which)) != -1;) {

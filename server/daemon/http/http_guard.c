@@ -138,6 +138,7 @@ static bool host_is_ours(const config *settings, const char *host)
     split_host(host, name);
     if (inet_pton(AF_INET, name, bytes) == 1 || inet_pton(AF_INET6, name, bytes) == 1) return true;
     if (strcasecmp(name, "localhost") == 0 || strcasecmp(name, settings->host) == 0) return name[0] != '\0';
+    if (strcasecmp(name, settings->public_host) == 0) return name[0] != '\0';
     for (int i = 0; i < settings->allowed_hosts; i++)
         if (strcasecmp(name, settings->allowed_host[i]) == 0) return true;
     return false;
@@ -160,9 +161,13 @@ bool http_guard_knows_host(const http_guard *guard, const http_headers *headers,
 
 /* --- writes and tokens --- */
 
-static bool origin_is_ours(const http_request *request)
+static bool origin_is_ours(const config *settings, const http_request *request)
 {
     if (!request->origin) return true;
+    const size_t length = strlen(request->origin);
+    if (settings->public_url && strncasecmp(settings->public_url, request->origin, length) == 0
+        && strchr("/", settings->public_url[length]))
+        return true;
     const char *scheme_end = strstr(request->origin, "://");
     return scheme_end && strcasecmp(scheme_end + 3, request->host) == 0;
 }
@@ -216,7 +221,7 @@ bool http_guard_admits(const http_guard *guard, const http_headers *headers, con
         response->authenticate = "Bearer";
         return false;
     }
-    if (!only_reads(request->method) && !origin_is_ours(request))
+    if (!only_reads(request->method) && !origin_is_ours(guard->settings, request))
         return refuse(response, 403, "Foreign page",
                       "writes are taken from this service's own page or from programs, not from other pages");
     return admits_body(headers, request, route->bodiless, response, body_length);

@@ -17,9 +17,13 @@ static void add_header(struct MHD_Response *reply, const char *name, const char 
 
 static void add_headers(struct MHD_Response *reply, const http_response *response)
 {
-    char retry_after[16] = "";
+    char retry_after[16] = "", disposition[140] = "";
     if (response->retry_after > 0) snprintf(retry_after, sizeof retry_after, "%d", response->retry_after);
+    if (response->file_name[0] && response->status < 300)
+        snprintf(disposition, sizeof disposition, "%s; filename=\"%s\"", response->is_attachment ? "attachment" : "inline",
+                 response->file_name);
     add_header(reply, "Content-Type", response->content_type);
+    add_header(reply, "Content-Disposition", disposition);
     add_header(reply, "Location", response->location);
     add_header(reply, "ETag", response->etag);
     add_header(reply, "Link", response->link);

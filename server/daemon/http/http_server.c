@@ -132,6 +132,7 @@ static bool admit(http_exchange *exchange, const char *method)
     request->method = method;
     request->path = "/";
     MHD_get_connection_values(exchange->connection, MHD_HEADER_KIND, take_header, exchange);
+    const api_service *service = exchange->server->service;
     const char *problem = http_request_split_target(request, exchange->target);
     if (problem) {
         http_respond_problem(&exchange->response, 400, NULL, "Bad address", "%s", problem);
@@ -139,6 +140,8 @@ static bool admit(http_exchange *exchange, const char *method)
     }
     const http_guard *guard = &exchange->server->guard;
     if (!http_guard_knows_host(guard, &exchange->headers, request, &exchange->response)) return false;
+    route_set_base(service, request, &exchange->response);
+    route_strip_prefix(service, request);
     exchange->route = routes_match(route_table, route_count, request, &exchange->response);
     return exchange->route
            && http_guard_admits(guard, &exchange->headers, request, exchange->route, &exchange->response, &exchange->body_expected);

@@ -8,6 +8,7 @@
 
 #include <cmocka.h>
 
+#include "http_accept.h"
 #include "routes.h"
 #include "text_buffer.h"
 
@@ -68,25 +69,49 @@ static void whole_numbers_have_bounds(void **state)
         assert_false(http_request_integer(&request, name, 0, INT64_MAX, 5, &value, problem, sizeof problem));
 }
 
-static void accept_names_types_not_wildcards(void **state)
+/* The rules of RFC 9110, 12.5.1: a range's quality, of several ranges that fit the most exact one, parameters. */
+static void accept_chooses_by_quality_and_exactness(void **state)
 {
     (void)state;
+    static const char *const offers[] = { "application/json", "text/html", "text/csv" };
     const struct {
         const char *accept;
-        bool html;
-    } cases[] = { { "text/html", true },
-                  { "application/json, text/html;q=0.5", true },
-                  { "TEXT/HTML", true },
-                  { "*/*", false },
-                  { NULL, false },
-                  { "text/htmlx", false },
-                  { "text/html;q=0, application/json", false },
-                  { "application/json", false },
-                  { "", false } };
+        size_t chosen;
+    } cases[] = { { NULL, 0 },
+                  { "", 0 },
+                  { "*/*", 0 },
+                  { "text/html", 1 },
+                  { "TEXT/HTML", 1 },
+                  { "text/htmlx", 0 },
+                  { "image/png", 0 },
+                  { "text/*", 1 },
+                  { "text/csv", 2 },
+                  { "text/csv;q=0", 0 },
+                  { "text/html, application/json", 1 },
+                  { "application/json, text/html", 0 },
+                  { "application/json;q=0.5, text/html", 1 },
+                  { "text/html;q=0.5,application/json", 0 },
+                  { "text/html;q=0.4, text/csv;q=0.9, */*;q=0.1", 2 },
+                  { "text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8", 1 },
+                  { "text/csv, */*", 2 },
+                  { "*/*, text/csv", 2 },
+                  { "application/json;q=0, */*", 1 },
+                  { "application/json;q=0, text/*;q=0.2, text/csv;q=0.1", 1 },
+                  { "text/csv;charset=utf-8", 2 },
+                  { "text/csv;header=present", 0 },
+                  { " ,, text/csv ; q=1 ", 2 },
+                  { "text/csv;q=x", 0 },
+                  { ";q=1, /, */html", 0 } };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const http_request request = { .accept = cases[i].accept };
-        assert_int_equal(http_request_accepts(&request, "text/html"), cases[i].html);
+        const size_t chosen = http_accept_choose(cases[i].accept, offers, 3);
+        if (chosen != cases[i].chosen) fail_msg("\"%s\" chose %s", cases[i].accept, offers[chosen]);
     }
+    static const char *const versions[] = { "application/x;version=2", "application/x;version=1" };
+    assert_int_equal(http_accept_choose("application/x", versions, 2), 0);
+    assert_int_equal(http_accept_choose("application/x;version=1", versions, 2), 1);
+    assert_int_equal(http_accept_choose("application/x; Version=\"1\"", versions, 2), 1);
+    assert_int_equal(http_accept_choose("application/x;version=1;q=0.3, application/x;version=2;q=0.2", versions, 2), 1);
+    assert_int_equal(http_accept_choose("application/x;version=3, application/x;version=1;q=0.1", versions, 2), 1);
 }
 
 static void answer_nothing(api_service *service, const http_request *request, http_response *response)
@@ -250,7 +275,7 @@ int main(void)
         cmocka_unit_test(parameters_are_decoded_once),
         cmocka_unit_test(strange_targets_are_refused),
         cmocka_unit_test(whole_numbers_have_bounds),
-        cmocka_unit_test(accept_names_types_not_wildcards),
+        cmocka_unit_test(accept_chooses_by_quality_and_exactness),
         cmocka_unit_test(routes_fill_in_segments),
         cmocka_unit_test(a_buffer_keeps_its_cap),
         cmocka_unit_test(ids_have_one_shape),
