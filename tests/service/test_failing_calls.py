@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 import requests
-from conftest import Daemon
+from conftest import BUILD, Daemon
 from worker_runs import REPOSE, write_spec
 
 # Some hundredths of a second, and all parts of a run.
@@ -102,6 +102,31 @@ def ends_of_jobs(folder, monkeypatch, environment):
         return [daemon.ended(job)["status"] + ": " + daemon.job(job)["message"] for job in jobs]
     finally:
         daemon.stop()
+
+
+def refusal_of_a_start(shim, folder, call, error, first):
+    """What the daemon says on a new folder; None: it starts all the same."""
+    folder.mkdir()
+    port, said = folder / "port", folder / "said"
+    command = [BUILD / "reposed", "serve", "--port", "0", "--port-file", port, "--data", folder / "data"]
+    with said.open("w") as log:
+        daemon = subprocess.Popen(command, env=failing(shim, "reposed", call, error, first, 1), stderr=log, stdout=subprocess.DEVNULL)
+        while daemon.poll() is None and not port.exists():
+            time.sleep(0.01)
+    if daemon.poll() is None:
+        daemon.terminate()
+        daemon.wait(30)
+        return None
+    assert daemon.returncode == 1
+    return said.read_text()
+
+
+@pytest.mark.parametrize("call, error, first, words", [
+    *(("write", errno.ENOSPC, first, ("make room on its disk",)) for first in (5, 12, 40, 116)),
+    *(("fsync", errno.EIO, first, ("disk I/O error", "see to its disk")) for first in (5, 12))])
+def test_a_start_that_is_refused_tells_the_file_the_reason_and_a_way_out(shim, tmp_path, call, error, first, words):
+    said = refusal_of_a_start(shim, tmp_path / "new", call, error, first)
+    assert all(word in said for word in (f"{tmp_path}/new/data/reposed.sqlite can't be used: ", *words)), said
 
 
 @pytest.mark.torture

@@ -73,17 +73,52 @@ store_status sql_finish(sqlite3_stmt *statement, int code)
     return status;
 }
 
-static int read_pragma(sqlite3 *database, const char *sql)
+/* --- making it ready --- */
+
+/* What whoever starts the daemon can do about it. */
+static const char *way_out(int code)
 {
-    sqlite3_stmt *statement = sql_prepare(database, sql, "");
-    if (!statement) return -1;
-    const int value = sqlite3_step(statement) == SQLITE_ROW ? sqlite3_column_int(statement, 0) : -1;
-    sqlite3_finalize(statement);
-    return value;
+    switch (code & 0xff) {
+    case SQLITE_FULL: return "make room on its disk and start again; what is in it is kept";
+    case SQLITE_IOERR: return "see to its disk and start again; what is in it is kept";
+    case SQLITE_NOMEM: return "start again when there is memory; what is in it is kept";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED: return "another program holds it; end that one and start again";
+    case SQLITE_CANTOPEN:
+    case SQLITE_PERM:
+    case SQLITE_READONLY: return "the user of the daemon must be able to write it and its folder";
+    case SQLITE_CORRUPT:
+    case SQLITE_NOTADB: return "put a copy of it back, or start with another --data";
+    default: return "start with another --data, or with the program that made it; what is in it is kept";
+    }
 }
 
-/* Each migration and the new version number in one transaction. */
-static bool migrate_from(sqlite3 *database, const char *path, int version)
+/* Says what SQLite met last, or that our own memory was out. */
+static void log_unusable(sqlite3 *database, const char *path)
+{
+    const int code = sqlite3_errcode(database), reason = sqlite3_system_errno(database);
+    const bool of_system = (code & 0xff) == SQLITE_IOERR || (code & 0xff) == SQLITE_CANTOPEN;
+    const bool is_full = of_system && (reason == ENOSPC || reason == EDQUOT);
+    char words[128] = "";
+    if (of_system && reason) snprintf(words, sizeof words, " (%s)", strerror(reason));
+    log_line("%s can't be used: %s%s; %s", path, code ? sqlite3_errmsg(database) : sqlite3_errstr(SQLITE_NOMEM), words,
+             way_out(is_full ? SQLITE_FULL
+                     : code  ? code
+                             : SQLITE_NOMEM));
+}
+
+static bool read_pragma(sqlite3 *database, const char *sql, int *value)
+{
+    sqlite3_stmt *statement;
+    if (sqlite3_prepare_v2(database, sql, -1, &statement, NULL) != SQLITE_OK) return false;
+    const bool read = sqlite3_step(statement) == SQLITE_ROW;
+    if (read) *value = sqlite3_column_int(statement, 0);
+    sqlite3_finalize(statement);
+    return read;
+}
+
+/* Each migration and the new version number in one transaction, which is rolled back with the connection. */
+static bool migrate_from(sqlite3 *database, int version)
 {
     for (int next = version; next < schema_version; next++) {
         const char *const *parts = schema_migrations[next].parts;
@@ -93,26 +128,28 @@ static bool migrate_from(sqlite3 *database, const char *path, int version)
         bool done = sqlite3_exec(database, "BEGIN IMMEDIATE;", NULL, NULL, NULL) == SQLITE_OK;
         for (size_t p = 0; done && p < most && parts[p]; p++)
             done = sqlite3_exec(database, parts[p], NULL, NULL, NULL) == SQLITE_OK;
-        if (!done || sqlite3_exec(database, end, NULL, NULL, NULL) != SQLITE_OK) {
-            log_line("%s: migration %d failed: %s", path, next + 1, sqlite3_errmsg(database));
-            return false;
-        }
+        if (!done || sqlite3_exec(database, end, NULL, NULL, NULL) != SQLITE_OK) return false;
     }
     return true;
 }
 
 static bool bring_up_to_date(sqlite3 *database, const char *path)
 {
-    const int version = read_pragma(database, "PRAGMA user_version");
-    const int application = read_pragma(database, "PRAGMA application_id");
-    if (version < 0 || version > schema_version || (application != SCHEMA_APPLICATION_ID && (application != 0 || version != 0))) {
-        log_line("%s is of schema version %d, application %d; this program knows versions 0 to %d", path, version, application,
-                 schema_version);
+    int version = 0, application = 0;
+    field_tables tables = { .listed_count = 0 };
+    const bool read =
+        read_pragma(database, "PRAGMA user_version", &version) && read_pragma(database, "PRAGMA application_id", &application);
+    const bool known =
+        version >= 0 && version <= schema_version && (application == SCHEMA_APPLICATION_ID || (application == 0 && version == 0));
+    if (read && !known) {
+        log_line("%s is of schema version %d, application %d; this program knows versions 0 to %d: start the one that made it, "
+                 "or start this one with another --data",
+                 path, version, application, schema_version);
         return false;
     }
-    field_tables tables;
-    const bool good = field_tables_init(&tables) && field_tables_make(&tables, database) && migrate_from(database, path, version)
+    const bool good = read && field_tables_init(&tables) && field_tables_make(&tables, database) && migrate_from(database, version)
                       && field_tables_make_view(&tables, database);
+    if (!good) log_unusable(database, path);
     field_tables_clear(&tables);
     return good;
 }
@@ -122,7 +159,7 @@ static sqlite3 *open_with(const char *path, int flags, const char *pragmas)
     sqlite3 *database;
     if (sqlite3_open_v2(path, &database, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, NULL) != SQLITE_OK
         || sqlite3_exec(database, pragmas, NULL, NULL, NULL) != SQLITE_OK) {
-        log_line("%s can't be opened: %s", path, sqlite3_errmsg(database));
+        log_unusable(database, path);
         sqlite3_close(database);
         return NULL;
     }

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "database.h"
-#include "log.h"
 #include "text_buffer.h"
 
 enum { LONGEST_STATEMENT = 32768 };
@@ -189,7 +188,6 @@ static void write_definition(text_buffer *sql, const field_column *column, bool 
 static bool run_text(sqlite3 *writer, text_buffer *sql)
 {
     const bool good = !sql->failed && sqlite3_exec(writer, sql->text, NULL, NULL, NULL) == SQLITE_OK;
-    if (!good) log_line("database: %s: %s", sqlite3_errmsg(writer), sql->text ? sql->text : "no memory");
     text_buffer_clear(sql);
     return good;
 }
@@ -217,7 +215,7 @@ static bool add_column(sqlite3 *writer, const field_column *column)
     return run_text(writer, &sql);
 }
 
-/* Finds the name where it is not NULL, else any. -1: the problem is logged. */
+/* Finds the name where it is not NULL, else any. -1: the database can't tell. */
 static int has_column(sqlite3 *writer, const char *table, const char *name)
 {
     sqlite3_stmt *row =
@@ -241,7 +239,7 @@ bool field_tables_make(const field_tables *tables, sqlite3 *writer)
     bool good = sqlite3_exec(writer, "BEGIN", NULL, NULL, NULL) == SQLITE_OK;
     for (size_t c = 0; good && c < tables->columns.count; c++)
         good = make_column(&tables->columns, writer, &tables->columns.column[c]);
-    return sqlite3_exec(writer, good ? "COMMIT" : "ROLLBACK", NULL, NULL, NULL) == SQLITE_OK && good;
+    return good && sqlite3_exec(writer, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
 }
 
 /* --- the view --- */
@@ -279,8 +277,9 @@ bool field_tables_make_view(const field_tables *tables, sqlite3 *writer)
         return true;
     }
     bool good = sqlite3_exec(writer, "BEGIN IMMEDIATE; DROP VIEW IF EXISTS run_summary", NULL, NULL, NULL) == SQLITE_OK;
-    good = run_text(writer, &sql) && good;
-    return sqlite3_exec(writer, good ? "COMMIT" : "ROLLBACK", NULL, NULL, NULL) == SQLITE_OK && good;
+    if (good) good = run_text(writer, &sql);
+    else text_buffer_clear(&sql);
+    return good && sqlite3_exec(writer, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
 }
 
 /* --- rows --- */

@@ -31,7 +31,7 @@ bool field_tables_init(field_tables *tables);
 void field_tables_clear(field_tables *tables);
 
 /* Makes tables and columns that the database lacks. Writes nothing where it lacks none. Before the migrations, which may
- * fill columns in; the problem is logged. */
+ * fill columns in. False: the connection tells why, and is to be closed, which rolls back; of it too. */
 bool field_tables_make(const field_tables *tables, sqlite3 *writer);
 /* Makes the view run_summary: one row a successful run, with its main inputs and results. Writes nothing where it is as it should
  * be. After the migrations, since it shows columns of `job`. */

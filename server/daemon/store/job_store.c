@@ -30,6 +30,7 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
         good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
     if (good) good = (store->query = database_open_reader(path)) != NULL && query_connection_restrict(store);
     if (!good) {
+        if (store->query) log_line("%s can't be asked: there is no memory", path);
         store_close(store);
         return NULL;
     }
