@@ -21,14 +21,21 @@ typedef struct contact_block {
     real parting[BLOCK];    /* m/s, of the ends along n, for the damped laws */
     real ds[3][BLOCK];      /* m, tangential displacement of this step; N: times K_T0, for Walton & Braun's law */
     real f_n[BLOCK];        /* N, normal force */
-    real force[3][BLOCK];   /* N, friction force on the first, of laws that do not remember it */
-    real h[3][BLOCK];       /* direction of the stored friction force, turned into the tangent plane */
     real mu_n[BLOCK];       /* N, limit of friction */
-    real stored[BLOCK];     /* N, magnitude of the stored friction force; then what it becomes along h */
-    real s_p[BLOCK];        /* N, of ds along h */
-    real compliance[BLOCK]; /* m/N, 1/k_t of the damped laws */
-    real spin[3][BLOCK];    /* rad/s, first less second; this and the next where contacts resist rolling */
-    real moment[3][BLOCK];  /* N m, of rolling friction on the first */
+    real k_t[BLOCK];        /* N/m, tangential stiffness: of the damped laws; of all where contacts resist rolling */
+    /* of Walton & Braun's law: */
+    real h[3][BLOCK];   /* direction of the stored friction force, turned into the tangent plane */
+    real stored[BLOCK]; /* N, magnitude of that force */
+    real s_p[BLOCK];    /* N, of ds along h */
+    real along[BLOCK];  /* N, of the new friction force along h */
+    /* of the damped laws: */
+    real stretch[3][BLOCK]; /* m, of the tangential spring, turned into the tangent plane and grown by ds */
+    real compliance[BLOCK]; /* m/N, 1/k_t */
+    real dashpot[BLOCK];    /* N/m, half of c_n over the step: friction has a dashpot, too */
+    real force[3][BLOCK];   /* N, friction force on the first, which these laws do not remember */
+    /* where contacts resist rolling: */
+    real spin[3][BLOCK];   /* rad/s, first less second */
+    real moment[3][BLOCK]; /* N m, of rolling friction on the first */
     /* as wide_store_rows leaves them: what the contacts give their first ends, and their second ones but for the force's sign */
     contact_row row[BLOCK];
     contact_row second_row[BLOCK]; /* the latter where ends differ */

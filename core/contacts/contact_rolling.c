@@ -1,10 +1,8 @@
 /* rolling_increment of contact_law.h for a block of contacts, LANES at a time. */
 #include "contact_block.h"
 
-/* k_t: N/m, of each contact. */
 static void rolling_moments(contact_block *restrict block, real *restrict roll_x, real *restrict roll_y, real *restrict roll_z,
-                            const real *restrict rolling_friction, const real *restrict effective_radius, const real *restrict k_t,
-                            real time_step)
+                            const real *restrict rolling_friction, const real *restrict effective_radius, real time_step)
 {
     real *const roll[3] = { roll_x, roll_y, roll_z };
     const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
@@ -14,7 +12,8 @@ static void rolling_moments(contact_block *restrict block, real *restrict roll_x
         const wide spin[3] = { wide_load(block->spin[0] + k), wide_load(block->spin[1] + k), wide_load(block->spin[2] + k) };
         const wide before[3] = { wide_load(roll_x + k), wide_load(roll_y + k), wide_load(roll_z + k) };
         const wide radius = wide_load(effective_radius + k);
-        const wide rn = -wide_dot(before, n), twist = -wide_dot(spin, n), stiffness = -wide_load(k_t + k), arm_dt = radius * dt;
+        const wide rn = -wide_dot(before, n), twist = -wide_dot(spin, n), stiffness = -wide_load(block->k_t + k),
+                   arm_dt = radius * dt;
         const wide u[3] = { wide_fused(rn, n[0], before[0]), wide_fused(rn, n[1], before[1]), wide_fused(rn, n[2], before[2]) };
         const wide uu = wide_dot(u, u), off2 = wide_select(wide_exceeds(uu, tiny), rn * rn / uu, zero);
         const wide keep = wide_fused(half, wide_lesser(off2, one), one);
@@ -34,11 +33,10 @@ static void rolling_moments(contact_block *restrict block, real *restrict roll_x
 
 void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, double dt)
 {
-    /* What the damped laws have left there; the other's is one for all. */
-    real *const k_t = block->stored;
+    /* The damped laws have set each contact's; Walton & Braun's is one for all. */
     if (contact->law == DEM_WALTON_BRAUN)
-        for (int k = 0; k < BLOCK; k++) k_t[k] = (real)(contact->stiffness * contact->tangential_stiffness_ratio);
+        for (int k = 0; k < BLOCK; k++) block->k_t[k] = (real)(contact->stiffness * contact->tangential_stiffness_ratio);
     const size_t at = constants_of(list, start);
     rolling_moments(block, list->roll[0] + start, list->roll[1] + start, list->roll[2] + start, list->rolling_friction + at,
-                    list->radius + at, k_t, (real)dt);
+                    list->radius + at, (real)dt);
 }

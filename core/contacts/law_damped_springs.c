@@ -59,9 +59,9 @@ WIDE_INLINE void store_normal(contact_block *restrict block, int k, wide spring,
     const wide f_n = wide_select(wide_exceeds(alpha, zero), wide_minus_product(spring, c, parting), zero), mu_n = mu * f_n;
     wide_store(block->f_n + k, f_n);
     wide_store(block->mu_n + k, wide_greater(mu_n, -mu_n));
-    wide_store(block->stored + k, k_t);
+    wide_store(block->k_t + k, k_t);
     wide_store(block->compliance + k, compliance);
-    wide_store(block->s_p + k, c * all->half_per_dt);
+    wide_store(block->dashpot + k, c * all->half_per_dt);
 }
 
 /* linear_springs of contact_law.h, LANES at a time, and the force they make. */
@@ -104,7 +104,7 @@ static void rotate_stretch(contact_block *restrict block, const real *restrict t
         const wide u[3] = { wide_minus_product(stretch[0], sn, n[0]), wide_minus_product(stretch[1], sn, n[1]),
                             wide_minus_product(stretch[2], sn, n[2]) };
         const wide off2 = sn * sn / wide_greater(wide_dot(u, u), tiny), keep = wide_fused(half, wide_lesser(off2, one), one);
-        for (int c = 0; c < 3; c++) wide_store(block->h[c] + k, wide_fused(u[c], keep, wide_load(block->ds[c] + k)));
+        for (int c = 0; c < 3; c++) wide_store(block->stretch[c] + k, wide_fused(u[c], keep, wide_load(block->ds[c] + k)));
     }
 }
 
@@ -113,10 +113,10 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
     real *const spring[3] = { t_x, t_y, t_z };
     const wide zero = wide_all(0), one = wide_all(1), tiny = wide_all(TINY_FORCE);
     for (int k = 0; k < BLOCK; k += LANES) {
-        const wide k_t = wide_load(block->stored + k), per_dt = wide_load(block->s_p + k), limit = wide_load(block->mu_n + k);
+        const wide k_t = wide_load(block->k_t + k), per_dt = wide_load(block->dashpot + k), limit = wide_load(block->mu_n + k);
         wide stretch[3], f[3];
         for (int c = 0; c < 3; c++) {
-            stretch[c] = wide_load(block->h[c] + k);
+            stretch[c] = wide_load(block->stretch[c] + k);
             f[c] = wide_fused(k_t, stretch[c], per_dt * wide_load(block->ds[c] + k));
         }
         const wide scale = wide_lesser(limit * wide_inverse_root(wide_dot(f, f)), one);

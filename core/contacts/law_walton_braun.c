@@ -93,7 +93,7 @@ static void friction_stiffness(contact_block *restrict block, real *restrict t_s
         const wide left = wide_greater(one - tau, floor), left_at_turn = wide_greater(one - turning, floor);
         const wide share = left * wide_inverse_cube_root(left * left * left_at_turn);
         const wide s = wide_fused(share, s_p, stored);
-        wide_store(block->stored + k, s);
+        wide_store(block->along + k, s);
         wide_store(t_star + k, wide_select(pressed, wide_times_sign(wide_times_sign(turning, s_p), s), zero));
     }
 }
@@ -102,8 +102,7 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
 {
     const wide one = wide_all(1);
     for (int k = 0; k < BLOCK; k += LANES) {
-        const wide s = wide_load(block->stored + k), s_p = wide_load(block->s_p + k), mu_n = wide_load(block->mu_n + k);
-        const wide along = s - s_p;
+        const wide along = wide_load(block->along + k) - wide_load(block->s_p + k), mu_n = wide_load(block->mu_n + k);
         wide f[3];
         for (int c = 0; c < 3; c++) f[c] = wide_fused(along, wide_load(block->h[c] + k), wide_load(block->ds[c] + k));
         const wide scale = wide_lesser(mu_n * wide_inverse_root(wide_dot(f, f)), one);
