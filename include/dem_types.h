@@ -126,8 +126,8 @@ enum { DEM_MAXIMUM_LIFTERS = 64 };
 typedef struct dem_scene_definition {
     dem_container_kind container;
     double diameter; /* m, inner diameter of the smooth wall */
-    double
-        length; /* m along the axis: of a periodic drum the period, 3 of the largest spheres at least; a cylinder's or tube's height */
+    /* m along the axis: of a periodic drum the period, 3 of the largest spheres at least; a cylinder's or tube's height */
+    double length;
     dem_drum_ends ends; /* of the drum alone, as are lifters and lining */
     dem_lifters lifters;
     dem_lift lift;        /* of the tube alone */

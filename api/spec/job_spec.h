@@ -140,9 +140,9 @@ typedef struct job_estimate {
     calibration_load load;                          /* what each step has to do; no spheres: the process has no steps */
 } job_estimate;
 
-/* Reads {"process"?, "inputs", "label"?} and what may be around them (execute_request.h). process: NULL takes the document's own "process" (default "drum").
- * False when there are problems, all of them listed; the spec is then cleared.
- * seed_if_missing: what to use where the request gives no seed (its low 53 bits). */
+/* Reads {"process"?, "inputs", "label"?} and what may be around them (execute_request.h). process NULL: the document's own "process",
+ * "drum" by default. seed_if_missing: the seed, its low 53 bits, where the request gives none. False: there are problems, all of
+ * which are listed, and the spec is cleared. */
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems);
 /* As job_spec_parse, but also looks up the bed that the run starts from in `beds`, and compares it with the spec. Without `beds`
  * the start is taken as valid, as it is in a spec that has been checked before. */

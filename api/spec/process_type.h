@@ -1,8 +1,8 @@
 /* A process: a test that can be run. Each is a table of inputs, rules that make of them something to run, an estimate
  * of its cost, and a table of results; everything else about requests, jobs and descriptions is common to all.
  *
- * A new one: X_fields.c (inputs), X_rules.c, X_result_fields.c, X_process.c with its process_type, a line in process_type.c,
- * its members in job_spec.h, its runner in the worker (server/worker/run/job_run.c). Its tables in the daemon follow from its rows. */
+ * A new one takes X_fields.c (inputs), X_rules.c, X_result_fields.c, X_process.c with its process_type, a line in process_type.c, its
+ * members in job_spec.h and its runner in the worker (server/worker/run/job_run.c). Its tables in the daemon follow from its rows. */
 #ifndef PROCESS_TYPE_H
 #define PROCESS_TYPE_H
 

@@ -4,8 +4,8 @@
 
 #include <jansson.h>
 
-/* The target with the patch applied; neither is changed, and what is the same is shared with them. target may be NULL (nothing there). New reference; NULL: no
- * memory. */
+/* Returns the target with the patch applied, as a new reference which shares with both what is the same; neither is changed. target
+ * may be NULL: there is nothing yet. NULL: no memory. */
 json_t *json_merge_patch(const json_t *target, const json_t *patch);
 
 #endif

@@ -11,7 +11,7 @@
 
 enum {
     HORIZON = 8,             /* steps between two picks of the inner list, at most */
-    PICKS_BETWEEN_LOOKS = 2, /* at each place and velocity as it is, at most */
+    PICKS_BETWEEN_LOOKS = 2, /* at most, between two checks of every sphere's place and velocity (failure_check_places) */
 };
 
 /* Bounds of all spheres. */
@@ -27,9 +27,9 @@ typedef struct neighbor_list {
     double least_margin, most_margin;
     int steps_apart; /* by which the places of spheres may be apart in time: zero but where waves end early (wave.h) */
     int safe_steps;
-    outlook at_pick; /* as looked at then, or before and bounded from there */
+    outlook at_pick; /* bounds at the last pick: measured then, or extrapolated from an earlier measurement */
     bool inner_valid;
-    half_row *picked_velocity; /* (mobile) m/s at the pick, and a fourth number that nobody reads */
+    half_row *picked_velocity; /* (mobile) m/s at the last pick; the fourth number is not used */
     contact_list pairs, pairs_before;
     contact_list walls, walls_before; /* sphere against wall: wall_reach.h */
     uint32_t *wall_start;             /* (mobile + 1) where each sphere's begin in `walls` */
@@ -48,11 +48,12 @@ typedef struct neighbor_list {
 dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, const dem_scene_definition *definition);
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
-/* The next update picks, from spheres whose places may be as many steps apart: those that are ahead wait for the others. */
+/* Makes the next update pick anew, while a wave has stopped and some spheres are up to steps_apart steps ahead of others: the pick
+ * then lists every pair that may touch at any of these steps. */
 void neighbor_list_expire(neighbor_list *list, int steps_apart);
 /* Makes whichever list is no longer safe again, so that the contacts of this step are all in `pairs` and
- * `walls`. Returns DEM_NO_MEMORY when a list cannot grow. looked: whether it is time to look at each sphere's place and
- * velocity: one that is no number is in no bound. */
+ * `walls`. looked: becomes whether it is time to check the place and velocity of every sphere, because the bounds do not notice
+ * one that is not a number. Errors: DEM_NO_MEMORY. */
 dem_status neighbor_list_update(neighbor_list *list, spheres *spheres, const container *vessel,
                                 const dem_contact_parameters *contact, double time_step, int threads, bool *looked);
 /* Tell the list of a finished step: the largest |v - v at the pick| of all spheres, m/s. */

@@ -20,8 +20,8 @@ typedef struct outer_list {
     size_t pair_count, pair_capacity, second_capacity;
     uint32_t *start;         /* (mobile + 1) */
     int32_t *first, *second; /* (pair_capacity, second_capacity) by first, then by second; padded with a pair far apart */
-    uint32_t *farthest;     /* (mobile / STRETCH + 1) for waves: of each stretch, the last sphere that it or one of its pairs has */
-    uint16_t *in_reach;     /* (pair_capacity / LANES) a bit a pair: picked for the inner list */
+    uint32_t *farthest;     /* (mobile / STRETCH + 1) for waves: the last sphere of each stretch or of a pair that begins in it */
+    uint16_t *in_reach;     /* (pair_capacity / LANES) one bit for each pair: it is picked for the inner list */
     uint16_t *was_in_reach; /* likewise, at the pick before */
     pair_part part[MOST_PARTS];
     ring_row *built_at;    /* (mobile) places when the list was made */
@@ -30,10 +30,11 @@ typedef struct outer_list {
     int64_t builds;
 } outer_list;
 
-/* A list of nothing, in a struct of zeros. Errors: DEM_NO_MEMORY; outer_list_clear is due then, too. */
+/* Makes an empty list of a struct of zeros. Errors: DEM_NO_MEMORY; the caller then calls outer_list_clear, too. */
 dem_status outer_list_init(outer_list *list, const spheres *spheres, double skin);
 void outer_list_clear(outer_list *list);
-/* Makes the list from the places of now. shares: whose spheres each thread lists. Errors: DEM_NO_MEMORY. */
+/* Makes the list from the places of now. Each thread lists the neighbors of the spheres that its part in `shares` owns. Errors:
+ * DEM_NO_MEMORY. */
 dem_status outer_list_build(outer_list *list, const spheres *spheres, const container *vessel, const contact_parts *shares,
                             int threads);
 

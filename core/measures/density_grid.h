@@ -43,7 +43,8 @@ typedef struct density_grid {
 /* Cells of a quarter of the mean diameter. Errors: DEM_NO_MEMORY. */
 dem_status density_grid_init(density_grid *grid, const dem_scene *scene);
 void density_grid_clear(density_grid *grid);
-/* Each sphere's volume (of a cluster's: its share of the cluster's volume) projected along the axis and spread over one mean diameter. */
+/* Adds the volume of each sphere (of a cluster's sphere: its share of the cluster's), projected along the axis and spread over one
+ * mean diameter. */
 void density_grid_deposit(density_grid *grid, const dem_scene *scene, double turned);
 /* Sets the surface: per column, the height where the solid fraction falls, from the bed up, through half the core's. */
 void density_grid_find_surface(density_grid *grid);

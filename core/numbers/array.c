@@ -13,8 +13,8 @@
 
 enum { HUGE_PAGE = 1 << 21, LARGE = 2 * HUGE_PAGE };
 
-/* Behind an array, what the processor fetches ahead of whoever works on its end: else that is the beginning of another array,
- * which it takes from the thread that works there. */
+/* Bytes of padding behind each array. The hardware prefetcher reads past the end of an array; without the padding it would fetch the
+ * beginning of another one, and so take cache lines away from the thread that writes there. */
 enum { FETCHED_AHEAD = 2048 };
 
 void arrays_prepare(void)
@@ -44,8 +44,8 @@ void *array_create(size_t count, size_t size)
     const size_t bytes = (count * size + FETCHED_AHEAD + alignment - 1) / alignment * alignment;
     void *memory = aligned_alloc(alignment, bytes);
     if (!memory) return refuse();
-    /* Thousands of spheres apart from each other are read at once: with small pages their addresses miss. If there are no huge
-     * pages, it is as it was. */
+    /* A step reads thousands of scattered spheres, which with small pages would miss the TLB. Where the kernel has no huge pages, the
+     * memory is as useful without. */
     if (alignment == HUGE_PAGE) madvise(memory, bytes, MADV_HUGEPAGE);
     memset(memory, 0, bytes);
     return memory;

@@ -21,14 +21,14 @@ typedef struct energy_audit {
     double wall_work;    /* J, done by the drum: its torque times what it turned */
 } energy_audit;
 
-/* N m about the axis, of a drum with its lining on the bed, from the loads; positive turns counter-clockwise: contacts between spheres exchange momentum at one point, so their moments about
- * the axis cancel in the sum over all mobile spheres. */
+/* Torque, N m about the axis, of a drum with its lining on the bed; positive turns counter-clockwise. It is the sum over the loads of
+ * all mobile spheres, in which the moments of contacts between them cancel, because both act at one point. */
 double energy_torque_of_loads(const spheres *spheres);
-/* W, of the contacts' forces `load` on the particles, with the velocities of now. */
+/* Power, W, of the contacts' forces `load` on the particles at their present velocities. */
 double energy_contact_power(const spheres *spheres, const row8 *load);
-/* J: kinetic energy and that of height above the axis, half a step ago, where velocities are known. What changes it is the
- * contacts' work: with forces at a step and the mean of the velocities half a step before and after, leap-frog keeps
- * that balance to the last digit. */
+/* Kinetic and potential energy, J, of the particles half a step ago, where velocities are known; height counts from the axis. Only
+ * the contacts' work changes it: leap-frog keeps that balance to the last digit, where the work is taken with the forces at a
+ * step and the mean of the velocities half a step before and after. */
 double energy_of_particles(const spheres *spheres, double gravity, double dt);
 
 #endif

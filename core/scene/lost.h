@@ -8,14 +8,16 @@
 /* Only a tube on a plate loses particles. Errors: DEM_NO_MEMORY. */
 dem_status lost_init(dem_scene *scene);
 void lost_clear(dem_scene *scene);
-/* Looks for particles that fell below the plate, or tipped over its edge so far that one of their spheres is beneath it, every so many steps: when does not depend on how a run is divided. */
+/* Lays particles on the tray that fell below the plate, or tipped over its edge so far that one of their spheres is beneath it.
+ * It looks for them every so many steps, counted from the run's first, so that a run in pieces loses the same ones. */
 void lost_look(dem_scene *scene);
-/* A sphere below the plate that did not tip over its edge. Who comes around the edge, or sinks in so slowly that an overlap
- * of half a radius tells of it, moves by less than its radius in a step. */
+/* Whether sphere i is below the plate without having tipped over the edge, which means that it was too fast for the time step: a
+ * sphere that comes around the edge, or sinks in so slowly that an overlap of half a radius is noticed, moves by less than its
+ * radius in a step. */
 bool lost_came_through_plate(const dem_scene *scene, size_t i);
-/* After each step: back to their places, at rest. */
+/* After each step: puts lost particles back to their places on the tray, at rest. */
 void lost_hold(dem_scene *scene);
-/* After places were restored: who lies on the tray was lost. */
+/* After places were restored: marks the particles that lie on the tray as lost. */
 void lost_recognize(dem_scene *scene);
 
 #endif

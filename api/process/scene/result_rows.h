@@ -41,10 +41,12 @@
       LABEL("particle steps a second"), SHOWN(1, "", 3), .meaning = "speed: spheres times steps a second", \
       IN_VIEW(830) }, \
     { "run", NULL, "maximum_overlap", RESULT_REAL, RUN(maximum_overlap), "", \
-      LABEL("largest overlap"), SHOWN(100, " % of the smallest diameter", 3), .meaning = "largest overlap " meanwhile ", as a share of the smallest diameter", \
+      LABEL("largest overlap"), SHOWN(100, " % of the smallest diameter", 3), \
+      .meaning = "largest overlap " meanwhile ", as a share of the smallest diameter", \
       IN_VIEW(840), MAIN, IN_STUDY(110) }, \
     { "run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", \
-      LABEL("stiffness"), SHOWN(1, " N/m", 4), .meaning = "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected" }, \
+      LABEL("stiffness"), SHOWN(1, " N/m", 4), \
+      .meaning = "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected" }, \
     { "run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", \
       LABEL("samples"), .meaning = "frames of measurement" }, \
     { "run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", \
@@ -66,7 +68,8 @@
     RUN_WARNINGS
 
 #define RUN_WARNINGS \
-    { "run", NULL, "warnings", RESULT_WARNINGS, 0, "", .meaning = "what the run knows of itself and its numbers do not show at a glance", \
+    { "run", NULL, "warnings", RESULT_WARNINGS, 0, "", \
+      .meaning = "what the run knows of itself and its numbers do not show at a glance", \
       IN_VIEW(870), LISTED, IN_STUDY(5) }
 /* clang-format on */
 

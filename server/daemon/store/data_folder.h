@@ -22,8 +22,9 @@ void data_folder_close(data_folder *data);
 bool job_folder_create(const data_folder *data, const char *id, const char *spec);
 /* From now on the folder, and the files in it that are safe by themselves, are there for good. False: errno says why. */
 bool job_folder_sync(const data_folder *data, const char *id);
-/* Gives jobs/<id>, made if need be, another job's file as start.hdf: a second name for it, or a copy where the file system has
- * no such thing. Safe on the disk after job_folder_sync or data_folder_sync. folder: in the other job's, NULL: that itself. False: errno says why. */
+/* Gives jobs/<id>, which is made where it is missing, the file `name` of job `from` as start.hdf: by a second name for that file, or
+ * by a copy where the file system has no links. folder: where the file is in the other job's folder; NULL: at its top. It is safe on
+ * the disk after job_folder_sync or data_folder_sync. False: errno says why. */
 bool job_folder_add_start(const data_folder *data, const char *id, const char *from, const char *folder, const char *name);
 /* Takes back what job_folder_create made; leaves anything else. */
 void job_folder_discard(const data_folder *data, const char *id);

@@ -16,8 +16,9 @@ sqlite3 *database_open_reader(const char *path);
 /* Any connection on which the functions below were used. NULL is nothing. */
 void database_close(sqlite3 *database);
 
-/* Prepares, or takes the statement that was prepared before (statement_cache.h), and binds: types has one letter a value: i int64_t, d double (NaN becomes NULL), t text (may be NULL).
- * Texts are lent until the statement ends. NULL: the problem is logged. */
+/* Takes the statement that was prepared for this text before (statement_cache.h), or prepares it, and binds the values. types has
+ * one letter for each: i int64_t, d double (NaN becomes NULL), t text (may be NULL). The caller keeps texts until the statement
+ * ends. NULL: the problem is in the log. */
 sqlite3_stmt *sql_prepare(sqlite3 *database, const char *sql, const char *types, ...);
 /* The same for a statement without rows. *changed, where not NULL: rows changed. */
 store_status sql_run(sqlite3 *database, int64_t *changed, const char *sql, const char *types, ...);

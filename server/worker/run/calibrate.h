@@ -7,10 +7,10 @@
 
 #include "calibration.h"
 
-/* The calibration of `folder`; where that has none of this processor and this program, the one of the user's cache, from
- * where it is copied; where that has none either it is measured, and kept in both (in the folder alone what was measured in part, for want of time). folder NULL: ./data where that is a
- * folder, else the cache alone. False: it could not be measured (said on stderr); *machine is then the built-in one. What
- * can't be kept is only warned of. */
+/* Sets *machine to the calibration of this processor and program. It is looked for in `folder`, then in the user's cache, from where
+ * it is copied; else it is measured, and kept in both. One that was measured in part, for want of time, is kept in the folder
+ * alone. folder NULL: ./data where there is such a folder, else the cache alone. False: it could not be measured (stderr says
+ * why), and *machine is the built-in one. A calibration that can't be kept is only warned of. */
 bool calibrate(const char *folder, calibration *machine, bool *is_new);
 
 /* Of the same machine and program as before? */

@@ -9,7 +9,8 @@
 #include "problem.h"
 
 bool study_report_is_study(const json_t *document); /* it has a base, as no job has */
-/* machine: NULL: built-in figures. {"name", "cases": [{"case", "inputs"}], "repeats", "estimate", "warnings"}. New reference; NULL: problems say why. */
+/* What `repose check` says of a study: {"name", "cases": [{"case", "inputs"}], "repeats", "estimate", "warnings"}. machine NULL:
+ * estimates by built-in figures. Returns a new reference; NULL: problems say why. */
 json_t *study_report(const json_t *document, uint64_t seed_if_missing, const calibration *machine, problem_list *problems);
 
 #endif
