@@ -1,6 +1,7 @@
 #include "measure.h"
 
 #include "array.h"
+#include "dem_rules.h"
 #include "interface.h"
 #include "statistics.h"
 
@@ -38,6 +39,21 @@ double frame_window_deviation(const frame_window *window, size_t column)
     const double deviation = values ? statistics_deviation(values, window->count) : NAN;
     free(values);
     return deviation;
+}
+
+double frame_window_error(const dem_scene *scene, const frame_window *window, const double *column)
+{
+    const double length = window->frames[(window->count - 1) * window->width + FRAME_TIME] - window->frames[FRAME_TIME];
+    const double revolution = 2 * DEM_PI / fabs(scene->definition.rotation_rate); /* infinite of a drum at rest */
+    const double frames = fmin(revolution / length, 1.0) * (double)window->count;
+    return statistics_standard_error_of_memory(column, window->count, frames >= 1 ? (size_t)frames : 0);
+}
+
+double frame_window_share_seen(const frame_window *window, size_t column)
+{
+    size_t seen = 0;
+    for (size_t k = 0; k < window->count; k++) seen += !isnan(window->frames[k * window->width + column]);
+    return (double)seen / (double)window->count;
 }
 
 static double coordination_number(const spheres *s, const int32_t *contacts)

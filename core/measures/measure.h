@@ -38,12 +38,17 @@ double *frame_window_column(const frame_window *window, size_t column);
 double frame_window_mean(const frame_window *window, size_t column);
 double frame_window_deviation(const frame_window *window, size_t column);
 frame_window frame_window_from(const frame_window *window, double time); /* the frames from then on, the last at least */
+/* Of a column's mean. The particles of a bed come by again within a revolution, and with them what they had of the mean. */
+double frame_window_error(const dem_scene *scene, const frame_window *window, const double *column);
 
 /* Of a bed that flows: where the climb from rest and the transient are over, which is after a quarter revolution (a quarter
  * of the run where that is shorter) or when the angle has stopped drifting, whichever is later. Of one that falls: from where
  * the surface was steepest before the first fall began. */
 frame_window measure_window_of_flow(const dem_scene *scene, const frame_window *all);
 frame_window measure_window_of_falls(const dem_scene *scene, const frame_window *all, double first_start);
+
+/* Share of the frames that have a value. */
+double frame_window_share_seen(const frame_window *window, size_t column);
 
 double measure_layers(const dem_scene *scene); /* depth of the bed at mid-chord, in mean diameters */
 bool measure_has_bed(const dem_scene *scene);  /* else there is no surface to measure an angle of */

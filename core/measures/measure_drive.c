@@ -19,19 +19,19 @@ void measure_drive_frame(dem_scene *scene, double *frame)
     frame[FRAME_WEIGHT_TORQUE] = moment * scene->definition.gravity;
 }
 
-static dem_mean mean_of_column(const frame_window *window, size_t column)
+static dem_mean mean_of_column(const dem_scene *scene, const frame_window *window, size_t column)
 {
     double *values = frame_window_column(window, column);
     if (!values) return (dem_mean){ NAN, NAN };
-    const dem_mean result = { statistics_mean(values, window->count), statistics_standard_error(values, window->count) };
+    const dem_mean result = { statistics_mean(values, window->count), frame_window_error(scene, window, values) };
     free(values);
     return result;
 }
 
 void measure_drive_results(const dem_scene *scene, const frame_window *window, dem_drive_result *result)
 {
-    result->torque = mean_of_column(window, FRAME_TORQUE);
-    result->weight_torque = mean_of_column(window, FRAME_WEIGHT_TORQUE);
+    result->torque = mean_of_column(scene, window, FRAME_TORQUE);
+    result->weight_torque = mean_of_column(scene, window, FRAME_WEIGHT_TORQUE);
     result->power = result->torque.mean * scene->definition.rotation_rate;
     result->torque_number = result->torque.mean / (bed_mass(&scene->spheres) * scene->definition.gravity * scene->container.radius);
 }

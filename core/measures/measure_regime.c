@@ -34,11 +34,14 @@ static double mean_of(const mean *m) { return m->count > 0 ? m->sum / m->count :
 
 enum { WALL_BINS = 72 };
 
-static double share_of_bins(const bool bins[WALL_BINS])
+/* Sectors of the wall, none narrower than a diameter: a full layer leaves some of those empty. */
+static int wall_bins(double radius, double d) { return (int)fmin(fmax(floor(2 * DEM_PI * radius / d), 8), WALL_BINS); }
+
+static double share_of_bins(const bool *bins, int count)
 {
     int covered = 0;
-    for (int b = 0; b < WALL_BINS; b++) covered += bins[b];
-    return covered / (double)WALL_BINS;
+    for (int b = 0; b < count; b++) covered += bins[b];
+    return covered / (double)count;
 }
 
 /* Slip of the bed's inner surface against the drum, rad a revolution. It is the mean over the spheres that were within d of the
@@ -78,6 +81,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     const double sense = rate < 0 ? -1 : 1; /* in which the surface rises */
     mean wall_spin = { 0 }, flow = { 0 }, airborne = { 0 };
     bool bins[WALL_BINS] = { false };
+    const int bin_count = wall_bins(wall, d);
     for (size_t i = 0; i < s->mobile_count; i++) {
         const double *x = sphere_place(s, i);
         const vector4 v = s->velocity[i];
@@ -87,7 +91,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
         mean_add(&airborne, contacts[i] == 0 && above_chord > 3 * d);
         if (rho > wall - d) {
             if (!(above_chord > -3 * d)) mean_add(&wall_spin, spin); /* the bed's own, not what falls at its ends */
-            bins[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (WALL_BINS - 1e-9))] = true;
+            bins[(int)((atan2(x[1], x[0]) / (2 * DEM_PI) + 0.5) * (bin_count - 1e-9))] = true;
         }
         if (rho < inner - 2 * d) s->fallen_time[i] = (float)time;
         /* Flow of the layer at the middle of the chord: downslope speed, over all that is there. What moves with the drum
@@ -97,7 +101,7 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     }
     frame[FRAME_AIRBORNE] = mean_of(&airborne);
     frame[FRAME_WALL_SLIP] = rate != 0 ? 1 - mean_of(&wall_spin) / rate : NAN;
-    frame[FRAME_WALL_COVERAGE] = share_of_bins(bins);
+    frame[FRAME_WALL_COVERAGE] = share_of_bins(bins, bin_count);
     frame[FRAME_FLOW_SPEED] = mean_of(&flow);
     frame[FRAME_SURFACE_LAG] = rate != 0 ? surface_lag(scene, inner, d) : NAN;
 }

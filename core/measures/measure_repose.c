@@ -141,13 +141,18 @@ dem_status measure_repose_frame(const dem_scene *scene, const int32_t *contacts,
 
 /* ---- results over the window ---- */
 
-static dem_angle angle_of_column(const frame_window *window, size_t column)
+/* A bed that loses its surface, or has it now and then, has no angle. Where it has one most of the time, the moments without it
+ * are not like those with it: another bed, of which others are missing, shows more than these tell. */
+static dem_angle angle_of_column(const dem_scene *scene, const frame_window *window, size_t column)
 {
+    static const double LEAST_SEEN = 0.5, LEAST_SEEN_FOR_ERROR = 0.9; /* shares of the frames */
     dem_angle angle = { NAN, NAN, NAN, NAN };
+    const double seen = frame_window_share_seen(window, column);
+    if (seen < LEAST_SEEN) return angle;
     double *values = frame_window_column(window, column);
     if (!values) return angle;
     angle.mean_deg = statistics_mean(values, window->count);
-    angle.standard_error_deg = statistics_standard_error(values, window->count);
+    if (seen >= LEAST_SEEN_FOR_ERROR) angle.standard_error_deg = frame_window_error(scene, window, values);
     for (size_t k = 0; k < window->count; k++) {
         angle.minimum_deg = fmin(angle.minimum_deg, values[k]);
         angle.maximum_deg = fmax(angle.maximum_deg, values[k]);
@@ -159,7 +164,7 @@ static dem_angle angle_of_column(const frame_window *window, size_t column)
 /* From the interface averaged over time; its error and range from the frames' own chords. */
 static dem_angle angle_of_mean_interface(const dem_scene *scene, const frame_window *window, double *fluctuation)
 {
-    dem_angle angle = angle_of_column(window, FRAME_CHORD);
+    dem_angle angle = angle_of_column(scene, window, FRAME_CHORD);
     *fluctuation = NAN;
     if (!isnan(angle.mean_deg)) {
         /* The ends of the interface, where the bed meets the wall, come and go. */
@@ -179,7 +184,7 @@ void measure_repose_results(const dem_scene *scene, const frame_window *window, 
         { DEM_UPPER_CHORD, FRAME_UPPER_CHORD }, { DEM_LOWER_CHORD, FRAME_LOWER_CHORD },
     };
     for (size_t k = 0; k < sizeof columns / sizeof *columns; k++)
-        result->angle[columns[k].method] = angle_of_column(window, columns[k].column);
+        result->angle[columns[k].method] = angle_of_column(scene, window, columns[k].column);
     result->angle[DEM_CHORD] = angle_of_mean_interface(scene, window, &result->interface_fluctuation);
     result->frames = window->count;
     result->window_start = window->frames[FRAME_TIME];

@@ -16,7 +16,9 @@ frame_window measure_window_of_flow(const dem_scene *scene, const frame_window *
     const double quarter_turn = scene->definition.rotation_rate != 0 ? 0.5 * DEM_PI / fabs(scene->definition.rotation_rate) : 0.0;
     const double last = all->frames[(all->count - 1) * all->width + FRAME_TIME];
     const frame_window rest = frame_window_from(all, fmin(quarter_turn, 0.25 * last));
-    double *angle = frame_window_column(&rest, FRAME_SURFACE_FIT);
+    /* A bed that loses its surface shows the transient in the moment of its weight alone. */
+    const bool has_surface = frame_window_share_seen(&rest, FRAME_SURFACE_FIT) >= 0.5;
+    double *angle = frame_window_column(&rest, has_surface || !measure_has_bed(scene) ? FRAME_SURFACE_FIT : FRAME_WEIGHT_TORQUE);
     const size_t cut = angle ? statistics_transient(angle, rest.count) : 0;
     free(angle);
     return (frame_window){ rest.frames + cut * rest.width, rest.count - cut, rest.width };

@@ -85,23 +85,27 @@ static bool is_window(double tau, size_t lag, double n)
     return exp(-w / decay) < decay / sqrt(w * n);
 }
 
-/* Variance of the mean of the n values that are there. */
-static double variance_of_mean(const double *x, size_t count, double n)
+/* Variance of the mean of the n values that are there, from Wolff's window or from one of `memory` lags, whichever gives more. */
+static double variance_of_mean(const double *x, size_t count, double n, size_t memory)
 {
     const double mean = statistics_mean(x, count), naive = autocovariance(x, count, mean, 0);
     if (!(naive > 0)) return 0.0;
-    double sum = naive, terms = 1;
-    for (size_t lag = 1; lag < count / 2; lag++) {
+    /* A series that swings back is not credited with it: no less than independent values. */
+    double sum = naive, terms = 1, largest = naive * n / (n - 1);
+    bool is_over = false;
+    for (size_t lag = 1; lag < count / 2 && (!is_over || lag <= memory); lag++) {
         sum += 2 * autocovariance(x, count, mean, lag);
         terms += 2;
-        if (is_window(0.5 * sum / naive, lag, n)) break;
+        const bool ends = !is_over && (is_window(0.5 * sum / naive, lag, n) || lag + 1 >= count / 2);
+        /* Each covariance was taken about the mean of the series rather than the true one, which makes it too small by the
+         * variance of that mean. */
+        if (ends || lag == memory) largest = fmax(largest, sum * (1 + terms / n));
+        is_over = is_over || ends;
     }
-    /* Each covariance was taken about the mean of the series rather than the true one, which makes it too small by the
-     * variance of that mean. A series that swings back is not credited with it: no less than independent values. */
-    return fmax(sum * (1 + terms / n), naive * n / (n - 1)) / n;
+    return largest / n;
 }
 
-double statistics_standard_error(const double *x, size_t count)
+double statistics_standard_error_of_memory(const double *x, size_t count, size_t memory)
 {
     size_t n = 0;
     for (size_t k = 0; k < count; k++) n += !isnan(x[k]);
@@ -109,13 +113,19 @@ double statistics_standard_error(const double *x, size_t count)
     double *values = array_create(count, sizeof *values);
     if (!values) return NAN;
     memcpy(values, x, count * sizeof *values);
-    while (count > MOST_VALUES) count = average_pairs(values, count);
+    while (count > MOST_VALUES) {
+        count = average_pairs(values, count);
+        memory /= 2;
+    }
     n = 0;
     for (size_t k = 0; k < count; k++) n += !isnan(values[k]);
-    const double variance = variance_of_mean(values, count, (double)n);
+    const size_t most = count / 4; /* lags that a series can tell of */
+    const double variance = variance_of_mean(values, count, (double)n, memory < most ? memory : most);
     free(values);
     return sqrt(variance);
 }
+
+double statistics_standard_error(const double *x, size_t count) { return statistics_standard_error_of_memory(x, count, 0); }
 
 double statistics_correlation_length(const double *x, size_t count)
 {

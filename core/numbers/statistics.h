@@ -13,6 +13,11 @@ double statistics_median(double *x, size_t count);          /* reorders x */
  * too small for shorter ones (0.84 of it at five). NaN for fewer than 8 values. */
 double statistics_standard_error(const double *x, size_t count);
 
+/* The same of a series whose values are known to come back, weaker, within `memory` values: it may pass through zero before
+ * that, where the window would end. The autocovariances up to there are summed, too (over no more than a quarter of the series),
+ * and the larger error counts. */
+double statistics_standard_error_of_memory(const double *x, size_t count, size_t memory);
+
 /* How many values of the series tell as much of the mean as one independent value: n (SE / deviation)^2; about 1 when
  * uncorrelated. */
 double statistics_correlation_length(const double *x, size_t count);

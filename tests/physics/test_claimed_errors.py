@@ -70,14 +70,20 @@ OF_DRUM = {"angle", "center-of-mass", "chord", "theil-sen", "upper-chord", "lowe
 OF_FALLS = {"start", "stop", "size", "period"}
 
 
-def small_bed(friction, rate, **duration):
+def small_bed(friction, rate, fill=0.5, **duration):
     return {"drum": {"diameter": 0.06, "length": 0.02, "rotation_rate": rate}, "particles": [{"diameter": 0.004}],
-            "contact": {"friction": friction, "maximum_overlap": 0.03, "restitution": 0.5}, "duration": duration}
+            "fill_fraction": fill, "contact": {"friction": friction, "maximum_overlap": 0.03, "restitution": 0.5},
+            "duration": duration}
 
 
 # what is made, which process, and what claims an error
 KINDS = {
     "rolling": ("drum", small_bed(0.3, 3.0, revolutions=3), OF_DRUM),
+    "rolling or slipping": ("drum", small_bed(0.3, 7.0, revolutions=4), OF_DRUM),
+    "cascading": ("drum", small_bed(1.0, 14.0, fill=0.55, revolutions=4), OF_DRUM),
+    "cataracting": ("drum", small_bed(0.8, 17.0, revolutions=6), OF_DRUM),
+    "raining": ("drum", small_bed(0.3, 24.0, revolutions=10), {"torque", "weight_torque"}),  # a ring has no angle
+    "centrifuging": ("drum", small_bed(0.3, 40.0, revolutions=16), {"torque", "weight_torque"}),
     "slipping": ("drum", small_bed(0.3, 16.0, revolutions=8), OF_DRUM),
     "avalanching": ("drum", small_bed(0.5, math.pi / 32, seconds=20), OF_DRUM | OF_FALLS),
     "slumping": ("drum", small_bed(0.02, math.pi / 2, seconds=5), {"center-of-mass", "torque", "weight_torque", "period"}),
@@ -110,7 +116,7 @@ def test_every_error_claimed_is_what_another_bed_shows(tmp_path, kind):
     def claims(seed):
         result = run(tmp_path, f"seed{seed}", {**inputs, "snapshots": {"interval": 0}, "seed": seed}, process)
         if process == "drum":
-            assert result["regime"]["name"] == kind and result["regime"]["certain"]
+            assert result["regime"]["name"] in kind.split(" or ") and (result["regime"]["certain"] or " or " in kind)
             assert result["repose"]["verdict"] != "too-few"
         return claims_of(result)
 

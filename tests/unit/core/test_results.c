@@ -115,6 +115,49 @@ static void too_few_frames_are_refused_and_missing_values_left_out(void **unused
     dem_scene_free(scene);
 }
 
+/* In `missing` of ten frames, spread evenly, the bed has no surface. */
+static dem_angle angle_without(const dem_scene *scene, size_t missing)
+{
+    const size_t width = dem_frame_width(scene);
+    double *table = steady_table(scene);
+    for (size_t k = 0; k < FRAMES; k++)
+        if (7 * k % 10 < missing) table[k * width + FRAME_SURFACE_FIT] = NAN;
+    const dem_drum_results r = results_of(scene, table, FRAMES);
+    free(table);
+    return r.repose.angle[DEM_SURFACE_FIT];
+}
+
+static void a_surface_that_is_seen_now_and_then_has_no_angle_and_one_that_is_missed_no_error(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(2);
+    assert_true(angle_without(scene, 1).standard_error_deg > 0);
+    const dem_angle missed = angle_without(scene, 3), rare = angle_without(scene, 6);
+    CHECK_NEAR(missed.mean_deg, 25, 0.5);
+    assert_true(isnan(missed.standard_error_deg));
+    assert_true(isnan(rare.mean_deg) && isnan(rare.standard_error_deg) && isnan(rare.maximum_deg));
+    dem_scene_free(scene);
+}
+
+/* Once the bed has no surface, only its moment shows when it has come to rest against the wall. */
+static void the_transient_of_a_bed_that_loses_its_surface_is_told_from_its_moment(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = any_scene(2);
+    const size_t width = dem_frame_width(scene);
+    double *table = steady_table(scene);
+    for (size_t k = 0; k < FRAMES; k++) {
+        double *f = table + k * width;
+        if (f[FRAME_TIME] > 2) f[FRAME_SURFACE_FIT] = NAN;
+        f[FRAME_WEIGHT_TORQUE] = exp(-f[FRAME_TIME]) + (k % 2 ? 0.001 : -0.001);
+    }
+    const dem_drum_results r = results_of(scene, table, FRAMES);
+    assert_true(isnan(r.repose.angle[DEM_SURFACE_FIT].mean_deg));
+    CHECK_BETWEEN(r.repose.window_start, 3, 10); /* 0.05 of the moment left after 3 s; half of the run is 10 s */
+    free(table);
+    dem_scene_free(scene);
+}
+
 /* The interface that a GranuDrum would average: its slope between +-D/10, and how much it fluctuates. */
 static void the_chord_and_the_fluctuation_are_those_of_the_mean_interface(void **unused)
 {
@@ -252,6 +295,8 @@ int main(void)
         cmocka_unit_test(a_steady_table_has_its_mean_error_and_range),
         cmocka_unit_test(a_transient_is_left_out_and_a_drift_is_told),
         cmocka_unit_test(too_few_frames_are_refused_and_missing_values_left_out),
+        cmocka_unit_test(a_surface_that_is_seen_now_and_then_has_no_angle_and_one_that_is_missed_no_error),
+        cmocka_unit_test(the_transient_of_a_bed_that_loses_its_surface_is_told_from_its_moment),
         cmocka_unit_test(the_chord_and_the_fluctuation_are_those_of_the_mean_interface),
         cmocka_unit_test(regimes_are_told_from_how_the_bed_moves),
         cmocka_unit_test(avalanches_that_shake_the_wall_are_no_slumps),

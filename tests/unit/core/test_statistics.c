@@ -54,6 +54,30 @@ static void the_standard_error_of_a_correlated_series_is_the_scatter_of_its_mean
     }
 }
 
+/* x_k = x_(k-12)/2 + noise of deviation 1, nothing else: the mean of n has the error 2/sqrt(n), three times the variance of
+ * independent values. Two echoes are summed up to lag 24, 2.5 of the 3: 0.91 of the error. A window that ends where the
+ * correlation first vanishes sees none, 0.58. 2000 independent means are known to 1.6 %. */
+static void an_error_that_remembers_counts_the_echoes_that_a_window_misses(void **unused)
+{
+    (void)unused;
+    enum { ECHO = 12, COUNT = 400, SERIES = 2000 };
+    static double x[100 + COUNT];
+    dice d = { 23 };
+    double with = 0, without = 0, means = 0;
+    for (int s = 0; s < SERIES; s++) {
+        for (size_t k = 0; k < 100 + COUNT; k++) x[k] = (k < ECHO ? 0 : 0.5 * x[k - ECHO]) + dice_normal(&d);
+        const double a = statistics_standard_error_of_memory(x + 100, COUNT, 24), b = statistics_standard_error(x + 100, COUNT);
+        const double mean = statistics_mean(x + 100, COUNT);
+        with += a * a / SERIES;
+        without += b * b / SERIES;
+        means += mean * mean / SERIES;
+        assert_true(a >= b);
+    }
+    CHECK_NEAR(sqrt(means) / (2 / sqrt(COUNT)), 1, 0.05); /* the closed form */
+    CHECK_BETWEEN(sqrt(with / means), 0.86, 1.0);
+    CHECK_BETWEEN(sqrt(without / means), 0.5, 0.72);
+}
+
 /* Five correlation lengths hold too little for any method; how much too little is said in statistics.h. */
 static void a_series_of_five_correlation_lengths_claims_too_small_an_error(void **unused)
 {
@@ -201,6 +225,7 @@ int main(void)
         cmocka_unit_test(a_series_of_five_correlation_lengths_claims_too_small_an_error),
         cmocka_unit_test(a_series_longer_than_is_summed_over_has_the_same_error),
         cmocka_unit_test(the_correlation_length_of_an_uncorrelated_series_is_near_one_and_grows_with_memory),
+        cmocka_unit_test(an_error_that_remembers_counts_the_echoes_that_a_window_misses),
         cmocka_unit_test(too_few_values_have_no_standard_error),
         cmocka_unit_test(the_transient_ends_where_the_step_is),
         cmocka_unit_test(a_decaying_start_is_cut_to_below_the_noise),
