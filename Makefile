@@ -6,6 +6,7 @@ TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-reque
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
 PEER_PACKAGES := lammps liggghts
 LINT_PACKAGES := clang-format clang-tidy cppcheck bear
+FUZZ_PACKAGES := clang libclang-rt-dev
 
 , := ,
 PYTHON := /usr/bin/python3
@@ -13,6 +14,8 @@ BUILD := build
 DATA := data
 PORT := 8080
 TORTURE := tests/service
+SECONDS := 60
+FUZZ_CC := clang
 CC := gcc
 OPT := -O2
 WARNINGS := -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wundef -Wvla $(if $(CI),-Werror)
@@ -181,6 +184,21 @@ $(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) $(addprefix -I,$(server/daemon_SEES)) -Itests/unit $< $(BUILD)/libdaemon.a \
 	  $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm -o $@
+# Fuzzers are linked with what they read alone: those of the worker's files with the core, those of what comes in with the daemon.
+FUZZERS := $(patsubst tests/fuzz/%.c,$(BUILD)/%,$(wildcard tests/fuzz/fuzz_*.c))
+FUZZ_HEADERS := $(wildcard tests/fuzz/*.h)
+WORKER_FILES := $(filter $(BUILD)/server/worker/files/%,$(WORKER))
+# $(call fuzz,FOLDERS OF HEADERS,OBJECTS,LIBRARIES)
+fuzz_link = $(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) $(1) $< $(2) $(BUILD)/libapi.a $(RULES) -fsanitize=fuzzer $(LDFLAGS) $(3) -ljansson -lm -o $@
+$(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(BUILD)/libapi.a $(RULES)
+	$(SAY) link $@
+	$(call fuzz_link)
+$(BUILD)/fuzz_checkpoint $(BUILD)/fuzz_start: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(WORKER_FILES) $(BUILD)/libapi.a $(RULES) $(DEM)
+	$(SAY) link $@
+	$(call fuzz_link,$(HDF5_CFLAGS) $(addprefix -I,$(server/worker/files_SEES)),$(WORKER_FILES),$(DEM) -lgomp $(HDF5_LIBS))
+$(BUILD)/fuzz_events $(BUILD)/fuzz_request $(BUILD)/fuzz_result: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(DAEMON_PARTS) $(BUILD)/libapi.a $(RULES)
+	$(SAY) link $@
+	$(call fuzz_link,$(addprefix -I,$(server/daemon_SEES)),$(DAEMON_PARTS),-pthread -lmicrohttpd -lsqlite3 -lyaml -lz)
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
 define variant_tests
@@ -225,6 +243,17 @@ physics-programs: programs $(foreach v,single-$(ISA) double-$(ISA),$(patsubst %,
 torture: test-packages ## faults for minutes: damaged files, the n-th call that fails, hostile queries; TORTURE=tests/service/FILE.py: some
 	@$(MAKE) --no-print-directory programs
 	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider -m torture $(TORTURE)
+
+# The core is gcc's in any case, so that it is checked, but does not lead the fuzzers.
+FUZZ_CHECKS := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+FUZZ_MAKE = $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz ISA=plain plain_FLAGS=-O1
+fuzz: packages ## hostile bytes for all that reads some, SECONDS=60 for each, under the sanitizers; FUZZ="request start": some
+	$(call install,$(FUZZ_PACKAGES),the compiler that fuzzers need)
+	@$(MAKE) --no-print-directory $(BUILD)/repose
+	+@$(FUZZ_MAKE) SANITIZE="$(FUZZ_CHECKS)" $(BUILD)/fuzz/core/single-plain/libdem.a
+	+@$(FUZZ_MAKE) CC="$(FUZZ_CC)" WARNINGS=-Wall SANITIZE="$(FUZZ_CHECKS) -fsanitize=float-cast-overflow,fuzzer-no-link" fuzzers
+	@sh tests/fuzz/run.sh $(BUILD) $(SECONDS) $(FUZZ)
+fuzzers: $(FUZZERS)
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs
@@ -289,6 +318,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
-.PHONY: FORCE all programs demo serve test unit torture physics physics-programs reproduce check bench bench-peers asan tsan openapi format lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve test unit torture fuzz fuzzers physics physics-programs reproduce check bench bench-peers asan tsan openapi format lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

@@ -1,0 +1,43 @@
+/* checkpoint.hdf of the small drum's run, with a checksum that fits: read, given to a scene, and a few steps made of it. It
+ * is refused, or goes on, or ends in a failure that is told. */
+#include "checkpoint_file.h"
+#include "dem.h"
+#include "hostile_hdf.h"
+#include "job_folder.h"
+#include "spec_file.h"
+
+static job_spec spec;
+static char *brief;
+
+int LLVMFuzzerInitialize(int *count, char ***arguments)
+{
+    problem_list problems;
+    (void)count;
+    (void)arguments;
+    CLAIM(problem_list_init(&problems) && spec_file_load("run/spec.json", NULL, 0, &spec, &problems));
+    CLAIM((brief = job_spec_to_brief(&spec)));
+    hostile_hdf_begin();
+    problem_list_clear(&problems);
+    return 0;
+}
+
+static void go_on(const checkpoint *saved)
+{
+    dem_scene *scene;
+    CLAIM(dem_scene_create(&spec.scene, &scene) == DEM_OK);
+    if (dem_scene_restore(scene, &saved->state) == DEM_OK) dem_scene_advance(scene, 2);
+    dem_scene_free(scene);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
+{
+    checkpoint saved;
+    const int64_t open_before = hostile_hdf_open();
+    hostile_sealed(JOB_CHECKPOINT_FILE, bytes, size);
+    const file_state state = checkpoint_read(&saved, JOB_CHECKPOINT_FILE, brief);
+    CLAIM(state == FILE_WHOLE || state == FILE_DAMAGED);
+    CLAIM(hostile_hdf_open() == open_before);
+    if (state == FILE_WHOLE) go_on(&saved);
+    checkpoint_clear(&saved);
+    return 0;
+}
