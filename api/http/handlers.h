@@ -4,6 +4,8 @@
 
 #include "routes.h"
 
+enum { LONGEST_WAIT = 60 }; /* s that a request may wait for a job */
+
 /* handlers_service.c */
 route_handler show_landing, show_conformance, show_asset, show_health, show_readiness, show_metrics;
 route_handler list_problems, show_problem;
@@ -14,7 +16,7 @@ route_handler list_processes, show_process, execute_process;
 /* handlers_jobs.c */
 route_handler list_jobs, show_job, remove_job, retry_job;
 /* handlers_results.c */
-route_handler show_results, show_spec, show_log;
+route_handler show_results, show_output, show_spec, show_log;
 /* handlers_series.c */
 route_handler list_samples, list_snapshots, send_snapshot, send_fields;
 /* handlers_studies.c */
@@ -25,6 +27,8 @@ route_handler run_query;
 /* For the store's refusals, so that each handler says only what it wanted: "read the job". */
 void respond_store_failure(http_response *response, store_status status, const char *wanted);
 void respond_no_such_job(http_response *response, const char *id);
+/* The results of an ended job as its request and this one want them; failed: the status that tells of a failed job. */
+void respond_results(api_service *service, const http_request *request, http_response *response, const job_record *job, int failed);
 /* Finds the job named by the first segment; false: the response says why not. */
 bool find_job(api_service *service, const http_request *request, http_response *response, job_record *job);
 

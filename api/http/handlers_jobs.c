@@ -7,8 +7,6 @@
 #include "handlers.h"
 #include "status_info.h"
 
-enum { LONGEST_WAIT = 60 };
-
 void respond_store_failure(http_response *response, store_status status, const char *wanted)
 {
     if (status == STORE_FULL) {

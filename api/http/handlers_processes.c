@@ -1,13 +1,29 @@
 /* What can be run, and running it. */
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/random.h>
 
 #include "handlers.h"
 #include "json_text.h"
 #include "process_type.h"
 #include "status_info.h"
+
+/* Where a process is described, run, and its jobs are. */
+static void add_links(json_t *description)
+{
+    const char *process = json_string_value(json_object_get(description, "id"));
+    char self[40], execution[60], jobs[60];
+    snprintf(self, sizeof self, "/processes/%s", process);
+    snprintf(execution, sizeof execution, "/processes/%s/execution", process);
+    snprintf(jobs, sizeof jobs, "/jobs?processID=%s", process);
+    json_object_set_new(description, "links",
+                        json_pack("[o, o, o]", link_to("self", "application/json", self),
+                                  link_to("http://www.opengis.net/def/rel/ogc/1.0/execute", "application/json", execution),
+                                  link_to("http://www.opengis.net/def/rel/ogc/1.0/job-list", "application/json", jobs)));
+}
 
 void list_processes(api_service *service, const http_request *request, http_response *response)
 {
@@ -21,7 +37,10 @@ void list_processes(api_service *service, const http_request *request, http_resp
     }
     json_t *all = process_summaries(), *page = json_array(), *links = json_pack("[o]", list_link(request, "self", 0));
     const int64_t rest = (int64_t)json_array_size(all) - after;
-    for (int64_t p = 0; p < rest && p < limit; p++) json_array_append(page, json_array_get(all, (size_t)(after + p)));
+    for (int64_t p = 0; p < rest && p < limit; p++) {
+        add_links(json_array_get(all, (size_t)(after + p)));
+        json_array_append(page, json_array_get(all, (size_t)(after + p)));
+    }
     if (limit < rest) json_array_append_new(links, list_link(request, "next", after + limit));
     json_decref(all);
     http_respond_json(response, 200, json_pack("{s:o, s:o}", "processes", page, "links", links));
@@ -36,6 +55,7 @@ void show_process(api_service *service, const http_request *request, http_respon
 {
     (void)service;
     json_t *description = process_description(request->segment[0]);
+    if (description) add_links(description);
     if (description) http_respond_json(response, 200, description);
     else respond_no_such_process(response, request->segment[0]);
 }
@@ -132,6 +152,38 @@ static bool read_spec(api_service *service, const process_type *type, const http
     return good;
 }
 
+/* What Prefer asks for (RFC 7240): "wait=10", "respond-async", or what clients of OGC API - Processes say, "respond-sync". */
+typedef struct preference {
+    double seconds; /* to wait for the results; 0: not at all */
+    bool is_async, is_sync;
+} preference;
+
+static preference read_preference(const char *header)
+{
+    preference wished = { 0 };
+    for (const char *at = header; at && *at; at += strcspn(at, ",;")) {
+        at += strspn(at, ",; \t");
+        const size_t length = strcspn(at, ",; \t");
+        if (length == 13 && strncasecmp(at, "respond-async", length) == 0) wished.is_async = true;
+        if (length == 12 && strncasecmp(at, "respond-sync", length) == 0) wished.is_sync = true;
+        if (length > 5 && strncasecmp(at, "wait=", 5) == 0) wished.seconds = strtod(at + 5, NULL);
+    }
+    if (wished.is_sync && !(wished.seconds > 0.0)) wished.seconds = LONGEST_WAIT;
+    if (!(wished.seconds > 0.0)) wished.seconds = 0.0;
+    if (wished.seconds > LONGEST_WAIT) wished.seconds = LONGEST_WAIT;
+    return wished;
+}
+
+static void add_estimate(api_service *service, json_t *info, const job_spec *spec)
+{
+    calibration machine;
+    store_read_calibration(service->store, &machine);
+    const job_estimate estimate = job_spec_estimate(spec, &machine);
+    json_object_set_new(info, "estimate", job_estimate_to_json(&estimate));
+    json_object_set_new(info, "understood", job_spec_understood(spec, &machine));
+    json_object_set_new(info, "warnings", job_spec_warnings(spec, &machine));
+}
+
 static void respond_created(api_service *service, const http_request *request, http_response *response, const job_spec *spec,
                             const char *id)
 {
@@ -143,17 +195,50 @@ static void respond_created(api_service *service, const http_request *request, h
             json_pack("{s:s, s:s, s:s, s:s}", "jobID", id, "processID", spec->process, "type", "process", "status", "accepted"));
     } else {
         json_t *info = status_info(&job);
-        calibration machine;
-        store_read_calibration(service->store, &machine);
-        const job_estimate estimate = job_spec_estimate(spec, &machine);
-        json_object_set_new(info, "estimate", job_estimate_to_json(&estimate));
-        json_object_set_new(info, "understood", job_spec_understood(spec, &machine));
-        json_object_set_new(info, "warnings", job_spec_warnings(spec, &machine));
+        add_estimate(service, info, spec);
         http_respond_json(response, 201, info);
         job_record_clear(&job);
     }
+    const preference wished = read_preference(request->prefer);
     snprintf(response->location, sizeof response->location, "/jobs/%s", id);
-    if (request->prefer && strstr(request->prefer, "respond-async")) response->preference_applied = "respond-async";
+    if (wished.is_async || wished.seconds > 0.0)
+        snprintf(response->preference_applied, sizeof response->preference_applied, "respond-async");
+}
+
+/* The job that this request has made is still awaited: what becomes of it, or that it goes on without anybody waiting. */
+static void respond_to_wait(api_service *service, const http_request *request, http_response *response)
+{
+    const preference wished = read_preference(request->prefer);
+    job_record job;
+    char *text = NULL;
+    const store_status status = store_find_job(service->store, request->made, &job);
+    if (status != STORE_OK) {
+        if (status == STORE_NOT_FOUND) respond_no_such_job(response, request->made);
+        else respond_store_failure(response, status, "read the job");
+        return;
+    }
+    if (job.status != JOB_ACCEPTED && job.status != JOB_RUNNING) {
+        respond_results(service, request, response, &job, 500);
+        snprintf(response->location, sizeof response->location, "/jobs/%s", job.id);
+        if (response->status < 300)
+            snprintf(response->preference_applied, sizeof response->preference_applied, wished.is_sync ? "respond-sync" : "wait=%g",
+                     wished.seconds);
+    } else if (request->may_wait && request->waited < wished.seconds) {
+        response->wait = wished.seconds - request->waited;
+        memcpy(response->made, request->made, sizeof response->made);
+    } else {
+        problem_list problems = { 0 };
+        job_spec spec = { 0 };
+        json_t *document = store_read_spec(service->store, job.id, &text) == STORE_OK ? json_loads(text, 0, NULL) : NULL;
+        if (document && problem_list_init(&problems) && job_spec_parse(NULL, document, 0, &spec, &problems))
+            respond_created(service, request, response, &spec, job.id);
+        else respond_store_failure(response, STORE_FAILED, "read the job");
+        job_spec_clear(&spec);
+        problem_list_clear(&problems);
+        json_decref(document);
+        free(text);
+    }
+    job_record_clear(&job);
 }
 
 void execute_process(api_service *service, const http_request *request, http_response *response)
@@ -163,12 +248,18 @@ void execute_process(api_service *service, const http_request *request, http_res
         respond_no_such_process(response, request->segment[0]);
         return;
     }
+    if (request->made[0]) {
+        respond_to_wait(service, request, response);
+        return;
+    }
     job_spec spec;
     if (!read_spec(service, type, request, response, &spec)) return;
     char id[JOB_ID_SIZE];
     const store_status status = store_add_job(service->store, &spec, id);
     if (status == STORE_OK) {
-        respond_created(service, request, response, &spec, id); /* first, so that it shows the job as accepted */
+        response->wait = read_preference(request->prefer).seconds;
+        if (response->wait > 0.0) snprintf(response->made, sizeof response->made, "%s", id);
+        else respond_created(service, request, response, &spec, id); /* first, so that it shows the job as accepted */
         service->jobs_changed(service->daemon);
     } else {
         respond_store_failure(response, status, "keep the job");

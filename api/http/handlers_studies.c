@@ -7,7 +7,7 @@
 #include "study_info.h"
 #include "study_results.h"
 
-enum { STUDIES_DEFAULT_LIMIT = 50, STUDIES_HIGHEST_LIMIT = 500, LONGEST_WAIT = 60, RESULTS_BYTES = 64 << 20 };
+enum { STUDIES_DEFAULT_LIMIT = 50, STUDIES_HIGHEST_LIMIT = 500, RESULTS_BYTES = 64 << 20 };
 
 static void respond_no_such_study(http_response *response, const char *id)
 {

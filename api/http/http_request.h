@@ -14,7 +14,14 @@
 #include "problem.h"
 #include "text_buffer.h"
 
-enum { HTTP_PARAMETERS = 32, HTTP_SEGMENTS = 2, HTTP_SEGMENT_SIZE = 65, HTTP_BASE_SIZE = 320 };
+enum {
+    HTTP_PARAMETERS = 32,
+    HTTP_SEGMENTS = 2,
+    HTTP_SEGMENT_SIZE = 65,
+    HTTP_BASE_SIZE = 320,
+    HTTP_MADE_SIZE = 32,
+    HTTP_LINK_SIZE = 3000
+};
 
 typedef struct http_parameter {
     const char *name, *value; /* decoded UTF-8 */
@@ -32,7 +39,8 @@ typedef struct http_request {
     double waited; /* s that this request has already been kept waiting for a change */
     bool may_wait; /* false: answer at once (the daemon is leaving) */
     client_watch client;
-    bool in_lane; /* handled apart, where it may take seconds */
+    bool in_lane;              /* handled apart, where it may take seconds */
+    char made[HTTP_MADE_SIZE]; /* by an earlier call of the handler for this very request, as that said; "": nothing */
 } http_request;
 
 /* An answer that is made while it is sent. next: adds the next piece to out, which is empty, and nothing at the end;
@@ -53,11 +61,12 @@ typedef struct http_response {
     char base[HTTP_BASE_SIZE]; /* "http://host:port[/prefix]", put before addresses that begin with /; "": they stay as they are */
     char file_name[100];       /* under which a client may keep the body; "": none */
     bool is_attachment;        /* to be kept rather than shown */
-    char location[HTTP_BASE_SIZE + 520], etag[80], content_range[80], allow[64], link[HTTP_BASE_SIZE + 200];
-    const char *cache_control, *preference_applied, *authenticate, *accept_ranges;
-    int retry_after; /* s; 0: no such header */
-    bool wants_lane; /* nothing to say yet: it may take long; call the handler again with in_lane */
-    double wait;     /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */
+    char location[HTTP_BASE_SIZE + 520], etag[80], content_range[80], allow[64], link[HTTP_LINK_SIZE], preference_applied[40];
+    const char *cache_control, *authenticate, *accept_ranges;
+    int retry_after;           /* s; 0: no such header */
+    bool wants_lane;           /* nothing to say yet: it may take long; call the handler again with in_lane */
+    double wait;               /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */
+    char made[HTTP_MADE_SIZE]; /* with wait: what that call is to find in the request */
 } http_response;
 
 /* Splits a raw target in place into path and parameters. NULL when good, else what is wrong with it. */
@@ -81,7 +90,7 @@ void http_respond_problem(http_response *response, int status, const char *type,
 void http_respond_problems(http_response *response, int status, const char *title, const char *detail,
                            const problem_list *problems);
 /* The results of a job that failed; takes the reference to what its worker told, which may be NULL. */
-void http_respond_failure(http_response *response, const char *title, const char *detail, json_t *failure);
+void http_respond_failure(http_response *response, int status, const char *title, const char *detail, json_t *failure);
 /* Names the version of what is answered, for the client to ask again by If-None-Match. True: it has that one, and 304 says so. */
 bool http_respond_unchanged(const http_request *request, http_response *response, const char *version);
 /* Sends a file that was opened, whole or the part asked for; takes the descriptor. immutable: it never changes

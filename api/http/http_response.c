@@ -90,13 +90,13 @@ void http_respond_problems(http_response *response, int status, const char *titl
     http_respond_json(response, status, document);
 }
 
-void http_respond_failure(http_response *response, const char *title, const char *detail, json_t *failure)
+void http_respond_failure(http_response *response, int status, const char *title, const char *detail, json_t *failure)
 {
-    json_t *document = problem_json(404, "about:blank", title, detail, NULL);
+    json_t *document = problem_json(status, "about:blank", title, detail, NULL);
     set_type(response, document, title);
     if (document && failure) json_object_set(document, "failure", failure);
     json_decref(failure);
-    http_respond_json(response, 404, document);
+    http_respond_json(response, status, document);
 }
 
 /* From the file that is being sent, not from what a table says about it: files are replaced by rename only, so

@@ -33,7 +33,8 @@ static void check_output(const char *name, const json_t *wanted, const process_t
     const json_t *media = json_object_get(json_object_get(wanted, "format"), "mediaType");
     json_value_text(mode, seen, sizeof seen);
     pointer_to_member(member, pointer, "transmissionMode");
-    if (mode && !is_text(mode, "value")) problem_list_add(problems, member, "is %s; must be \"value\"", seen);
+    if (mode && !is_text(mode, "value") && !is_text(mode, "reference"))
+        problem_list_add(problems, member, "is %s; must be \"value\" or \"reference\"", seen);
     json_value_text(media, seen, sizeof seen);
     pointer_to_member(member, pointer, "format/mediaType");
     if (media && !is_text(media, "application/json"))
@@ -65,6 +66,22 @@ void execute_request_check(const json_t *request, const process_type *type, prob
     if (subscriber && !json_is_null(subscriber))
         problem_list_add(problems, "/subscriber", "is %s; must be null, or be left out: nobody is called back, ask the job", seen);
     check_outputs(json_object_get(request, "outputs"), type, problems);
+}
+
+json_t *execute_request_wanted(const json_t *request)
+{
+    const bool raw = is_text(json_object_get(request, "response"), "raw");
+    const char *name;
+    json_t *wanted, *modes = json_object(), *outputs = json_object_get(request, "outputs");
+    json_object_foreach(outputs, name, wanted)
+    {
+        const json_t *mode = json_object_get(wanted, "transmissionMode");
+        json_object_set_new(modes, name, json_string(mode ? json_string_value(mode) : "value"));
+    }
+    json_t *all = raw || json_object_size(modes) > 0 ? json_pack("{s:b}", "raw", raw) : NULL;
+    if (all && json_object_size(modes) > 0) json_object_set(all, "outputs", modes);
+    json_decref(modes);
+    return all;
 }
 
 /* --- qualified values --- */

@@ -116,6 +116,7 @@ typedef struct job_spec {
     const start_source *beds; /* while it is parsed */
     int threads;              /* of the worker */
     json_t *label;            /* object of strings and numbers, owned; never NULL */
+    json_t *wanted; /* how its results are wanted (execute_request.h), owned; NULL: as ever. No part of the canonical spec */
 
     /* Of all that advance a scene: */
     scene_inputs inputs;         /* as asked for */

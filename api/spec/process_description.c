@@ -130,9 +130,9 @@ static json_t *inputs_description(const spec_table *table)
 
 static json_t *summary_of(const process_type *type)
 {
-    return json_pack("{s:s, s:s, s:s, s:s, s:[s, s], s:[s]}", "id", type->name, "title", type->title, "description",
+    return json_pack("{s:s, s:s, s:s, s:s, s:[s, s], s:[s, s]}", "id", type->name, "title", type->title, "description",
                      type->description, "version", "1.0.0", "jobControlOptions", "async-execute", "dismiss", "outputTransmission",
-                     "value");
+                     "value", "reference");
 }
 
 json_t *process_description(const char *process)

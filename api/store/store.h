@@ -131,6 +131,8 @@ int64_t store_queue_limit(const job_store *store);
 /* Texts are for free(). STORE_NOT_FOUND: no such job, or (results, failure) it has none. */
 store_status store_read_spec(job_store *store, const char *id, char **text);
 store_status store_read_results(job_store *store, const char *id, char **text);
+/* How they are wanted (execute_request.h), as JSON. STORE_NOT_FOUND: as ever. */
+store_status store_read_wanted(job_store *store, const char *id, char **text);
 store_status store_read_failure(job_store *store, const char *id, char **text); /* the worker's failure event */
 
 typedef struct sample_row {

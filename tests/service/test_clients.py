@@ -162,7 +162,7 @@ def test_requests_in_the_forms_of_the_standard_are_the_same_job(running, body):
 @pytest.mark.parametrize("change, pointer", [
     ({"response": "parts"}, "/response"),
     ({"outputs": {"colour": {}}}, "/outputs/colour"),
-    ({"outputs": {"repose": {"transmissionMode": "reference"}}}, "/outputs/repose/transmissionMode"),
+    ({"outputs": {"repose": {"transmissionMode": "post"}}}, "/outputs/repose/transmissionMode"),
     ({"outputs": [1]}, "/outputs"),
     ({"subscriber": {"successUri": "http://example.org/"}}, "/subscriber"),
     ({"inputs": SPEC | {"drum": {"value": SPEC["drum"], "mediaType": "text/xml"}}}, "/inputs/drum"),

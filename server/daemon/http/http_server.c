@@ -93,6 +93,7 @@ static enum MHD_Result answer(http_exchange *exchange)
         exchange->worked += monotonic_seconds() - start;
         if (exchange->response.wants_lane) return answer_slowly(exchange);
         if (!(exchange->response.wait > 0.0)) break;
+        memcpy(exchange->request.made, exchange->response.made, sizeof exchange->request.made);
         const parking outcome = waiting_room_park(&server->room, exchange, changes, exchange->response.wait);
         if (outcome == PARKING_DONE) return MHD_YES;
         if (outcome == PARKING_FULL) exchange->waits_no_more = true; /* answered as things are */

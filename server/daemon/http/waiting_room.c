@@ -203,7 +203,9 @@ static void *run_slow(void *context)
         exchange->request.in_lane = true;
         route_respond(exchange->route, lane->room->service, &exchange->request, &exchange->response);
         exchange->worked = monotonic_seconds() - start;
-        exchange->stage = EXCHANGE_ANSWERED;
+        /* What has begun in the lane may wait outside of it. */
+        if (exchange->response.wait > 0.0) memcpy(exchange->request.made, exchange->response.made, sizeof exchange->request.made);
+        else exchange->stage = EXCHANGE_ANSWERED;
         MHD_resume_connection(exchange->connection);
     }
     return NULL;

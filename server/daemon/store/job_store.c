@@ -182,6 +182,15 @@ static store_status last_number(job_store *store, int64_t *number)
     return row ? sql_finish(row, code) : STORE_FAILED;
 }
 
+static store_status keep_wanted(sqlite3 *writer, int64_t number, const json_t *wanted)
+{
+    char *text = json_dumps(wanted, JSON_COMPACT);
+    const store_status status =
+        text ? sql_run(writer, NULL, "UPDATE job SET wanted=? WHERE number=?", "ti", text, number) : STORE_FAILED;
+    free(text);
+    return status;
+}
+
 static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
 {
     static const study_place of_no_study = { 0, 0, 0 };
@@ -205,6 +214,7 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
         if (status == STORE_OK) status = last_number(store, &last);
         if (status == STORE_OK)
             status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &of_no_study, &machine);
+        if (status == STORE_OK && spec->wanted) status = keep_wanted(store->writer, last + 1, spec->wanted);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);
@@ -285,6 +295,11 @@ store_status store_read_spec(job_store *store, const char *id, char **text)
 store_status store_read_results(job_store *store, const char *id, char **text)
 {
     return store_read_text(store, "SELECT document FROM result JOIN job ON result.job=job.number WHERE job.id=?", id, text);
+}
+
+store_status store_read_wanted(job_store *store, const char *id, char **text)
+{
+    return store_read_text(store, "SELECT wanted FROM job WHERE id=?", id, text);
 }
 
 store_status store_read_failure(job_store *store, const char *id, char **text)

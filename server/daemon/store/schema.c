@@ -138,6 +138,9 @@ static const char retried_and_deleted_jobs[] =
 static const char waiting_by_setbacks[] = "DROP INDEX job_waiting;"
                                           "CREATE INDEX job_waiting ON job(setbacks, number) WHERE status='accepted';";
 
+/* How its results are wanted, JSON; NULL: as ever. */
+static const char wanted_results[] = "ALTER TABLE job ADD COLUMN wanted TEXT;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -162,5 +165,6 @@ const schema_migration schema_migrations[] = {
     NO_TABLES_OF_ITS_OWN,
     NO_TABLES_OF_ITS_OWN,
     { { waiting_by_setbacks } },
+    { { wanted_results } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];
