@@ -4,6 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "text_copy.h"
+
 #define MUCH_OVERLAP 1.5 /* times what was asked for: stiffness is chosen for the hardest impact, and beds press beside it */
 
 static const json_t *member(const json_t *results, const char *output, const char *name)
@@ -72,6 +74,8 @@ void result_message(const json_t *results, char *text, size_t size)
     const char *field = json_string_value(json_object_get(first, "field"));
     const char *told = json_string_value(json_object_get(first, "text"));
     const size_t count = json_array_size(warnings);
-    if (field && told) snprintf(text, size, "done, with %zu warning%s: %s %s", count, count == 1 ? "" : "s", field, told);
-    else snprintf(text, size, "done");
+    json_t *whole = field && told ? json_sprintf("done, with %zu warning%s: %s %s", count, count == 1 ? "" : "s", field, told)
+                                  : json_string("done");
+    text_copy(text, size, json_string_value(whole));
+    json_decref(whole);
 }

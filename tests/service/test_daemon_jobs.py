@@ -31,6 +31,24 @@ def test_a_job_goes_from_accepted_to_its_results(fake):
     assert results["repose"]["angle_deg"] == 23.5 and results["run"]["steps"] == 2000
 
 
+def test_strange_events_of_a_worker_neither_stop_its_job_nor_spoil_an_answer(fake):
+    job, seen = fake.submit(seconds=40), set()
+    lines = ['{"event":"progress","phase":"%s"}' % ("\u20ac" * 9), '{"event":"sample","number":1e300,"values":{}}',
+             '{"event":"sample","number":9223372036854775807,"step":1e300,"time":-1e300,"values":{"angle_deg":{"a":[]}}}',
+             '{"event":"checkpoint","step":1e300,"attempt":-1e300}']
+    events = fake.data / "jobs" / job / "events.ndjson"
+    until = time.time() + 20
+    while "\u20ac" * 7 not in seen and time.time() < until:
+        if events.exists():
+            with events.open("a") as file:
+                file.write("\n".join(lines) + "\n")
+        time.sleep(0.3)
+        for path in ("/jobs", f"/jobs/{job}", f"/jobs/{job}/samples", f"/jobs/{job}/samples?format=csv"):
+            assert fake.get(path).status_code == 200
+        seen.add(fake.job(job)["message"])
+    assert "\u20ac" * 7 in seen  # 23 bytes of the nine characters: seven, and no part of another
+
+
 def test_results_outlive_the_job_folder(fake):
     job = fake.submit()
     fake.ended(job)

@@ -20,6 +20,7 @@
 #include "job_folder.h"
 #include "log.h"
 #include "machine_error.h"
+#include "text_copy.h"
 
 enum { LOG_TAIL = 400, EXEC_FAILED = 127, MOST_DOUBTS = 3 };
 
@@ -47,7 +48,7 @@ static store_status fail(job_dispatcher *dispatcher, worker_slot *slot, const ch
     const char *said = json_string_value(json_object_get(slot->failure, "message"));
     char words[LOG_TAIL + 1], message[1000];
     last_words(dispatcher, slot, words, sizeof words);
-    if (said) snprintf(message, sizeof message, "%s", said);
+    if (said) text_copy(message, sizeof message, said);
     else snprintf(message, sizeof message, "%s%s%s", what, words[0] ? "; its last words: " : "", words);
     const store_status status = store_record_failure(dispatcher->store, &slot->claim, message, slot->failure);
     if (status == STORE_OK) {

@@ -2,10 +2,11 @@
 
 #include <errno.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
+
+#include "text_copy.h"
 
 enum { BATCH_BYTES = 1 << 20 };
 
@@ -29,8 +30,7 @@ static void take_progress(event_batch *batch, const json_t *event)
     batch->progress = number_of(event, "progress");
     batch->eta_seconds = number_of(event, "eta_seconds");
     batch->speed = number_of(event, "particle_steps_per_second");
-    const char *phase = json_string_value(json_object_get(event, "phase"));
-    snprintf(batch->phase, sizeof batch->phase, "%s", phase ? phase : "");
+    text_copy(batch->phase, sizeof batch->phase, json_string_value(json_object_get(event, "phase")));
 }
 
 static bool append(json_t *list, json_t *event) { return json_array_append(list, event) == 0; }

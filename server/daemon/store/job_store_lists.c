@@ -1,13 +1,13 @@
 /* Walks over jobs, samples and snapshots. */
 #include <assert.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "database.h"
 #include "job_store.h"
 #include "process_type.h"
 #include "text_buffer.h"
+#include "text_copy.h"
 
 /* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary: these two, and what the rows of
  * inputs and results say is listed. */
@@ -25,8 +25,7 @@ static void write_select(const field_tables *fields, text_buffer *sql)
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
 {
-    const char *value = (const char *)sqlite3_column_text(row, column);
-    snprintf(text, size, "%s", value ? value : "");
+    text_copy(text, size, (const char *)sqlite3_column_text(row, column));
 }
 
 static bool is_truth(const field_tables *fields, int i)

@@ -91,7 +91,12 @@ bool store_claim_holds(job_store *store, const job_claim *claim)
 
 /* --- events --- */
 
-static int64_t whole(const json_t *event, const char *name) { return (int64_t)json_number_value(json_object_get(event, name)); }
+/* 0: it is none, or beyond what any run can count. */
+static int64_t whole(const json_t *event, const char *name)
+{
+    const double number = json_number_value(json_object_get(event, name));
+    return fabs(number) <= (double)LARGEST_WHOLE_NUMBER ? (int64_t)number : 0;
+}
 
 static store_status insert_samples(sqlite3 *writer, int64_t job, const json_t *samples)
 {

@@ -8,6 +8,7 @@
 #include "log.h"
 #include "study_stage.h"
 #include "text_buffer.h"
+#include "text_copy.h"
 
 /* --- adding --- */
 
@@ -79,8 +80,7 @@ store_status store_dismiss_study(job_store *store, const char *id)
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
 {
-    const char *value = (const char *)sqlite3_column_text(row, column);
-    snprintf(text, size, "%s", value ? value : "");
+    text_copy(text, size, (const char *)sqlite3_column_text(row, column));
 }
 
 static void fill_record(sqlite3_stmt *row, study_record *study)

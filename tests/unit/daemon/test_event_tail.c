@@ -54,6 +54,26 @@ static void the_latest_progress_counts_and_rubbish_does_not(void **state)
     fclose(file);
 }
 
+/* What is cut ends up in answers, and JSON holds whole characters alone. */
+static void a_phase_that_is_too_long_is_not_cut_within_a_character(void **state)
+{
+    (void)state;
+    for (int before = 0; before < 4; before++) {
+        char text[200];
+        snprintf(text, sizeof text, "{\"event\":\"progress\",\"phase\":\"%.*s%s\"}\n", before, "abcd",
+                 "\u20ac\u20ac\u20ac\u20ac\u20ac\u20ac\u20ac\u20ac\u20ac");
+        FILE *file = file_with(text);
+        event_batch batch;
+        assert_true(event_tail_read(fileno(file), 0, &batch));
+        assert_int_equal(strlen(batch.phase), before + 3 * ((23 - before) / 3));
+        json_t *told = json_string(batch.phase);
+        assert_non_null(told);
+        json_decref(told);
+        event_batch_clear(&batch);
+        fclose(file);
+    }
+}
+
 static void a_new_attempt_forgets_an_earlier_failure(void **state)
 {
     (void)state;
@@ -111,6 +131,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_line_counts_when_it_is_whole),
         cmocka_unit_test(the_latest_progress_counts_and_rubbish_does_not),
+        cmocka_unit_test(a_phase_that_is_too_long_is_not_cut_within_a_character),
         cmocka_unit_test(a_new_attempt_forgets_an_earlier_failure),
         cmocka_unit_test(checkpoints_come_in_order_with_their_attempts),
         cmocka_unit_test(a_long_file_comes_in_pieces_without_loss),
