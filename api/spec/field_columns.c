@@ -86,7 +86,9 @@ static void add_result(field_columns *columns, const process_type *process, cons
 
 bool field_columns_gather(field_columns *columns)
 {
-    *columns = (field_columns){ .column = calloc(count_rows(), sizeof *columns->column) };
+    const size_t rows = count_rows();
+    assert(rows > 0);
+    *columns = (field_columns){ .column = calloc(rows, sizeof *columns->column) };
     if (!columns->column) return false;
     for (size_t p = 0; process_types[p]; p++) {
         const spec_table *table = process_types[p]->inputs;

@@ -72,10 +72,8 @@ WIDE_INLINE vector4 along_space(const vector4 axis[3], const double x[3])
 
 WIDE_INLINE vector4 cross_product(vector4 a, vector4 b)
 {
-    typedef int64_t order __attribute__((vector_size(32)));
-    const order next = { 1, 2, 0, 3 };
-    const vector4 turned = a * __builtin_shuffle(b, next) - __builtin_shuffle(a, next) * b;
-    return __builtin_shuffle(turned, next);
+    const vector4 turned = a * __builtin_shufflevector(b, b, 1, 2, 0, 3) - __builtin_shufflevector(a, a, 1, 2, 0, 3) * b;
+    return __builtin_shufflevector(turned, turned, 1, 2, 0, 3);
 }
 
 static double scalar_product(vector4 a, vector4 b)

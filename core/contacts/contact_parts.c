@@ -161,7 +161,8 @@ static void find_across(void *context, int part, int parts)
     work->status[part] = DEM_OK;
     for (size_t b = work->parts->block[part]; b < work->parts->block[part + 1] && work->status[part] == DEM_OK; b++) {
         int found = 0;
-        for (size_t k = b * BLOCK; k < (b + 1) * BLOCK; k++) found |= is_among(them, first[k]) | is_among(them, second[k]);
+        for (size_t k = b * BLOCK; k < (b + 1) * BLOCK; k++)
+            found |= (int)is_among(them, first[k]) | (int)is_among(them, second[k]);
         if (found) work->status[part] = mark_block(work, part, b);
     }
 }

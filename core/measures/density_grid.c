@@ -1,5 +1,7 @@
 #include "density_grid.h"
 
+#include <assert.h>
+
 #include "array.h"
 #include "dem_rules.h"
 #include "statistics.h"
@@ -152,6 +154,7 @@ static bool more_tiles(density_grid *grid)
 static density_tile *tile_at(density_grid *grid, int32_t column, int32_t row)
 {
     if (grid->tile_count == grid->tile_capacity && !more_tiles(grid)) return NULL;
+    assert(grid->slot);
     const size_t at = slot_of(grid, column, row);
     if (grid->slot[at] >= 0) return &grid->tile[grid->slot[at]];
     grid->slot[at] = (int32_t)grid->tile_count;

@@ -118,7 +118,7 @@ static size_t climb_end(const double *angle, size_t count, double *room)
 
 dem_slumps measure_no_slumps(void)
 {
-    dem_slumps none;
+    dem_slumps none = { .count = NAN };
     double *number = (double *)&none;
     _Static_assert(sizeof none % sizeof *number == 0, "slumps are nothing but numbers");
     for (size_t k = 0; k < sizeof none / sizeof *number; k++) number[k] = NAN;

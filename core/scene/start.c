@@ -1,6 +1,8 @@
 /* Beds that were made before: particles placed one by one, or another scene's state, from which a run begins to rotate at
  * once. Both go in as a checkpoint does, by dem_scene_restore, so that nothing here depends on how a scene keeps its
  * particles. */
+#include <assert.h>
+
 #include "scene_state.h"
 #include "step.h"
 
@@ -68,6 +70,7 @@ static void place_sphere(const placing_arrays *to, size_t i, const dem_placed_pa
 static void place_cluster(const placing_arrays *to, const spheres *s, const container *vessel, size_t b,
                           const dem_placed_particle *particle)
 {
+    assert(to->cluster);
     const cluster_body *body = &s->clusters.body[b];
     const cluster_shape *shape = &s->clusters.shape[body->species];
     const quaternion q = quaternion_normal(quaternion_from_wxyz(particle->orientation));
@@ -129,6 +132,7 @@ dem_status dem_scene_place(dem_scene *scene, const dem_placed_particle *particle
     if (status != DEM_OK) return status;
     const placing_arrays to = { numbers_of(&state, "position", 3), numbers_of(&state, "velocity", 3),
                                 numbers_of(&state, "angular_velocity", 3), numbers_of(&state, "cluster", CLUSTER_NUMBERS) };
+    assert(to.position && to.velocity && to.spin);
     int64_t *counter = state_find(&state, "counters", DEM_INT64, STATE_INTEGERS)->data;
     counter[STATE_PHASE] = DEM_PHASE_RUNNING;
     counter[STATE_STEP] = counter[STATE_PHASE_START] = counter[STATE_RUN_START] = counter[STATE_STEPS_BEFORE] = 0;

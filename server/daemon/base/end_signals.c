@@ -37,8 +37,9 @@ bool end_signals_watch(const sigset_t *ends, double seconds, int *descriptor)
     only = (watch){ .ends = *ends, .seconds = seconds, .descriptor = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK) };
     pthread_t thread;
     *descriptor = only.descriptor;
-    const int problem = only.descriptor < 0 ? errno : pthread_create(&thread, NULL, run, &only);
-    if (problem == 0) return pthread_detach(thread) == 0;
+    const bool is_open = only.descriptor >= 0;
+    const int problem = is_open ? pthread_create(&thread, NULL, run, &only) : errno;
+    if (is_open && problem == 0) return pthread_detach(thread) == 0;
     log_line("signals can't be watched: %s", strerror(problem));
     return false;
 }

@@ -117,6 +117,7 @@ static const field_insert *find_insert(const field_tables *tables, const char *t
 static bool write_inserts(field_tables *tables)
 {
     const field_columns *columns = &tables->columns;
+    assert(tables->insert_count == 0);
     tables->insert = calloc(columns->count, sizeof *tables->insert);
     bool good = tables->insert != NULL;
     for (size_t c = 0; good && c < columns->count; c++) {
