@@ -128,6 +128,12 @@ double dem_bed_layers(double drum_diameter, double share, double mean_diameter);
  * a row, by 0.1 to 0.2 above. From beds of 8 to 2700 particles, D/d from 8.5 to 100: core/NUMERICS.md, "How long a bed takes". */
 double dem_settling_time(const dem_scene_definition *d);
 
+/* Shares of that time which 19 of 20 beds of a drum are between: few particles roll each in its own way. */
+typedef struct dem_range {
+    double low, high;
+} dem_range;
+dem_range dem_settling_range(const dem_scene_definition *d);
+
 /* Resident memory of a run, bytes, without its tables of results: from drums of 1 to 20,000 spheres. */
 double dem_memory_estimate(double sphere_count);
 

@@ -138,6 +138,8 @@ typedef struct job_spec {
 typedef struct job_estimate {
     double particles, steps, wall_seconds, memory_bytes, snapshots, snapshot_bytes, checkpoint_bytes; /* of one */
     double simulated_seconds, time_step, stiffness; /* settling included; s; N/m */
+    /* Of it, making the bed, and what most seeds are between; NaN: not known. */
+    double settling_seconds, settling_seconds_low, settling_seconds_high;
     calibration_load load;                          /* what each step has to do; no spheres: the process has no steps */
 } job_estimate;
 

@@ -21,6 +21,8 @@ def test_a_job_goes_from_accepted_to_its_results(fake):
     assert answer.headers["Preference-Applied"] == "respond-async"
     assert info["status"] in ("accepted", "running") and info["type"] == "process" and info["processID"] == "drum"
     assert info["estimate"]["memory_bytes"] > 0 and info["estimate"]["wall_seconds"] > 0
+    settling = [info["estimate"][f"settling_seconds{end}"] for end in ("_low", "", "_high")]
+    assert 0 < settling[0] < settling[1] < settling[2] < info["estimate"]["simulated_seconds"] * 2
     job = fake.job(info["jobID"], wait=20)
     assert job["status"] == "successful" and job["progress"] == 100 and job["attempt"] == 1
     assert job["created"] <= job["started"] <= job["finished"] <= job["updated"]

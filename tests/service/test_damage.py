@@ -2,6 +2,7 @@
 happened. And files that somebody made to do harm."""
 import itertools
 import json
+import math
 import random
 import shutil
 import signal
@@ -13,6 +14,7 @@ import pytest
 import worker_runs as worker
 
 POLYNOMIAL = 0xC96C5795D7870F42
+CELL_SUMS = 17  # numbers of a cell in a checkpoint
 
 
 def crc64(content):
@@ -251,6 +253,29 @@ def test_a_file_made_to_do_harm_is_refused(stopped, tmp_path, harm):
     spec = worker.small(duration={"seconds": 0.01}, start={"file": "bed.hdf"})
     code, _, said = worker.run(worker.write_spec(tmp_path, spec), tmp_path / "started", cwd=tmp_path)
     assert code in (1, 2) or harm == "frames without end" and code == 0, said  # a bed has no frames
+
+
+def of_other_cells(file):
+    """Sums of the fields as a program with cells of another width kept them: a sound number of rows, and no damage."""
+    name = next(f"state/{k}" for k, array in file["state"].items() if array.attrs["name"] in (b"tally", "tally"))
+    cells = math.isqrt(file[name].size // CELL_SUMS)
+    assert file[name].size == 1 + cells**2 * CELL_SUMS
+    in_place_of(name, data=numpy.ones((1 + (cells // 2)**2 * CELL_SUMS, 1)))(file)
+
+
+def test_a_checkpoint_with_fields_of_other_cells_is_refused_for_going_on_and_good_as_a_bed(stopped, tmp_path):
+    shutil.copytree(stopped / "job", tmp_path / "job")
+    (tmp_path / "job" / "checkpoint.before.hdf").unlink()
+    harmful(tmp_path / "job" / "checkpoint.hdf", of_other_cells)
+    shutil.copy(tmp_path / "job" / "checkpoint.hdf", tmp_path / "bed.hdf")
+    code, _, said = worker.run(stopped / "request.json", tmp_path / "job")
+    assert code == 0 and "checkpoint.hdf can't be used" in said and resumed_step(tmp_path / "job") == 0
+    assert worker.timeless_result(tmp_path / "job") == worker.timeless_result(stopped / "whole")
+    with h5py.File(stopped / "whole" / "fields.hdf") as whole, h5py.File(tmp_path / "job" / "fields.hdf") as again:
+        for name in whole["fields"]:
+            assert numpy.array_equal(whole["fields"][name], again["fields"][name], equal_nan=True)
+    spec = worker.small(duration={"seconds": 0.05}, start={"file": "bed.hdf"})
+    assert worker.run(worker.write_spec(tmp_path, spec), tmp_path / "started", cwd=tmp_path)[0] == 0
 
 
 # --- under the daemon

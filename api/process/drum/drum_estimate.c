@@ -41,11 +41,16 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
     const double side = dem_field_cells(drum->diameter, diameter, particles), field_cells = side * side;
     const double frame_bytes = sizeof(double) * (FRAME_NUMBERS + interface_numbers(drum, spheres, diameter));
 
+    const double settling = dem_settling_time(drum);
+    const dem_range range = dem_settling_range(drum);
     job_estimate estimate = {
         .particles = particles,
         .time_step = drum->time_step,
         .stiffness = drum->contact.stiffness,
-        .simulated_seconds = spec->duration + dem_settling_time(drum),
+        .simulated_seconds = spec->duration + settling,
+        .settling_seconds = settling,
+        .settling_seconds_low = range.low * settling,
+        .settling_seconds_high = range.high * settling,
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);

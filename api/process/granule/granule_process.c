@@ -38,6 +38,9 @@ static job_estimate estimate(const job_spec *spec, const calibration *machine)
         .snapshot_bytes = 0,
         .steps = NAN,
         .simulated_seconds = NAN,
+        .settling_seconds = NAN,
+        .settling_seconds_low = NAN,
+        .settling_seconds_high = NAN,
         .time_step = NAN,
         .stiffness = NAN,
     };

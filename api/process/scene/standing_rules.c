@@ -71,6 +71,9 @@ job_estimate standing_estimate(const job_spec *spec, const calibration *machine,
         .time_step = scene->time_step,
         .stiffness = scene->contact.stiffness,
         .simulated_seconds = seconds + before,
+        .settling_seconds = NAN,
+        .settling_seconds_low = NAN,
+        .settling_seconds_high = NAN,
         .snapshots = spec->snapshot_interval > 0.0 ? floor(seconds / spec->snapshot_interval) + 2.0 : 1.0,
     };
     estimate.steps = ceil(estimate.simulated_seconds / scene->time_step);
