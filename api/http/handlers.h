@@ -18,7 +18,9 @@ route_handler list_jobs, show_job, remove_job, retry_job;
 /* handlers_results.c */
 route_handler show_results, show_output, show_spec, show_log;
 /* handlers_series.c */
-route_handler list_samples, list_snapshots, send_snapshot, send_fields;
+route_handler list_samples, list_snapshots, send_snapshot;
+/* handlers_files.c */
+route_handler send_fields, send_walls, send_snapshot_series, send_archive;
 /* handlers_studies.c */
 route_handler create_study, list_studies, show_study, remove_study, show_study_results, show_study_csv, show_study_spec;
 /* handlers_query.c */

@@ -241,17 +241,3 @@ void send_snapshot(api_service *service, const http_request *request, http_respo
     else respond_store_failure(response, status, "open the snapshot");
     job_record_clear(&job);
 }
-
-void send_fields(api_service *service, const http_request *request, http_response *response)
-{
-    job_record job;
-    if (!find_job(service, request, response, &job)) return;
-    int file;
-    name_file(response, job.id, "-fields.hdf", true);
-    if (store_open_fields(service->store, job.id, &file) == STORE_OK)
-        http_respond_file(request, response, file, "application/x-hdf5", HTTP_FILE_IMMUTABLE);
-    else
-        http_respond_problem(response, 404, NULL, "No such file",
-                             "job %s has no fields.hdf; a drum has it when its run is over, other tests never", job.id);
-    job_record_clear(&job);
-}

@@ -21,6 +21,7 @@
  *     key samples and snapshots by "number" and let the later line win.
  *   snapshots/000000.hdf ...   written as .tmp, closed, fsynced, renamed; never changed after
  *   snapshots.hdf.series       opens them in ParaView as one time series
+ *   walls.vtp                  the container's walls, where they are at the newest snapshot; rewritten with that
  *   fields.hdf                 a drum's fields over the cross-section, averaged over the run; before result.json
  *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
  *   result.json                the document of GET /jobs/{id}/results; written last, by rename. A worker that finds
@@ -41,6 +42,7 @@
 #define JOB_SNAPSHOT_FOLDER "snapshots"
 #define JOB_SNAPSHOT_FILE_FORMAT "%06lld.hdf"
 #define JOB_SERIES_FILE "snapshots.hdf.series"
+#define JOB_WALLS_FILE "walls.vtp"
 #define JOB_FIELDS_FILE "fields.hdf"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
 #define JOB_EARLIER_CHECKPOINT_FILE "checkpoint.before.hdf"

@@ -37,6 +37,7 @@ static json_t *links_of(const job_record *job)
         const char *rel, *type, *end;
         bool is_result;      /* there once the job has ended well */
         const char *process; /* of this one alone; NULL: of all */
+        const char *but;     /* not of this one */
     } links[] = {
         { "self", "application/json", .end = "" },
         { "http://www.opengis.net/def/rel/ogc/1.0/results", "application/json", .end = "/results", .is_result = true },
@@ -44,12 +45,16 @@ static json_t *links_of(const job_record *job)
         { "log", "text/plain", .end = "/log" },
         { "samples", "application/json", .end = "/samples" },
         { "snapshots", "application/json", .end = "/snapshots" },
+        { "series", "application/json", .end = "/snapshots.hdf.series", .is_result = true, .but = "granule" },
+        { "walls", "application/xml", .end = "/walls.vtp", .is_result = true, .but = "granule" },
         { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "drum" },
+        { "archive", "application/x-tar", .end = "/files.tar" },
     };
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
         if (links[i].is_result && job->status != JOB_SUCCESSFUL) continue;
         if (links[i].process && strcmp(job->process, links[i].process) != 0) continue;
+        if (links[i].but && strcmp(job->process, links[i].but) == 0) continue;
         char href[80];
         snprintf(href, sizeof href, "/jobs/%s%s", job->id, links[i].end);
         json_array_append_new(list, link_to(links[i].rel, links[i].type, href));

@@ -154,7 +154,12 @@ store_status store_list_snapshots(job_store *store, const char *id, int64_t afte
 
 /* Descriptors for reading, the caller closes. */
 store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file);
-store_status store_open_fields(job_store *store, const char *id, int *file);
+/* Names of all plain files of a job's folder but those that are still being written, and of the folder in it of its snapshots,
+ * in order. folder: NULL at the top. take: false ends the list. */
+typedef bool job_file_taker(void *context, const char *folder, const char *name);
+store_status store_list_files(job_store *store, const char *id, job_file_taker *take, void *context);
+/* One of them, never through a symbolic link. */
+store_status store_open_file(job_store *store, const char *id, const char *folder, const char *name, int *file);
 store_status store_open_log(job_store *store, const char *id, int *file);
 
 /* How fast this machine is: as calibrated and as the latest runs corrected it, or the built-in figures. */

@@ -326,12 +326,6 @@ store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES])
     return result;
 }
 
-store_status store_open_fields(job_store *store, const char *id, int *file)
-{
-    *file = job_file_open(store->data, id, NULL, JOB_FIELDS_FILE);
-    return *file >= 0 ? STORE_OK : STORE_NOT_FOUND;
-}
-
 store_status store_open_log(job_store *store, const char *id, int *file)
 {
     *file = job_file_open(store->data, id, NULL, JOB_LOG_FILE);

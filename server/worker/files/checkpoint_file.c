@@ -37,7 +37,7 @@ static void add_state(hdf_file *file, const dem_state *state)
         const hid_t type = memory_type(array->element);
         char path[LONGEST_PATH];
         snprintf(path, sizeof path, "/state/%zu", a);
-        hdf_add_array(file, &(hdf_array){ path, type, type, array->rows, array->columns, array->data }, HDF_PLAIN);
+        hdf_add_array(file, &(hdf_array){ path, type, type, array->rows, array->columns, array->data, "SI, by column" }, HDF_PLAIN);
         hdf_add_text_attribute(file, path, "name", array->name, H5T_CSET_ASCII);
         add_number(file, path, "element", array->element);
     }
@@ -56,10 +56,10 @@ bool checkpoint_write(const checkpoint *saved, const char *params)
     hdf_add_real_attribute(&file, "/run", "wall_seconds", saved->wall_seconds);
     hdf_add_real_attribute(&file, "/run", "time_step", saved->time_step);
     hdf_add_real_attribute(&file, "/run", "stiffness", saved->stiffness);
-    hdf_add_array(
-        &file,
-        &(hdf_array){ "/frames", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, (size_t)saved->next_sample, saved->frame_width, saved->frames },
-        HDF_PLAIN);
+    hdf_add_array(&file,
+                  &(hdf_array){ "/frames", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, (size_t)saved->next_sample, saved->frame_width,
+                                saved->frames, "SI, by column" },
+                  HDF_PLAIN);
     add_state(&file, &saved->state);
     return hdf_publish(&file);
 }

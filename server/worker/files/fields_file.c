@@ -19,15 +19,15 @@
 #include "worker_log.h"
 
 /* data: (cells, cells, components), with room for as much again behind it. */
-static void add_field(hdf_file *file, const char *name, double *data, size_t cells, size_t components)
+static void add_field(hdf_file *file, const char *name, double *data, size_t cells, size_t components, const char *unit)
 {
     const size_t count = cells * cells * components;
     char path[64];
     memcpy(data + count, data, count * sizeof *data);
     snprintf(path, sizeof path, "/fields/%s", name);
-    hdf_add_image(file, path, data, 0, cells, components);
+    hdf_add_image(file, path, data, 0, cells, components, unit);
     snprintf(path, sizeof path, "/VTKHDF/PointData/%s", name);
-    hdf_add_image(file, path, data, 2, cells, components);
+    hdf_add_image(file, path, data, 2, cells, components, unit);
 }
 
 static void add_groups(hdf_file *file, size_t cells, double diameter, double length, double frames, const char *params)
@@ -90,10 +90,10 @@ bool fields_file_write(const dem_scene *scene, bool is_mirrored, const double *s
     hdf_file file;
     hdf_create(&file, JOB_FIELDS_FILE);
     add_groups(&file, cells, drum->diameter, drum->length, sums[0], params);
-    add_field(&file, "solid_fraction", fields.solid_fraction, cells, 1);
-    add_field(&file, "velocity", fields.velocity, cells, 3);
-    add_field(&file, "granular_temperature", fields.temperature, cells, 1);
-    add_field(&file, "samples", fields.samples, cells, 1);
+    add_field(&file, "solid_fraction", fields.solid_fraction, cells, 1, NULL);
+    add_field(&file, "velocity", fields.velocity, cells, 3, "m/s");
+    add_field(&file, "granular_temperature", fields.temperature, cells, 1, "m2/s2");
+    add_field(&file, "samples", fields.samples, cells, 1, NULL);
     free(all);
     return hdf_publish(&file);
 }

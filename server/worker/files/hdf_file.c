@@ -92,6 +92,7 @@ static void add_set(hdf_file *file, const hdf_array *array, const hsize_t *exten
     }
     if (properties >= 0) H5Pclose(properties);
     if (space >= 0) H5Sclose(space);
+    hdf_add_text_attribute(file, array->path, "units", array->unit ? array->unit : "1", H5T_CSET_ASCII);
 }
 
 void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing)
@@ -99,9 +100,10 @@ void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing)
     add_set(file, array, (const hsize_t[]){ array->rows, array->columns }, array->columns ? 2 : 1, packing);
 }
 
-void hdf_add_image(hdf_file *file, const char *path, const double *data, size_t layers, size_t side, size_t components)
+void hdf_add_image(hdf_file *file, const char *path, const double *data, size_t layers, size_t side, size_t components,
+                   const char *unit)
 {
-    const hdf_array array = { path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, side, side, data };
+    const hdf_array array = { path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, side, side, data, unit };
     const hsize_t extent[4] = { layers, side, side, components };
     const int skipped = layers > 0 ? 0 : 1;
     add_set(file, &array, extent + skipped, (components > 1 ? 4 : 3) - skipped, HDF_PLAIN);

@@ -36,9 +36,10 @@ static bool is_plain(const char *name, mode_t kind)
 
 static bool all_is_plain(void)
 {
-    static const char *const files[] = { JOB_SPEC_FILE,   JOB_START_FILE,   JOB_EVENTS_FILE,
-                                         JOB_SERIES_FILE, JOB_FIELDS_FILE,  JOB_CHECKPOINT_FILE,
-                                         JOB_RESULT_FILE, JOB_PROFILE_FILE, JOB_EARLIER_CHECKPOINT_FILE };
+    static const char *const files[] = {
+        JOB_SPEC_FILE,   JOB_START_FILE,      JOB_EVENTS_FILE, JOB_SERIES_FILE,  JOB_WALLS_FILE,
+        JOB_FIELDS_FILE, JOB_CHECKPOINT_FILE, JOB_RESULT_FILE, JOB_PROFILE_FILE, JOB_EARLIER_CHECKPOINT_FILE
+    };
     bool plain = is_plain(JOB_SNAPSHOT_FOLDER, S_IFDIR);
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) plain = is_plain(files[i], S_IFREG) && plain;
     return plain;

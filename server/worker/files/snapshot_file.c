@@ -22,19 +22,19 @@
 
 #define VERTEX 1 /* VTK_VERTEX */
 
-static void add_reals(hdf_file *file, const char *path, const double *data, size_t rows, size_t columns)
+static void add_reals(hdf_file *file, const char *path, const double *data, size_t rows, size_t columns, const char *unit)
 {
-    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, rows, columns, data }, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, rows, columns, data, unit }, HDF_COMPRESSED);
 }
 
 static void add_integers(hdf_file *file, const char *path, const int32_t *data, size_t rows)
 {
-    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_INT32, H5T_STD_I32LE, rows, 0, data }, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_INT32, H5T_STD_I32LE, rows, 0, data, NULL }, HDF_COMPRESSED);
 }
 
 static void add_one(hdf_file *file, const char *path, int64_t number)
 {
-    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_INT64, H5T_STD_I64LE, 1, 0, &number }, HDF_PLAIN);
+    hdf_add_array(file, &(hdf_array){ path, H5T_NATIVE_INT64, H5T_STD_I64LE, 1, 0, &number, NULL }, HDF_PLAIN);
 }
 
 /* Each sphere is a cell of one point. rising, vertices: room for n + 1 and n. */
@@ -45,9 +45,10 @@ static void add_cells(hdf_file *file, size_t n, int64_t *rising, uint8_t *vertic
     add_one(file, "/VTKHDF/NumberOfPoints", (int64_t)n);
     add_one(file, "/VTKHDF/NumberOfCells", (int64_t)n);
     add_one(file, "/VTKHDF/NumberOfConnectivityIds", (int64_t)n);
-    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Connectivity", H5T_NATIVE_INT64, H5T_STD_I64LE, n, 0, rising }, HDF_COMPRESSED);
-    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Offsets", H5T_NATIVE_INT64, H5T_STD_I64LE, n + 1, 0, rising }, HDF_COMPRESSED);
-    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Types", H5T_NATIVE_UINT8, H5T_STD_U8LE, n, 0, vertices }, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Connectivity", H5T_NATIVE_INT64, H5T_STD_I64LE, n, 0, rising, NULL },
+                  HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Offsets", H5T_NATIVE_INT64, H5T_STD_I64LE, n + 1, 0, rising, NULL }, HDF_COMPRESSED);
+    hdf_add_array(file, &(hdf_array){ "/VTKHDF/Types", H5T_NATIVE_UINT8, H5T_STD_U8LE, n, 0, vertices, NULL }, HDF_COMPRESSED);
 }
 
 /* reals: room for 4 n, used for one field after the other, as is integers with n. */
@@ -56,18 +57,18 @@ static void add_spheres(hdf_file *file, const dem_scene *scene, bool is_mirrored
     const size_t n = dem_scene_sphere_count(scene);
     dem_scene_particles(scene, &(dem_particle_arrays){ .position = reals });
     if (is_mirrored) mirror_vectors(reals, n);
-    add_reals(file, "/VTKHDF/Points", reals, n, 3);
+    add_reals(file, "/VTKHDF/Points", reals, n, 3, "m");
     dem_scene_particles(scene, &(dem_particle_arrays){ .radius = reals });
-    add_reals(file, "/VTKHDF/PointData/radius", reals, n, 0);
+    add_reals(file, "/VTKHDF/PointData/radius", reals, n, 0, "m");
     dem_scene_particles(scene, &(dem_particle_arrays){ .angular_velocity = reals });
     if (is_mirrored) mirror_spins(reals, n);
-    add_reals(file, "/VTKHDF/PointData/angular_velocity", reals, n, 3);
+    add_reals(file, "/VTKHDF/PointData/angular_velocity", reals, n, 3, "rad/s");
     dem_scene_particles(scene, &(dem_particle_arrays){ .velocity = reals });
     if (is_mirrored) mirror_vectors(reals, n);
-    add_reals(file, "/VTKHDF/PointData/velocity", reals, n, 3);
+    add_reals(file, "/VTKHDF/PointData/velocity", reals, n, 3, "m/s");
     for (size_t i = 0; i < n; i++)
         reals[i] = sqrt(reals[3 * i] * reals[3 * i] + reals[3 * i + 1] * reals[3 * i + 1] + reals[3 * i + 2] * reals[3 * i + 2]);
-    add_reals(file, "/VTKHDF/PointData/speed", reals, n, 0);
+    add_reals(file, "/VTKHDF/PointData/speed", reals, n, 0, "m/s");
 
     for (size_t i = 0; i < n; i++) integers[i] = (int32_t)i;
     add_integers(file, "/VTKHDF/PointData/id", integers, n);
@@ -81,7 +82,7 @@ static void add_spheres(hdf_file *file, const dem_scene *scene, bool is_mirrored
     if (!dem_scene_has_clusters(scene)) return;
     dem_scene_particles(scene, &(dem_particle_arrays){ .orientation = reals });
     if (is_mirrored) mirror_turns(reals, n);
-    add_reals(file, "/VTKHDF/PointData/orientation", reals, n, 4);
+    add_reals(file, "/VTKHDF/PointData/orientation", reals, n, 4, NULL);
 }
 
 static void add_groups(hdf_file *file, const char *params)
@@ -107,9 +108,9 @@ static bool write_file(const char *name, const dem_scene *scene, bool is_mirrore
     add_groups(&file, params);
     add_cells(&file, dem_scene_sphere_count(scene), rising, vertices);
     add_spheres(&file, scene, is_mirrored, reals, integers);
-    hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/time", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &time }, HDF_PLAIN);
+    hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/time", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &time, "s" }, HDF_PLAIN);
     const double turned = is_mirrored ? -dem_scene_turned(scene) : dem_scene_turned(scene);
-    hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/drum_angle", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &turned },
+    hdf_add_array(&file, &(hdf_array){ "/VTKHDF/FieldData/drum_angle", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, 1, 0, &turned, "rad" },
                   HDF_PLAIN);
     add_one(&file, "/VTKHDF/FieldData/step", dem_scene_step_count(scene));
     hdf_add_hard_link(&file, "/VTKHDF/Points", "/particles/position");

@@ -20,6 +20,7 @@
 #include "run_summary.h"
 #include "snapshot_file.h"
 #include "start_file.h"
+#include "walls_file.h"
 #include "worker_log.h"
 
 #define SERIES_SECONDS 2.0       /* between rewrites of a long series */
@@ -103,7 +104,8 @@ static bool write_series(scene_run *r, bool now)
 {
     if (!now && r->next_snapshot >= SERIES_ALWAYS_BELOW && monotonic_seconds() - r->last_series < SERIES_SECONDS) return true;
     r->last_series = monotonic_seconds();
-    return snapshot_series_write(&r->plan, r->spec->scene.time_step, r->next_snapshot);
+    return snapshot_series_write(&r->plan, r->spec->scene.time_step, r->next_snapshot)
+           && walls_file_write(r->scene, &r->spec->scene, r->spec->is_mirrored);
 }
 
 static enum worker_exit take_snapshot(scene_run *r)

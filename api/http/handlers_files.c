@@ -1,0 +1,61 @@
+/* Files of a job's folder, one by one or all in an archive. Snapshots are in handlers_series.c. */
+#include <string.h>
+
+#include "handlers.h"
+#include "job_folder.h"
+#include "tar_stream.h"
+
+typedef struct job_file {
+    const char *name, *media_type;
+    enum http_file_kind kind;
+    const char *when; /* it is there */
+} job_file;
+
+static void send_file(api_service *service, const http_request *request, http_response *response, const job_file *wanted)
+{
+    job_record job;
+    int file;
+    char end[40] = "-";
+    if (!find_job(service, request, response, &job)) return;
+    strncat(end, wanted->name, sizeof end - 2);
+    name_file(response, job.id, end, true);
+    if (store_open_file(service->store, job.id, NULL, wanted->name, &file) == STORE_OK)
+        http_respond_file(request, response, file, wanted->media_type, wanted->kind);
+    else http_respond_problem(response, 404, NULL, "No such file", "job %s has no %s; %s", job.id, wanted->name, wanted->when);
+    job_record_clear(&job);
+}
+
+void send_fields(api_service *service, const http_request *request, http_response *response)
+{
+    static const job_file fields = { JOB_FIELDS_FILE, "application/x-hdf5", HTTP_FILE_IMMUTABLE,
+                                     "a drum has it when its run is over, other tests never" };
+    send_file(service, request, response, &fields);
+}
+
+void send_walls(api_service *service, const http_request *request, http_response *response)
+{
+    static const job_file walls = { JOB_WALLS_FILE, "application/xml", HTTP_FILE_CHANGING,
+                                    "it is there from the first snapshot on, or when the run is over; a granule has none" };
+    send_file(service, request, response, &walls);
+}
+
+void send_snapshot_series(api_service *service, const http_request *request, http_response *response)
+{
+    static const job_file series = { JOB_SERIES_FILE, "application/json", HTTP_FILE_CHANGING,
+                                     "it is there from the first snapshot on, or when the run is over; a granule has none" };
+    send_file(service, request, response, &series);
+}
+
+void send_archive(api_service *service, const http_request *request, http_response *response)
+{
+    job_record job;
+    if (!find_job(service, request, response, &job)) return;
+    if (tar_stream_open(service->store, job.id, &response->pieces)) {
+        response->status = 200;
+        response->content_type = "application/x-tar";
+        name_file(response, job.id, ".tar", true);
+    } else {
+        respond_store_failure(response, STORE_FAILED, "read the folder of the job");
+    }
+    job_record_clear(&job);
+}
