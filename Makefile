@@ -5,6 +5,7 @@ TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-reque
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core python3-owslib
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
 PEER_PACKAGES := lammps liggghts
+DEB_PACKAGES := dpkg-dev
 LINT_PACKAGES := clang-format clang-tidy cppcheck
 FUZZ_PACKAGES := clang libclang-rt-dev
 
@@ -13,6 +14,8 @@ PYTHON := /usr/bin/python3
 BUILD := build
 DATA := data
 PORT := 8080
+PREFIX := /usr/local
+DESTDIR :=
 TORTURE := tests/service
 SECONDS := 60
 FUZZ_CC := clang
@@ -118,7 +121,7 @@ $(BUILD)/core/$(1)/%.o: core/%.c Makefile
 	$(QUIET)$(CC) $(CFLAGS) $(CORE_FLAGS) $(call variant_flags,$(1)) $$(call sees,$$<) -c $$< -o $$@
 $(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_SOURCES))
 	@rm -f $$@ && ar rcs $$@ $$^
-$(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a $(RULES)
+$(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/commit.o $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a $(RULES)
 	$(SAY) link $$@
 	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -ljansson -lm
 endef
@@ -145,9 +148,16 @@ $(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 
 $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
-$(BUILD)/reposed: $(DAEMON) $(BUILD)/libapi.a $(RULES)
+$(BUILD)/reposed: $(DAEMON) $(BUILD)/commit.o $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm
+# The commit that programs were made from, for --version; COMMIT=... where the sources are no clone.
+COMMIT = $(shell [ ! -e .git ] || git describe --always --dirty --abbrev=12 --exclude '*' 2>/dev/null)
+$(BUILD)/commit.c: FORCE
+	@mkdir -p $(@D)
+	@line='const char reposed_commit[] = "$(if $(COMMIT), (commit $(COMMIT)))";'; echo "$$line" | cmp -s - $@ || echo "$$line" >$@
+$(BUILD)/commit.o: $(BUILD)/commit.c
+	$(QUIET)$(CC) $(CFLAGS) -include api/text/version.h -c $< -o $@
 # Changes when ISA or DOUBLE does, so that what is built for one is not taken for the other.
 $(BUILD)/variant: FORCE
 	@mkdir -p $(@D)
@@ -259,6 +269,14 @@ reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md;
 	@$(MAKE) --no-print-directory programs
 	@$(PYTHON) tests/reproduce $(STUDIES) --build $(BUILD) --data "$(DATA)/reproduce"
 
+# What is where: server/package/install.sh.
+install: programs ## programs, page, documents, man pages, completion and service into PREFIX=/usr/local, below DESTDIR=
+	@sh server/package/install.sh $(BUILD) "$(DESTDIR)" "$(PREFIX)"
+
+deb: programs ## a package for Debian, build/reposed_VERSION_ARCHITECTURE.deb
+	$(call install,$(DEB_PACKAGES),what packages are made with)
+	@sh server/package/deb.sh $(BUILD)
+
 check: programs ## the layers: the core needs nothing but libc, libm and OpenMP
 	@sh tests/check_layers.sh $(BUILD)
 
@@ -329,6 +347,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
-.PHONY: FORCE all programs demo serve test unit torture fuzz fuzzers physics physics-programs reproduce check bench bench-peers asan tsan format format-check lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve install deb test unit torture fuzz fuzzers physics physics-programs reproduce check bench bench-peers asan tsan format format-check lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

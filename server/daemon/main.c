@@ -149,8 +149,9 @@ int main(int argc, char **argv)
 {
     static parts all;
     if (argc == 3 && strcmp(argv[1], "openapi") == 0) return openapi_file_update(argv[2]) ? 0 : 1;
+    if (argc == 2 && strcmp(argv[1], "--version") == 0) return printf("reposed " REPOSED_VERSION "%s\n", reposed_commit) < 0;
     const enum config_outcome outcome = config_read(&all.settings, argc, argv);
-    if (outcome != CONFIG_SERVE) return outcome == CONFIG_SHOWN ? 0 : 2;
+    if (outcome != CONFIG_READ) return outcome == CONFIG_SHOWN ? 0 : 2;
     keep_memory_small();
     umask(077);
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */

@@ -339,7 +339,7 @@ int main(int argc, char **argv)
     else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1, word);
     else if (strcmp(word, "calibrate") == 0) exit = calibrate_here(argc - 1, argv + 1, word);
     else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) exit = show(help);
-    else if (strcmp(word, "--version") == 0) puts("repose " REPOSED_VERSION);
+    else if (strcmp(word, "--version") == 0) printf("repose " REPOSED_VERSION "%s\n", reposed_commit);
     else exit = refuse_usage("not a command", word);
     /* After a failed write HDF5's own cleaning up at exit crashes: leave without it. */
     if (fflush(stdout) != 0 && exit == WORKER_DONE) exit = WORKER_DISK;

@@ -70,6 +70,7 @@ class Daemon:
         if BUILD.parent != ROOT:  # the page and the OpenAPI document are looked for beside the build folder
             self.options = ["--web", str(ROOT / "web"), "--api-file", str(ROOT / "api/openapi.yaml"), *self.options]
         self.port, self.process = 0, None
+        self.program = BUILD / "reposed"
 
     @property
     def url(self):
@@ -79,7 +80,7 @@ class Daemon:
         """On the port it had before, if it was running before."""
         if self.measures:
             ready_calibration()
-        command = [BUILD / "reposed", "serve", "--port", str(self.port), "--data", self.data, *self.options]
+        command = [self.program, "serve", "--port", str(self.port), "--data", self.data, *self.options]
         with open(self.folder / "daemon.log", "ab") as log:
             # SIGHUP as it is by default, also where nohup has it ignored
             self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=log, text=True,

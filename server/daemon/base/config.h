@@ -1,23 +1,38 @@
-/* The command line of `reposed serve`. */
+/* The command line of `reposed`, and a file of the same names. */
 #ifndef CONFIG_H
 #define CONFIG_H
 
 #include <stdbool.h>
+#include <stddef.h>
 
 enum { CONFIG_HOSTS = 8, CONFIG_MOST_WORKERS = 256 };
 
+/* Not to be copied: some members point into it. */
 typedef struct config {
+    const char *command;  /* what is to be done: "serve", ... */
+    const char *argument; /* of that command; NULL: none */
+    const char *file;     /* that options were read from; NULL: none */
     const char *host, *data, *token_file, *port_file;
     const char *public_url; /* without / at the end; NULL: none */
     char public_host[256];  /* of it, without the port; "": none */
     int port, workers, threads, queue_limit;
-    char web[4096], worker[4096], api_file[4096];
+    const char *worker, *web, *api_file;
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;
+
+    bool is_installed; /* by `make install` or a package: what the program needs lies where these put it */
+    int word_count;    /* the command line, for reading it again */
+    char **word;
+    char *file_text; /* owned: what strings that the file gave point into */
+    char public_url_kept[300], worker_found[4096], web_found[4096], api_found[4096];
 } config;
 
 /* What to do after reading; for CONFIG_WRONG and CONFIG_SHOWN everything has been said. */
-enum config_outcome { CONFIG_SERVE, CONFIG_SHOWN, CONFIG_WRONG };
+enum config_outcome { CONFIG_READ, CONFIG_SHOWN, CONFIG_WRONG };
 enum config_outcome config_read(config *settings, int argc, char **argv);
+/* The file and the command line of a running service once more, as they are now. False: all problems are logged, and `fresh` is
+ * of no use. Either way it is to be cleared when nobody uses its strings any more. */
+bool config_read_again(config *fresh, const config *running);
+void config_clear(config *settings);
 
 #endif

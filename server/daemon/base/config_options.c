@@ -1,0 +1,98 @@
+#include "config_options.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* "http[s]://host[:port][/prefix]"; it goes into addresses as it is. */
+static bool take_public_url(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    static const char path[] = "/abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~", *letters = path + 1;
+    const char *host = strncmp(value, "https://", 8) == 0 ? value + 8 : strncmp(value, "http://", 7) == 0 ? value + 7 : NULL;
+    size_t length = strlen(value);
+    while (host && length > 0 && value[length - 1] == '/') length--;
+    const size_t name = host ? (*host == '[' ? strcspn(host, "]") + 1 : strspn(host, letters)) : 0;
+    const char *rest = host && name > 0 && name < sizeof settings->public_host ? host + name : "?";
+    if (*rest == ':') rest += 1 + strspn(rest + 1, "0123456789");
+    const bool good = (*rest == '\0' || *rest == '/') && rest[strspn(rest, path)] == '\0' && !strstr(rest, "//")
+                      && !strstr(rest, "/.") && length < sizeof settings->public_url_kept;
+    if (!good) {
+        snprintf(problem, OPTION_PROBLEM_SIZE, "http:// or https:// with a host and perhaps a port and a path");
+        return false;
+    }
+    snprintf(settings->public_url_kept, sizeof settings->public_url_kept, "%.*s", (int)length, value);
+    const bool six = *host == '[';
+    snprintf(settings->public_host, sizeof settings->public_host, "%.*s", (int)(six ? name - 2 : name), host + six);
+    settings->public_url = settings->public_url_kept;
+    return true;
+}
+
+static bool take_host_name(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    if (settings->allowed_hosts == CONFIG_HOSTS) {
+        snprintf(problem, OPTION_PROBLEM_SIZE, "one of %d names at most", CONFIG_HOSTS);
+        return false;
+    }
+    settings->allowed_host[settings->allowed_hosts++] = value;
+    return true;
+}
+
+#define AT(member) .offset = offsetof(config, member)
+#define WHOLE(member, least, most) .kind = OPTION_WHOLE, AT(member), .low = least, .high = most
+#define TEXT(member) .kind = OPTION_TEXT, AT(member)
+
+const config_option config_options[] = {
+    { "config", "FILE", "a file of these options, a line each: port = 8080\n(/etc/reposed.conf where it was installed)",
+      TEXT(file) },
+    { "host", "ADDRESS", "where to listen (127.0.0.1); beyond loopback needs --token-file", TEXT(host) },
+    { "port", "NUMBER", "0 to 65535 (8080); 0 takes any free port and prints it", WHOLE(port, 0, 65535) },
+    { "data", "DIR", "database and job folders, made when missing (./data)", TEXT(data) },
+    { "workers", "N", "jobs at once, 1 to 256 (one for each core)", WHOLE(workers, 1, CONFIG_MOST_WORKERS) },
+    { "threads", "N", "threads of a job that does not ask, 1 to 256 (1)", WHOLE(threads, 1, 256) },
+    { "queue-limit", "N", "jobs that may wait, 1 to 1000000 (10000); a study that makes more is refused",
+      WHOLE(queue_limit, 1, 1000000) },
+    { "token-file", "FILE", "clients must send \"Authorization: Bearer\" with its text; mode 0600", TEXT(token_file) },
+    { "allow-host", "NAME", "accept this name in the Host header; may be given 8 times", .kind = OPTION_TAKEN, .may_repeat = true,
+      .take = take_host_name },
+    { "public-url", "URL", "what addresses begin with for clients, as https://host/prefix behind a proxy", .kind = OPTION_TAKEN,
+      .take = take_public_url },
+    { "port-file", "FILE", "write the port there once it is open", TEXT(port_file) },
+    { "worker", "PATH", "the worker program (repose, beside this one)", TEXT(worker) },
+    { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
+    { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
+};
+const size_t config_option_count = sizeof config_options / sizeof config_options[0];
+_Static_assert(sizeof config_options / sizeof config_options[0] <= MOST_OPTIONS, "there is room for all");
+
+const config_option *config_option_named(const char *name)
+{
+    for (size_t o = 0; o < config_option_count; o++)
+        if (strcmp(config_options[o].name, name) == 0) return &config_options[o];
+    return NULL;
+}
+
+static bool take_whole(const config_option *option, int *number, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    char *end;
+    errno = 0;
+    const long read = strtol(value, &end, 10);
+    const bool good = errno == 0 && end != value && *end == '\0' && read >= option->low && read <= option->high;
+    if (good) *number = (int)read;
+    else snprintf(problem, OPTION_PROBLEM_SIZE, "a whole number in [%d, %d]", option->low, option->high);
+    return good;
+}
+
+bool config_option_take(const config_option *option, config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    void *place = (char *)settings + option->offset;
+    switch (option->kind) {
+    case OPTION_WHOLE: return take_whole(option, place, value, problem);
+    case OPTION_FLAG: *(bool *)place = true; return true;
+    case OPTION_TAKEN: return option->take(settings, value, problem);
+    case OPTION_TEXT: break;
+    }
+    *(const char **)place = value;
+    snprintf(problem, OPTION_PROBLEM_SIZE, "given");
+    return *value != '\0';
+}

@@ -1,0 +1,28 @@
+/* The table of options: it alone drives reading the command line and the file, and what --help says. */
+#ifndef CONFIG_OPTIONS_H
+#define CONFIG_OPTIONS_H
+
+#include "config.h"
+
+enum { OPTION_PROBLEM_SIZE = 400, MOST_OPTIONS = 64 };
+
+typedef struct config_option {
+    const char *name, *argument; /* argument NULL: it has none, and stands on the command line alone */
+    const char *meaning;         /* for --help; \n begins a further line */
+    enum { OPTION_WHOLE, OPTION_TEXT, OPTION_FLAG, OPTION_TAKEN } kind;
+    size_t offset; /* in the config: of an int, a const char * or a bool */
+    int low, high; /* of a whole number */
+    bool may_repeat;
+    /* OPTION_TAKEN: false, and what the value must be, as in `must be ...`. */
+    bool (*take)(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE]);
+} config_option;
+
+extern const config_option config_options[];
+extern const size_t config_option_count;
+
+/* NULL: there is none of that name. */
+const config_option *config_option_named(const char *name);
+/* The value, a string that lives as long as the settings. False: problem says what it must be. */
+bool config_option_take(const config_option *option, config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE]);
+
+#endif
