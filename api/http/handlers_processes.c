@@ -1,4 +1,5 @@
 /* What can be run, and running it. */
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -60,15 +61,21 @@ void show_process(api_service *service, const http_request *request, http_respon
     else respond_no_such_process(response, request->segment[0]);
 }
 
+static void respond_without_memory(http_response *response)
+{
+    http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
+}
+
 json_t *parse_body(const http_request *request, http_response *response)
 {
     problem_list problems;
     if (!problem_list_init(&problems)) {
-        http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
+        respond_without_memory(response);
         return NULL;
     }
     json_t *document = json_text_load(request->body ? request->body : "", request->body_length, &problems);
-    if (!document) http_respond_problems(response, 400, "Not JSON", "the body can't be read", &problems);
+    if (!document && errno == ENOMEM) respond_without_memory(response);
+    else if (!document) http_respond_problems(response, 400, "Not JSON", "the body can't be read", &problems);
     problem_list_clear(&problems);
     return document;
 }
@@ -133,8 +140,9 @@ static bool read_spec(api_service *service, const process_type *type, const http
     problem_list problems;
     bool good = false;
     if (!problem_list_init(&problems)) {
-        http_respond_problem(response, 503, NULL, "Out of memory", "the request could not be read; try again");
+        respond_without_memory(response);
     } else {
+        errno = 0;
         set_default_threads(service, type, document);
         start_source beds = store_beds(service->store);
         beds.client = &request->client;
@@ -143,7 +151,12 @@ static bool read_spec(api_service *service, const process_type *type, const http
             job_spec_clear(spec);
             good = false;
         }
-        if (!good)
+        /* What was left out for want of memory is nobody's fault, and nothing else may be run in its place. */
+        const bool has_memory = errno != ENOMEM;
+        if (good && !has_memory) job_spec_clear(spec);
+        good = good && has_memory;
+        if (!has_memory) respond_without_memory(response);
+        else if (!good)
             http_respond_problems(response, 400, "The specification can't be run",
                                   "each entry of errors names a member, what it is and what it may be", &problems);
         problem_list_clear(&problems);

@@ -1,6 +1,7 @@
 #include "json_text.h"
 
 #include <ctype.h>
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -50,10 +51,30 @@ static text_piece find_vanishing_number(const char *text, const char *end)
     return (text_piece){ NULL, 0 };
 }
 
+/* Of this thread: the parser does not tell of every refusal, clears errno, and may go on without a character. */
+static _Thread_local bool was_refused;
+
+static void *watched_malloc(size_t bytes)
+{
+    void *memory = malloc(bytes);
+    if (!memory) was_refused = true;
+    return memory;
+}
+
+void json_text_watch_memory(void) { json_set_alloc_funcs(watched_malloc, free); }
+
 json_t *json_text_load(const char *text, size_t length, problem_list *problems)
 {
     json_error_t error;
+    was_refused = false;
+    errno = 0;
     json_t *document = json_loadb(text, length, JSON_REJECT_DUPLICATES | JSON_DECODE_ANY, &error);
+    if (was_refused || errno == ENOMEM) {
+        json_decref(document);
+        problem_list_add(problems, "", "can't be read: out of memory");
+        errno = ENOMEM;
+        return NULL;
+    }
     if (!document) {
         problem_list_add(problems, "", "is not JSON: %s (line %d, column %d)", error.text, error.line, error.column);
         return NULL;

@@ -7,6 +7,9 @@
 
 #include "problem.h"
 
+/* Once, before there are threads: json_text_load then misses no refusal of memory within the parser. */
+void json_text_watch_memory(void);
+
 /* New reference, or NULL and one problem (pointer "") that names line and column. */
 json_t *json_text_load(const char *text, size_t length, problem_list *problems);
 

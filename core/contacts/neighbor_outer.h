@@ -20,9 +20,9 @@ typedef struct outer_list {
     size_t pair_count, pair_capacity, second_capacity;
     uint32_t *start;         /* (mobile + 1) */
     int32_t *first, *second; /* (pair_capacity, second_capacity) by first, then by second; padded with a pair far apart */
-    uint32_t *farthest;     /* (mobile / STRETCH + 1) for waves: the last sphere of each stretch or of a pair that begins in it */
-    uint16_t *in_reach;     /* (pair_capacity / LANES) one bit for each pair: it is picked for the inner list */
-    uint16_t *was_in_reach; /* likewise, at the pick before */
+    uint32_t *farthest;      /* (mobile / STRETCH + 1) for waves: the last sphere of each stretch or of a pair that begins in it */
+    uint16_t *in_reach;      /* (pair_capacity / LANES) one bit for each pair: it is picked for the inner list */
+    uint16_t *was_in_reach;  /* likewise, at the pick before */
     pair_part part[MOST_PARTS];
     ring_row *built_at;    /* (mobile) places when the list was made */
     double angle_at_build; /* rad: the container's angle when the list was made */

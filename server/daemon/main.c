@@ -13,6 +13,7 @@
 #include "end_signals.h"
 #include "folder_remover.h"
 #include "http_server.h"
+#include "json_text.h"
 #include "log.h"
 #include "openapi_schemas.h"
 #include "readiness.h"
@@ -153,9 +154,13 @@ int main(int argc, char **argv)
     const enum config_outcome outcome = config_read(&all.settings, argc, argv);
     if (outcome != CONFIG_READ) return outcome == CONFIG_SHOWN ? 0 : 2;
     keep_memory_small();
+    json_text_watch_memory();
     umask(077);
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */
-    if (!arrange_signals(&all) || !open_parts(&all)) return 1;
+    if (!arrange_signals(&all) || !open_parts(&all)) {
+        log_line("the daemon can't start; data folder %s", all.settings.data);
+        return 1;
+    }
     announce(&all);
     calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);

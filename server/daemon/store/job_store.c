@@ -25,7 +25,9 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
     pthread_cond_init(&store->reader_is_free, NULL);
     char path[4096];
     snprintf(path, sizeof path, "%s/reposed.sqlite", data->path);
-    bool good = field_tables_init(&store->fields) && (store->writer = database_open_writer(path)) != NULL;
+    bool good = field_tables_init(&store->fields);
+    if (!good) log_line("database: out of memory for the tables of fields");
+    good = good && (store->writer = database_open_writer(path)) != NULL;
     for (; good && store->readers_free < STORE_READERS; store->readers_free++)
         good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
     if (good) good = (store->query = database_open_reader(path)) != NULL && query_connection_restrict(store);
