@@ -1,6 +1,6 @@
 # reposed: virtual rotary-drum tests. `make help` lists the targets.
 
-PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev
+PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev libseccomp-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core python3-owslib
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
@@ -74,8 +74,9 @@ server/daemon/queue_SEES := $(server/daemon/store_SEES) server/daemon/queue
 server/daemon/http_SEES := $(server/daemon/queue_SEES) server/daemon/http
 server/daemon_SEES := $(server/daemon/http_SEES)
 server/worker/files_SEES := $(api/process_SEES) server/worker/files
+server/worker/confine_SEES := server/worker/files server/worker/confine
 server/worker/run_SEES := $(sort $(api/process_SEES) $(api/study_SEES)) server/worker/files server/worker/run
-server/worker_SEES := $(server/worker/run_SEES)
+server/worker_SEES := $(server/worker/run_SEES) server/worker/confine
 # $(call sees,FILE): the -I list of a file, which is its folder's. Tests see everything that they are linked with.
 sees = $(addprefix -I,$($(patsubst %/,%,$(dir $(1)))_SEES))
 API_SEES := $(addprefix -I,$(sort $(api/process_SEES) $(api/http_SEES)))
@@ -123,7 +124,7 @@ $(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_S
 	@rm -f $$@ && ar rcs $$@ $$^
 $(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/commit.o $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a $(RULES)
 	$(SAY) link $$@
-	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -ljansson -lm
+	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -ljansson -lseccomp -lm
 endef
 $(foreach v,$(VARIANTS),$(eval $(call core,$(v))))
 # The rules, which the core and the daemon have in common, are compiled once, for any processor.
@@ -188,7 +189,7 @@ $(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
-	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -ljansson -lm -o $@
+	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -ljansson -lseccomp -lm -o $@
 $(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD)/libapi.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "calibrate.h"
+#include "confinement.h"
 #include "file_publish.h"
 #include "file_seal.h"
 #include "hdf_file.h"
@@ -39,7 +40,9 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "    --json                    print the results as JSON\n"                                                                    \
     "    --profile                 print what the time went into, and keep it as profile.json (not of a granule)\n"                \
     "    --isa avx512|avx2|plain   the instruction set to use (default: the best that the processor has); results do not\n"        \
-    "                              depend on it. Also of check and calibrate\n"
+    "                              depend on it. Also of check and calibrate\n"                                                    \
+    "    --confine                 let the run read and write DIR alone, and let it neither start programs nor use the\n"          \
+    "                              network, as the daemon's workers; a file to start from must then lie in DIR\n"
 #define HELP_CHECK                                                                                                                 \
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"              \
     "                              memory; or every problem it has. Of a study: its cases and what it costs\n"                     \
@@ -65,6 +68,7 @@ typedef struct command_line {
     int threads;     /* 0: those of the spec */
     bool json;
     bool help; /* that alone is asked for */
+    bool confine;
     run_options run;
 } command_line;
 
@@ -99,11 +103,17 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
-        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
-        { "json", no_argument, NULL, 'j' },          { "profile", no_argument, NULL, 'p' },
-        { "data", required_argument, NULL, 'd' },    { "isa", required_argument, NULL, 'i' },
-        { "help", no_argument, NULL, 'h' },          { NULL, 0, NULL, 0 },
+        { "out", required_argument, NULL, 'o' },
+        { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' },
+        { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },
+        { "profile", no_argument, NULL, 'p' },
+        { "data", required_argument, NULL, 'd' },
+        { "isa", required_argument, NULL, 'i' },
+        { "help", no_argument, NULL, 'h' },
+        { "confine", no_argument, NULL, 'f' },
+        { NULL, 0, NULL, 0 },
     };
     *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
     bool good = true;
@@ -117,6 +127,7 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         case 'p': line->run.profile = true; break;
         case 'h': line->help = true; return WORKER_DONE;
         case 'd': line->data = optarg; break;
+        case 'f': line->confine = true; break;
         case 'i':
             line->isa = optarg;
             good = variant_isa_is_usable(optarg);
@@ -302,17 +313,22 @@ static enum worker_exit run(int argc, char **argv, char *word)
     if (exit == WORKER_DONE && !line.spec) exit = refuse_usage(no_spec, NULL);
     if (exit == WORKER_DONE && !line.out) exit = refuse_usage("say where to write: --out DIR", NULL);
     if (exit == WORKER_DONE && strcmp(line.spec, "-") == 0 && !variant_keep_stdin()) exit = WORKER_FAULT;
+    if (exit == WORKER_DONE && line.confine && !confinement_begin(line.out, path_of(line.spec))) exit = WORKER_MACHINE;
     if (exit == WORKER_DONE) exit = load_spec(line.spec, line.out, &spec);
     if (exit != WORKER_DONE) return exit;
     job_run_hold_signals();
     if (!take_over(&line, spec.inputs.precision > 0 ? "double" : "single", word, argv)) {
-        exit = machine_error_is(errno) ? WORKER_MACHINE : WORKER_FAULT;
+        exit = machine_error_is(errno) || (line.confine && errno == EACCES) ? WORKER_MACHINE : WORKER_FAULT;
         job_spec_clear(&spec);
         return exit;
     }
     if (line.threads) spec.threads = spec.scene.threads = line.threads;
     line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;
     worker_log_only_warnings(line.run.on_terminal && isatty(STDERR_FILENO));
+    if (line.confine && !confinement_complete(line.out)) {
+        job_spec_clear(&spec);
+        return WORKER_MACHINE;
+    }
     hdf_init();
     job_run_catch_signals();
     char start[PATH_MAX];
@@ -341,6 +357,7 @@ int main(int argc, char **argv)
     else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) exit = show(help);
     else if (strcmp(word, "--version") == 0) printf("repose " REPOSED_VERSION "%s\n", reposed_commit);
     else exit = refuse_usage("not a command", word);
+    if (exit != WORKER_DONE && exit != WORKER_STOPPED && confinement_has_refused()) exit = WORKER_MACHINE;
     /* After a failed write HDF5's own cleaning up at exit crashes: leave without it. */
     if (fflush(stdout) != 0 && exit == WORKER_DONE) exit = WORKER_DISK;
     fflush(stderr);

@@ -38,6 +38,13 @@ static bool take_host_name(config *settings, const char *value, char problem[OPT
     return true;
 }
 
+static bool take_confine(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    settings->confine = strcmp(value, "yes") == 0;
+    snprintf(problem, OPTION_PROBLEM_SIZE, "yes or no");
+    return settings->confine || strcmp(value, "no") == 0;
+}
+
 #define AT(member) .offset = offsetof(config, member)
 #define WHOLE(member, least, most) .kind = OPTION_WHOLE, AT(member), .low = least, .high = most
 #define TEXT(member) .kind = OPTION_TEXT, AT(member)
@@ -59,6 +66,8 @@ const config_option config_options[] = {
       .take = take_public_url },
     { "port-file", "FILE", "write the port there once it is open", TEXT(port_file) },
     { "worker", "PATH", "the worker program (repose, beside this one)", TEXT(worker) },
+    { "confine", "yes|no", "let a worker use its job folder alone, no network and no programs (yes)", .kind = OPTION_TAKEN,
+      .take = take_confine },
     { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
     { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
 };

@@ -31,8 +31,9 @@ typedef struct worker_executor {
     void (*ask_to_stop)(struct worker_executor *executor, const worker_handle *worker); /* checkpoint and leave */
     void (*kill)(struct worker_executor *executor, const worker_handle *worker);
     const char *program; /* path of the worker program */
+    bool confine;        /* to the job's folder; the worker does it itself */
 } worker_executor;
 
-void executor_local_init(worker_executor *executor, const char *program);
+void executor_local_init(worker_executor *executor, const char *program, bool confine);
 
 #endif

@@ -111,9 +111,17 @@ static bool start(worker_executor *executor, const worker_order *order, worker_h
     snprintf(spec, sizeof spec, "%s/" JOB_SPEC_FILE, order->job_folder);
     snprintf(attempt, sizeof attempt, "%d", order->attempt);
     snprintf(threads, sizeof threads, "%d", order->threads);
-    char *const arguments[] = {
-        (char *)executor->program, "run", spec, "--out", (char *)order->job_folder, "--attempt", attempt, "--threads", threads, NULL
-    };
+    char *const arguments[] = { (char *)executor->program,
+                                "run",
+                                spec,
+                                "--out",
+                                (char *)order->job_folder,
+                                "--attempt",
+                                attempt,
+                                "--threads",
+                                threads,
+                                executor->confine ? "--confine" : NULL,
+                                NULL };
     worker_streams streams;
     const pid_t parent = getpid();
     const pid_t process = streams_open(&streams, order->job_folder_file) ? fork() : -1;
@@ -152,9 +160,12 @@ static void kill_worker(worker_executor *executor, const worker_handle *worker)
     kill(worker->process, SIGKILL);
 }
 
-void executor_local_init(worker_executor *executor, const char *program)
+void executor_local_init(worker_executor *executor, const char *program, bool confine)
 {
-    *executor = (worker_executor){
-        .start = start, .has_ended = has_ended, .ask_to_stop = ask_to_stop, .kill = kill_worker, .program = program
-    };
+    *executor = (worker_executor){ .start = start,
+                                   .has_ended = has_ended,
+                                   .ask_to_stop = ask_to_stop,
+                                   .kill = kill_worker,
+                                   .program = program,
+                                   .confine = confine };
 }

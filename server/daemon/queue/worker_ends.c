@@ -5,6 +5,7 @@
  *   2, 4, 1                        failed: the same worker on the same spec would end the same way
  *   5, 6, 127, no worker at all    accepted again, after a pause: the machine had no room, memory, descriptors or program for it
  *   SIGBUS, killed out of memory   likewise
+ *   SIGSYS                         likewise: a call that its confinement refuses is no fault of the job
  *   SIGTERM and the like           accepted again: somebody stopped it
  *   another signal                 accepted again, attempt + 1; failed when three in a row saved no newer checkpoint
  */
@@ -121,6 +122,7 @@ int64_t worker_end_oom_kills(void)
 static const char *trouble_of_signal(const worker_slot *slot)
 {
     if (slot->end.code == SIGBUS) return "a file that the worker needs could not be read from the disk";
+    if (slot->end.code == SIGSYS) return "the worker's confinement refused it a system call";
     if (slot->end.code != SIGKILL || slot->oom_kills < 0) return NULL;
     return worker_end_oom_kills() > slot->oom_kills ? "the machine ran out of memory, and the worker was killed" : NULL;
 }

@@ -40,13 +40,15 @@ static json_t *find_file(void *context, const start_inputs *start, double *parti
     (void)context;
     if (!*start->file) return NULL;
     bool is_checkpoint = false;
-    json_t *origin = access(start->file, R_OK) == 0 ? spec_of_file(start->file, &is_checkpoint) : NULL;
+    const int readable = open(start->file, O_RDONLY | O_CLOEXEC | O_NONBLOCK), reason = errno;
+    if (readable >= 0) close(readable);
+    json_t *origin = readable >= 0 ? spec_of_file(start->file, &is_checkpoint) : NULL;
     problem_list none;
     job_spec made_by;
     if (!origin) {
         static const char strange[] = "is no snapshot or checkpoint of a run, is damaged, or was written by an earlier version";
         problem_list_add(problems, "/inputs/start/file", "is \"%.300s\", which %s", start->file,
-                         access(start->file, R_OK) == 0 ? strange : strerror(errno));
+                         readable >= 0 ? strange : strerror(reason));
         return NULL;
     }
     /* A bed that was itself placed particle by particle does not tell its number here: the spec must. */
