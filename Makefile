@@ -18,6 +18,7 @@ PREFIX := /usr/local
 DESTDIR :=
 TORTURE := tests/service
 SECONDS := 60
+FUZZ := $(patsubst tests/fuzz/fuzz_%.c,%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_CC := clang
 CC := gcc
 OPT := -O2
@@ -196,7 +197,6 @@ $(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) $(addprefix -I,$(server/daemon_SEES)) -Itests/unit $< $(BUILD)/libdaemon.a \
 	  $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm -o $@
 # Fuzzers are linked with what they read alone: those of the worker's files with the core, those of what comes in with the daemon.
-FUZZERS := $(patsubst tests/fuzz/%.c,$(BUILD)/%,$(wildcard tests/fuzz/fuzz_*.c))
 FUZZ_HEADERS := $(wildcard tests/fuzz/*.h)
 WORKER_FILES := $(filter $(BUILD)/server/worker/files/%,$(WORKER))
 # $(call fuzz,FOLDERS OF HEADERS,OBJECTS,LIBRARIES)
@@ -261,10 +261,10 @@ FUZZ_MAKE = $(MAKE) --no-print-directory BUILD=$(BUILD)/fuzz ISA=plain plain_FLA
 fuzz: packages ## hostile bytes for all that reads some, SECONDS=60 for each, under the sanitizers; FUZZ="request start": some
 	$(call install,$(FUZZ_PACKAGES),the compiler that fuzzers need)
 	@$(MAKE) --no-print-directory $(BUILD)/repose
-	+@$(FUZZ_MAKE) SANITIZE="$(FUZZ_CHECKS)" $(BUILD)/fuzz/core/single-plain/libdem.a
-	+@$(FUZZ_MAKE) CC="$(FUZZ_CC)" WARNINGS=-Wall SANITIZE="$(FUZZ_CHECKS) -fsanitize=float-cast-overflow,fuzzer-no-link" fuzzers
+	$(if $(filter checkpoint start,$(FUZZ)),+@$(FUZZ_MAKE) SANITIZE="$(FUZZ_CHECKS)" $(BUILD)/fuzz/core/single-plain/libdem.a)
+	+@$(FUZZ_MAKE) CC="$(FUZZ_CC)" WARNINGS=-Wall SANITIZE="$(FUZZ_CHECKS) -fsanitize=float-cast-overflow,fuzzer-no-link" \
+	  $(addprefix $(BUILD)/fuzz/fuzz_,$(FUZZ))
 	@sh tests/fuzz/run.sh $(BUILD) $(SECONDS) $(FUZZ)
-fuzzers: $(FUZZERS)
 
 reproduce: report-packages ## the whole paper, run again: api/studies/REPORT.md; STUDIES="table1 figure3": some of it
 	@$(MAKE) --no-print-directory programs
@@ -348,6 +348,6 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
-.PHONY: FORCE all programs demo serve install deb test unit torture fuzz fuzzers physics physics-programs reproduce check bench bench-peers asan tsan format format-check lint clean help packages test-packages report-packages lint-packages
+.PHONY: FORCE all programs demo serve install deb test unit torture fuzz physics physics-programs reproduce check bench bench-peers asan tsan format format-check lint clean help packages test-packages report-packages lint-packages
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

@@ -1,5 +1,5 @@
-/* What a worker appends to its event log: read at once or in two pieces, it is the same events. The first byte says where
- * it is cut. */
+/* What a worker appends to its event log: read at once or in two pieces, it is the same events, and whatever they are, they
+ * can be recorded, and asked for then. The first byte says where it is cut. */
 #include <fcntl.h>
 #include <math.h>
 #include <string.h>
@@ -7,13 +7,22 @@
 
 #include "event_tail.h"
 #include "fuzz.h"
+#include "served_job.h"
 
 static int file = -1;
+static data_folder data;
+static job_store *store;
+static api_service service;
+static job_claim claim;
 
 int LLVMFuzzerInitialize(int *count, char ***arguments)
 {
+    char id[JOB_ID_SIZE];
     (void)count;
     (void)arguments;
+    store = store_with_a_job(&data, id);
+    service = service_of(store);
+    CLAIM(store_claim_job(store, false, 1, 1, &claim) == STORE_OK);
     file = open("events.ndjson", O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     CLAIM(file >= 0);
     return 0;
@@ -29,6 +38,24 @@ static void are_same(const json_t *all, json_t *first, const json_t *second)
 {
     CLAIM(json_is_array(all) && json_array_extend(first, (json_t *)second) == 0);
     CLAIM(json_equal(all, first));
+}
+
+static void record(const event_batch *events)
+{
+    job_claim noted = claim;
+    CLAIM(store_begin(store) == STORE_OK);
+    CLAIM(store_end(store, store_record_events(store, &claim, events)) == STORE_OK);
+    job_claim_note(&noted, events);
+    can_be_asked_for(&service, "/jobs/%s", claim.id);
+    can_be_asked_for(&service, "/jobs/%s/samples", claim.id);
+    can_be_asked_for(&service, "/jobs/%s/samples?format=csv&limit=9", claim.id);
+    can_be_asked_for(&service, "/jobs/%s/snapshots", claim.id);
+    can_be_asked_for(&service, "/jobs", claim.id);
+    CLAIM(sqlite3_exec(store->writer,
+                       "DELETE FROM sample; DELETE FROM snapshot; UPDATE job SET message='', progress=0, "
+                       "eta_seconds=NULL",
+                       NULL, NULL, NULL)
+          == SQLITE_OK);
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
@@ -49,6 +76,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     are_same(all.snapshots, first.snapshots, second.snapshots);
     are_same(all.checkpoints, first.checkpoints, second.checkpoints);
     CLAIM(all.any == (first.any || second.any));
+    if (all.any) record(&all);
     event_batch_clear(&all);
     event_batch_clear(&first);
     event_batch_clear(&second);

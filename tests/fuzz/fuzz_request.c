@@ -1,5 +1,5 @@
 /* Requests as they come in: the first line is method and target, the others are headers, and after an empty one there may be
- * a body. What is let in and reads is answered by the real handlers, from a store with one job and one study.
+ * a body. What is let in and reads is answered by the real handlers, from a store with one job.
  * No answer may break out of its headers, and what says that it is JSON is. */
 #include <string.h>
 
@@ -7,58 +7,18 @@
 #include "http_guard.h"
 #include "http_range.h"
 #include "routes.h"
-#include "running_job.h"
+#include "served_job.h"
 
 static data_folder data;
 static api_service service;
 static char job[JOB_ID_SIZE];
 
-static void nothing(void *daemon) { (void)daemon; }
-static bool ready(void *daemon, char *why_not, size_t size)
-{
-    (void)daemon;
-    snprintf(why_not, size, "it is");
-    return true;
-}
-static void no_metrics(void *daemon, text_buffer *out)
-{
-    (void)daemon;
-    (void)out;
-}
-
 int LLVMFuzzerInitialize(int *count, char ***arguments)
 {
     (void)count;
     (void)arguments;
-    service = (api_service){ .store = store_with_a_job(&data, job),
-                             .web_folder = -1,
-                             .api_file = "",
-                             .default_threads = 1,
-                             .jobs_changed = nothing,
-                             .jobs_deleted = nothing,
-                             .is_ready = ready,
-                             .write_metrics = no_metrics };
+    service = service_of(store_with_a_job(&data, job));
     return 0;
-}
-
-static void is_one_line(const char *text)
-{
-    for (; text && *text; text++) CLAIM((unsigned char)*text >= ' ' && *text != 127);
-}
-
-static void is_sound(const http_response *response)
-{
-    CLAIM(response->status >= 200 && response->status < 600);
-    is_one_line(response->location);
-    is_one_line(response->etag);
-    is_one_line(response->content_range);
-    is_one_line(response->allow);
-    is_one_line(response->link);
-    const char *type = response->content_type;
-    if (!response->body || response->pieces.context || !type || !strstr(type, "json") || strstr(type, "ndjson")) return;
-    json_t *document = json_loadb(response->body, response->length, JSON_DECODE_ANY, NULL);
-    CLAIM(document);
-    json_decref(document);
 }
 
 /* A job is named "JOB" in seeds, since its id is made of the time. */
@@ -98,7 +58,7 @@ static void split(char *text, http_request *request, http_headers *headers, http
     if (!target || http_request_split_target(request, target)) return;
     CLAIM(!strstr(request->path, "/../") && request->path[0] == '/' && request->parameter_count <= HTTP_PARAMETERS);
     answer(request, headers, response);
-    if (response->status) is_sound(response);
+    if (response->status) is_sound_answer(response);
 }
 
 /* A part lies within the file, whatever its length. */

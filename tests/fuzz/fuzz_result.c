@@ -4,10 +4,11 @@
 #include "fuzz.h"
 #include "hostile_file.h"
 #include "job_folder.h"
-#include "running_job.h"
+#include "served_job.h"
 
 static data_folder data;
 static job_store *store;
+static api_service service;
 static job_claim claim;
 static char result[300], seal[300];
 
@@ -17,6 +18,7 @@ int LLVMFuzzerInitialize(int *count, char ***arguments)
     (void)count;
     (void)arguments;
     store = store_with_a_job(&data, id);
+    service = service_of(store);
     CLAIM(store_claim_job(store, false, 1, 1, &claim) == STORE_OK);
     CLAIM(job_folder_create(&data, id, claim.spec));
     snprintf(result, sizeof result, "data/jobs/%s/" JOB_RESULT_FILE, id);
@@ -41,6 +43,9 @@ static void are_results(const char *document)
     CLAIM(expected && json_equal(expected, told));
     CLAIM(store_find_job(store, claim.id, &job) == STORE_OK && job.status == JOB_SUCCESSFUL);
     job_record_clear(&job);
+    can_be_asked_for(&service, "/jobs/%s", claim.id);
+    can_be_asked_for(&service, "/jobs/%s/results", claim.id);
+    can_be_asked_for(&service, "/jobs", claim.id);
     json_decref(expected);
     json_decref(told);
     free(text);
