@@ -1,5 +1,6 @@
 /* The OpenAPI document: 3.1 as it is written, or 3.0 for clients that read no other, each as YAML or JSON. By f it is 3.0,
  * unless the parameter version says otherwise; by Accept it is what that prefers. */
+#include <assert.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -56,6 +57,7 @@ static const char *media_type(const api_format *format)
 /* Another form of the text that the file has. server: where the addresses are; NULL: as the file says. */
 static void respond_made(http_response *response, const text_buffer *text, const api_format *format, const char *server)
 {
+    assert(response);
     int line = 0;
     json_t *document = text->text ? yaml_read(text->text, text->length, &line) : NULL;
     if (!document) {
