@@ -140,7 +140,7 @@ typedef struct job_estimate {
     double simulated_seconds, time_step, stiffness; /* settling included; s; N/m */
     /* Of it, making the bed, and what most seeds are between; NaN: not known. */
     double settling_seconds, settling_seconds_low, settling_seconds_high;
-    calibration_load load;                          /* what each step has to do; no spheres: the process has no steps */
+    calibration_load load; /* what each step has to do; no spheres: the process has no steps */
 } job_estimate;
 
 /* Reads {"process"?, "inputs", "label"?} and what may be around them (execute_request.h). process NULL: the document's own "process",

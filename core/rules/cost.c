@@ -22,10 +22,7 @@ static holding holding_of(const dem_scene_definition *d)
 }
 
 /* Diameter of such a sphere over the drum's. */
-static double width_across(const dem_scene_definition *d, const holding *h)
-{
-    return cbrt(6.0 / DEM_PI * h->volume) / d->diameter;
-}
+static double width_across(const dem_scene_definition *d, const holding *h) { return cbrt(6.0 / DEM_PI * h->volume) / d->diameter; }
 
 /* How many of the rows there are that the random start has room for in a cross-section. */
 static double rows_of(const dem_scene_definition *d, double across)

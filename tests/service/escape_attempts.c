@@ -28,10 +28,7 @@
 
 static FILE *report;
 
-static void tell(const char *name, long result)
-{
-    fprintf(report, "%s %d\n", name, result < 0 ? errno : 0);
-}
+static void tell(const char *name, long result) { fprintf(report, "%s %d\n", name, result < 0 ? errno : 0); }
 
 static long open_at(const char *folder, const char *name, int flags)
 {
