@@ -31,7 +31,7 @@ def test_instruction_sets_come_to_one_state(record, precision):
         assert {one["hash"] for one in found.values()} == {KEPT[precision][case]}, (
             f"the bits of '{case}', {precision}, are not those that state_hashes.json keeps. Where that is meant, say so in the commit"
             " and write the new hash there")
-        record.same(f"{case}, {precision}: states after {found[folders[0].name]['settled'] + 2000} steps by "
+        record.same(f"{case}, {precision}: states 2,000 steps after the bed was made, by "
                     + ", ".join(name.split("-")[1] for name in found), len({one["hash"] for one in found.values()}), 1, WHY)
 
 
