@@ -292,11 +292,17 @@ bench-peers: all ## the same drum by LAMMPS and LIGGGHTS beside ours, taking tur
 	@$(PYTHON) tests/bench/report.py tests/bench/results --compiler "$(shell $(CC) --version | head -n 1)" --flags "$(CORE_FLAGS) $(call variant_flags,$(VARIANT))" \
 	  --peers $(BUILD)/peers.ndjson
 
+bench-service: all ## how fast the daemon answers among many jobs: JOBS=100000
+	@$(PYTHON) tests/bench/bench_service.py $(BUILD) $(JOBS)
+
 asan: test-packages ## unit tests under the address and undefined-behavior sanitizers, in build/asan
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan ISA=plain plain_FLAGS=-O1 SANITIZE="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" unit
 
 tsan: test-packages ## unit tests under the thread sanitizer, in build/tsan
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/tsan ISA=plain plain_FLAGS=-O1 SANITIZE="-fsanitize=thread" unit
+
+openapi: programs ## write the schemas of inputs and results, from the rows of both, into api/openapi.yaml
+	@$(BUILD)/reposed openapi api/openapi.yaml
 
 format: lint-packages ## clang-format over all C
 	@git ls-files '*.c' '*.h' | xargs clang-format -i
@@ -328,7 +334,7 @@ clean: ## remove what was built, and data folders in it; not while a daemon is a
 	rm -rf $(BUILD)
 
 help: ## this list
-	@grep -hE '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:[^#]*## /\t/' | expand -t 10
+	@grep -hE '^[a-z-]+:.*##' $(firstword $(MAKEFILE_LIST)) | sed -E 's/:[^#]*## /\t/' | expand -t 15
 
 # $(call install,PACKAGES,WHAT FOR): by apt-get, with sudo when not root, only what is missing; says so beforehand.
 define install
@@ -348,6 +354,8 @@ report-packages: packages
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
-.PHONY: FORCE all programs demo serve install deb test unit torture fuzz physics physics-programs reproduce check bench bench-peers asan tsan format format-check lint clean help packages test-packages report-packages lint-packages
+# Every target of the list above, and those that it leaves out.
+.PHONY: FORCE programs packages test-packages report-packages lint-packages physics-programs \
+  $(shell sed -n 's/^\([a-z-]*\):.*##.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

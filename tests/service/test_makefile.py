@@ -1,5 +1,6 @@
 """What make says and does for somebody who has just arrived."""
 import os
+import re
 import shutil
 import socket
 import subprocess
@@ -23,6 +24,19 @@ def test_help_needs_no_package(tmp_path):
     assert answer.returncode == 0 and answer.stderr == ""
     for target in ("demo", "serve", "test", "physics", "torture", "bench", "clean"):
         assert any(line.split()[0] == target for line in answer.stdout.splitlines()), answer.stdout
+
+
+def test_every_target_that_documents_name_is_there_and_none_is_a_file():
+    named = set()
+    for document in ("README.md", "server/DESIGN.md", "core/NUMERICS.md", "core/SPEED.md"):
+        text = (ROOT / document).read_text()
+        named |= set(re.findall(r"(?:`|^)make ([a-z-]+)", text, re.M))
+        named |= {word for line in re.findall(r"^`make help` lists the targets: (.*)", text, re.M)
+                  for word in re.findall(r"`([a-z-]+)`", line)}
+    listed = {line.split()[0] for line in make("help").stdout.splitlines()}
+    assert len(named) > 8 and named <= listed, named - listed
+    phony = re.search(r"^\.PHONY: (.*)$", make("-pn", "help").stdout, re.M)[1].split()
+    assert listed <= set(phony)
 
 
 def test_a_file_that_is_compiled_takes_one_line(tmp_path):

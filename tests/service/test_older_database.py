@@ -62,12 +62,23 @@ def test_it_is_answered_as_before(daemon, path):
     assert missing(ANSWERS[path], text if isinstance(ANSWERS[path], str) else json.loads(text)) == []
 
 
+# Columns that have moved to a table of their own: from which, and where they are now.
+MOVED = {"study": ("document", "select document from study_document order by study")}
+
+
+def test_a_column_that_has_moved_is_found_where_it_went(before, daemon):
+    for table, (column, sql) in MOVED.items():
+        kept = [text for text, in before.execute(f"SELECT {column} FROM {table} ORDER BY number")]
+        assert kept and [row[column] for row in rows_of(daemon, sql)[1]] == kept
+
+
 def test_every_number_of_every_table_and_view_is_found_again(before, daemon):
     empty = set()
     for table in tables_of(before):
         names = [column[0] for column in before.execute(f"SELECT * FROM {table}").description]
-        sql = f"SELECT * FROM {table} ORDER BY {', '.join(names[:2])}"
-        cursor, (columns, rows) = before.execute(sql), rows_of(daemon, sql)
+        names = [name for name in names if name not in MOVED.get(table, ())]
+        sql = f"SELECT {{}} FROM {table} ORDER BY {', '.join(names[:2])}"
+        cursor, (columns, rows) = before.execute(sql.format(", ".join(names))), rows_of(daemon, sql.format("*"))
         # What came later may stand between them; their own order stays.
         assert [name for name in columns if name in names] == names, table
         assert [[row[name] for name in names] for row in rows] == [list(row) for row in cursor], table

@@ -39,6 +39,22 @@ def test_a_post_does_not_walk_over_the_runs_that_there_were(tmp_path):
             daemon.stop()
 
 
+def test_a_study_of_more_jobs_costs_as_much_more(tmp_path):
+    daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "1"]).start()
+    try:
+        daemon.until(daemon.submit(fake="slow", seconds="100"), lambda info: info["status"] == "running")
+        cost = []
+        for cases in (1000, 6000):
+            before = processor_seconds(daemon)
+            values = [0.05 + 1e-5 * k for k in range(cases)]
+            study = {"base": {"inputs": SPEC}, "vary": {"/inputs/contact/friction": values}}
+            assert requests.post(f"{daemon.url}/studies", json=study, timeout=300).status_code == 201
+            cost.append((processor_seconds(daemon) - before) / cases)
+        assert cost[1] < 2 * cost[0]  # six times, where the row that counts the jobs also holds what was posted
+    finally:
+        daemon.stop()
+
+
 def test_a_post_waits_for_the_disk_once_and_parses_no_statement_that_it_knows(tmp_path, monkeypatch):
     library, counts = tmp_path / "counted_calls.so", tmp_path / "counts"
     source = Path(__file__).with_name("counted_calls.c")

@@ -141,6 +141,14 @@ static const char waiting_by_setbacks[] = "DROP INDEX job_waiting;"
 /* How its results are wanted, JSON; NULL: as ever. */
 static const char wanted_results[] = "ALTER TABLE job ADD COLUMN wanted TEXT;";
 
+/* What was posted as a study has a table of its own: it may be long, and each change of a job writes the study's row anew. */
+static const char documents_of_studies[] =
+    "CREATE TABLE study_document("
+    "  study INTEGER PRIMARY KEY REFERENCES study(number) ON DELETE CASCADE,"
+    "  document TEXT NOT NULL) STRICT;" /* JSON, repeats and seed chosen */
+    "INSERT INTO study_document SELECT number, document FROM study;"
+    "ALTER TABLE study DROP COLUMN document;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -166,5 +174,6 @@ const schema_migration schema_migrations[] = {
     NO_TABLES_OF_ITS_OWN,
     { { waiting_by_setbacks } },
     { { wanted_results } },
+    { { documents_of_studies } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

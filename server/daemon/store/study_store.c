@@ -18,14 +18,15 @@ static store_status insert_study(job_store *store, const study_spec *study, cons
     char now[JOB_TIME_SIZE];
     time_text(now);
     char *document = json_dumps(study->document, JSON_INDENT(2) | JSON_REAL_PRECISION(17));
-    const store_status status =
-        !document ? STORE_FAILED
-                  : sql_run(store->writer, NULL,
-                            "INSERT INTO study(id,process,name,document,cases,repeats,jobs,estimated_seconds,created,updated) "
-                            "VALUES(?1,?2,?3,?4,?5,?6,?5*?6,?7,?8,?8)",
-                            "ttttiidt", id, study->process, study->name, document, (int64_t)study->cases, (int64_t)study->repeats,
-                            estimate->wall_seconds, now);
+    store_status status = document ? STORE_OK : STORE_FAILED;
+    if (status == STORE_OK)
+        status = sql_run(store->writer, NULL,
+                         "INSERT INTO study(id,process,name,cases,repeats,jobs,estimated_seconds,created,updated) "
+                         "VALUES(?1,?2,?3,?4,?5,?4*?5,?6,?7,?7)",
+                         "tttiidt", id, study->process, study->name, (int64_t)study->cases, (int64_t)study->repeats,
+                         estimate->wall_seconds, now);
     *number = sqlite3_last_insert_rowid(store->writer);
+    if (status == STORE_OK) status = sql_run(store->writer, NULL, "INSERT INTO study_document VALUES(?,?)", "it", *number, document);
     free(document);
     return status;
 }
@@ -118,7 +119,7 @@ store_status store_find_study(job_store *store, const char *id, study_record *st
 
 store_status store_read_study(job_store *store, const char *id, char **text)
 {
-    return store_read_text(store, "SELECT document FROM study WHERE id=?", id, text);
+    return store_read_text(store, "SELECT document FROM study JOIN study_document ON study=number WHERE id=?", id, text);
 }
 
 typedef struct study_walk {

@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+"""bench_service.py BUILD [JOBS]: how fast the daemon answers among so many jobs (100,000). Prints JSON lines: times of starting,
+lists, submissions, studies and queries, and the memory it takes. The one worker sleeps, so that the jobs stay where they are."""
+import contextlib
+import json
+import os
+import pathlib
+import selectors
+import signal
+import socket
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+
+CASES = 10_000
+SPEC = {"inputs": {"drum": {"diameter": 0.06, "length": 0.012, "rotation_rate": 3.0}, "particles": [{"diameter": 0.004}],
+                   "duration": {"revolutions": 1}}}
+HEAVY = "SELECT count(*) FROM job a, job b WHERE a.estimated_seconds < b.estimated_seconds"
+
+
+def say(figure, unit, values):
+    values = sorted(values)
+    print(json.dumps({"figure": figure, "unit": unit, "median": statistics.median(values), "p99": values[int(0.99 * (len(values) - 1))],
+                      "maximum": values[-1], "count": len(values)}), flush=True)
+
+
+def request(method, path, body=None):
+    text = b"" if body is None else json.dumps(body).encode()
+    head = f"{method} {path} HTTP/1.1\r\nHost: localhost\r\n"
+    if body is not None:
+        head += f"Content-Type: application/json\r\nContent-Length: {len(text)}\r\n"
+    return head.encode() + b"\r\n" + text
+
+
+class Client:
+    """A connection that is kept open, and what has come of the answer."""
+
+    def __init__(self, port):
+        self.socket = socket.create_connection(("127.0.0.1", port))
+        self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
+
+    def send(self, data):
+        self.answer, self.begin = b"", time.perf_counter()
+        self.socket.sendall(data)
+
+    def read(self):
+        """None until the answer is whole; then its status and body."""
+        self.answer += self.socket.recv(1 << 20)
+        head, found, body = self.answer.partition(b"\r\n\r\n")
+        if not found:
+            return None
+        lower = head.lower()
+        if b"content-length:" in lower:
+            whole = len(body) >= int(lower.split(b"content-length:")[1].split()[0])
+        else:
+            whole = body.endswith(b"0\r\n\r\n")
+        self.seconds = time.perf_counter() - self.begin
+        return (int(head.split()[1]), body) if whole else None
+
+    def ask(self, data):
+        self.send(data)
+        while (answer := self.read()) is None:
+            pass
+        return answer
+
+
+class Service:
+    def __init__(self, build, folder, worker):
+        self.command = [build / "reposed", "serve", "--port", "0", "--data", folder / "data", "--workers", "1", "--queue-limit", "1000000",
+                        "--worker", worker, "--port-file", folder / "port"]
+        self.port_file, self.log = folder / "port", folder / "log"
+
+    def start(self):
+        """Seconds until it answers."""
+        self.port_file.unlink(missing_ok=True)
+        begin = time.perf_counter()
+        with open(self.log, "a") as log:
+            self.process = subprocess.Popen(self.command, stdout=log, stderr=log)
+        while not (self.port_file.exists() and self.port_file.read_text().strip()):
+            if self.process.poll() is not None:
+                sys.exit(self.log.read_text())
+            time.sleep(0.001)
+        self.port = int(self.port_file.read_text())
+        Client(self.port).ask(request("GET", "/healthz"))
+        return time.perf_counter() - begin
+
+    def stop(self):
+        self.process.send_signal(signal.SIGTERM)
+        self.process.wait(60)
+
+    def processor_seconds(self):
+        fields = pathlib.Path(f"/proc/{self.process.pid}/stat").read_text().rsplit(")", 1)[1].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    def megabytes(self):
+        return next(int(line.split()[1]) for line in open(f"/proc/{self.process.pid}/status") if line.startswith("VmRSS")) / 1024
+
+
+def fill(service, jobs):
+    client, seconds = Client(service.port), []
+    for k in range(jobs // CASES):
+        status, body = client.ask(request("POST", "/studies", {
+            "name": f"filling {k}", "base": SPEC, "vary": {"/inputs/contact/friction": [0.05 + 0.00005 * c for c in range(CASES)]}}))
+        if status != 201:
+            sys.exit(f"a study was refused: {body[:500]}")
+        seconds.append(client.seconds)
+    say(f"study of {CASES} jobs", "s", seconds)
+
+
+def times(port, path, count):
+    client, seconds = Client(port), []
+    for _ in range(count):
+        status, body = client.ask(request("GET", path))
+        if status != 200:
+            sys.exit(f"GET {path}: {status} {body[:300]}")
+        seconds.append(1000 * client.seconds)
+    return seconds
+
+
+def submissions(service, clients, seconds):
+    """Jobs acknowledged a second by so many clients at once, and what each took."""
+    watch = selectors.DefaultSelector()
+    bodies = [request("POST", "/processes/drum/execution", {"inputs": {**SPEC["inputs"], "seed": k}}) for k in range(64)]
+    for k in range(clients):
+        client = Client(service.port)
+        watch.register(client.socket, selectors.EVENT_READ, client)
+        client.send(bodies[k])
+    begin, used, took = time.perf_counter(), service.processor_seconds(), []
+    while time.perf_counter() < begin + seconds:
+        for key, _ in watch.select(1):
+            answer = key.data.read()
+            if answer is None:
+                continue
+            if answer[0] != 201:
+                sys.exit(f"a job was refused: {answer[1][:300]}")
+            took.append(1000 * key.data.seconds)
+            key.data.send(bodies[len(took) % 64])
+    say(f"submission by {clients} clients at once", "ms", took)
+    say(f"submissions acknowledged by {clients} clients", "1/s", [len(took) / (time.perf_counter() - begin)])
+    say(f"processor time of a submission, {clients} clients", "ms", [1000 * (service.processor_seconds() - used) / len(took)])
+
+
+def among_heavy_queries(service):
+    busy = [Client(service.port) for _ in range(5)]
+    for client in busy:
+        client.send(request("GET", "/query?sql=" + HEAVY.replace(" ", "%20").replace("<", "%3C")))
+    say("GET /jobs among five of the heaviest queries", "ms", times(service.port, "/jobs", 200))
+
+
+def until_running(build, folder):
+    service = Service(build, folder, folder / "sleeper")
+    service.start()
+    client, seconds = Client(service.port), []
+    for _ in range(20):
+        begin = time.perf_counter()
+        job = json.loads(client.ask(request("POST", "/processes/drum/execution", SPEC))[1])["jobID"]
+        while json.loads(client.ask(request("GET", f"/jobs/{job}"))[1])["status"] == "accepted":
+            pass
+        seconds.append(1000 * (time.perf_counter() - begin))
+        client.ask(request("DELETE", f"/jobs/{job}"))
+        while json.loads(client.ask(request("GET", "/jobs?status=running"))[1])["jobs"]:
+            time.sleep(0.01)
+        time.sleep(0.2)
+    service.stop()
+    say("from a submission to the running job", "ms", seconds)
+
+
+def main():
+    build = pathlib.Path(sys.argv[1]).resolve()
+    jobs = int(sys.argv[2]) if len(sys.argv) > 2 else 100_000
+    with tempfile.TemporaryDirectory() as name, contextlib.ExitStack() as at_end:
+        folder = pathlib.Path(name)
+        sleeper = folder / "sleeper"
+        sleeper.write_text("#!/bin/sh\nexec sleep 100000\n")
+        sleeper.chmod(0o755)
+        (folder / "empty").mkdir()
+        (folder / "empty" / "sleeper").symlink_to(sleeper)
+        until_running(build, folder / "empty")
+        service = Service(build, folder, sleeper)
+        say("start with an empty folder", "s", [service.start()])
+        at_end.callback(lambda: service.process.poll() is None and service.process.kill())
+        submissions(service, 1, 5)
+        submissions(service, 16, 5)
+        fill(service, jobs)
+        service.stop()
+        say(f"start with {jobs} jobs", "s", [service.start()])
+        for path in ("/jobs", "/jobs?status=running", "/jobs?status=accepted", "/jobs?processID=drum", "/jobs?q=filling", "/jobs?q=nothing",
+                     "/jobs?limit=1", "/studies"):
+            say(f"GET {path}, {jobs} jobs", "ms", times(service.port, path, 300))
+        submissions(service, 16, 5)
+        among_heavy_queries(service)
+        idle = [Client(service.port) for _ in range(300)]
+        say(f"memory with {jobs} jobs and {len(idle)} connections", "MB", [service.megabytes()])
+        service.stop()
+
+
+main()
