@@ -99,7 +99,7 @@ PHYSICS := $(patsubst tests/physics/%.c,%,$(wildcard tests/physics/*.c))
 KERNEL_TESTS = $(foreach v,$(filter-out $(VARIANT),$(RUNNABLE)),$(patsubst %,$(BUILD)/tests/unit/core/%-$(v),test_contact_forces test_two_bodies test_cell_grid))
 UNIT_TESTS = $(patsubst %.c,$(BUILD)/%,$(wildcard tests/unit/*/test_*.c))
 
-programs: $(BUILD)/repose $(patsubst %,$(BUILD)/repose-%,$(filter-out single-plain,$(VARIANTS))) $(BUILD)/reposed
+programs: $(BUILD)/repose $(patsubst %,$(BUILD)/repose-%,$(filter-out single-plain,$(VARIANTS))) $(BUILD)/reposed ## build both programs with what is installed
 all: packages ## install what is missing and build both programs
 	@$(MAKE) --no-print-directory programs
 .DEFAULT_GOAL := all
@@ -355,7 +355,7 @@ lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
 # Every target of the list above, and those that it leaves out.
-.PHONY: FORCE programs packages test-packages report-packages lint-packages physics-programs \
+.PHONY: FORCE packages test-packages report-packages lint-packages physics-programs \
   $(shell sed -n 's/^\([a-z-]*\):.*##.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)
