@@ -9,7 +9,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "backup.h"
 #include "calibrator.h"
+#include "data_check.h"
 #include "end_signals.h"
 #include "folder_remover.h"
 #include "http_server.h"
@@ -156,6 +158,8 @@ int main(int argc, char **argv)
     keep_memory_small();
     json_text_watch_memory();
     umask(077);
+    if (strcmp(all.settings.command, "backup") == 0) return backup_make(all.settings.data, all.settings.argument) ? 0 : 1;
+    if (strcmp(all.settings.command, "check") == 0) return data_check(all.settings.data, all.settings.repair) ? 0 : 1;
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */
     if (!arrange_signals(&all) || !open_parts(&all)) {
         log_line("the daemon can't start; data folder %s", all.settings.data);

@@ -24,6 +24,8 @@ static const struct command {
     const char *name, *argument, *meaning;
 } commands[] = {
     { "serve", NULL, "run the service until SIGTERM, SIGINT or the like" },
+    { "backup", "DIR", "copy the data folder of a service, also of one at work" },
+    { "check", NULL, "look whether the data folder is sound; with --repair, mend it" },
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };
 
@@ -47,9 +49,9 @@ static void print_usage(FILE *out)
         char words[64];
         snprintf(words, sizeof words, "%s %s%s[options]", commands[c].name, commands[c].argument ? commands[c].argument : "",
                  commands[c].argument ? " " : "");
-        fprintf(out, "  reposed %-20s%s\n", words, commands[c].meaning);
+        fprintf(out, "  reposed %-26s%s\n", words, commands[c].meaning);
     }
-    fputs("  reposed openapi FILE        write the schemas of inputs and results into an OpenAPI document\n"
+    fputs("  reposed openapi FILE              write the schemas of inputs and results into an OpenAPI document\n"
           "  reposed --help | --version\n\n",
           out);
     for (size_t o = 0; o < config_option_count; o++) {

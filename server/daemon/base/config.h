@@ -20,6 +20,7 @@ typedef struct config {
     const char *worker, *web, *api_file;
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;
+    bool repair; /* what is found is to be mended */
 
     bool is_installed; /* by `make install` or a package: what the program needs lies where these put it */
     int word_count;    /* the command line, for reading it again */

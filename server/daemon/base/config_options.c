@@ -47,6 +47,7 @@ static bool take_confine(config *settings, const char *value, char problem[OPTIO
 
 #define AT(member) .offset = offsetof(config, member)
 #define WHOLE(member, least, most) .kind = OPTION_WHOLE, AT(member), .low = least, .high = most
+#define FLAG(member) .kind = OPTION_FLAG, AT(member)
 #define TEXT(member) .kind = OPTION_TEXT, AT(member)
 
 const config_option config_options[] = {
@@ -70,6 +71,7 @@ const config_option config_options[] = {
       .take = take_confine },
     { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
     { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
+    { "repair", NULL, "of check, while no service is at work: what is damaged is put into DATA/lost", FLAG(repair) },
 };
 const size_t config_option_count = sizeof config_options / sizeof config_options[0];
 _Static_assert(sizeof config_options / sizeof config_options[0] <= MOST_OPTIONS, "there is room for all");
