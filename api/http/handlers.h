@@ -14,7 +14,7 @@ route_handler show_api;
 /* handlers_processes.c */
 route_handler list_processes, show_process, execute_process;
 /* handlers_jobs.c */
-route_handler list_jobs, show_job, remove_job, retry_job;
+route_handler list_jobs, show_job, remove_job, retry_job, pin_job, unpin_job;
 /* handlers_results.c */
 route_handler show_results, show_output, show_spec, show_log;
 /* handlers_series.c */

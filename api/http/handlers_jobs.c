@@ -10,7 +10,12 @@
 void respond_store_failure(http_response *response, store_status status, const char *wanted)
 {
     if (status == STORE_FULL) {
-        http_respond_problem(response, 507, NULL, "No room on the disk", "could not %s: the data folder's disk is full", wanted);
+        http_respond_problem(
+            response, 507, NULL, "No room on the disk",
+            "could not %s: the data folder's disk is full, or so nearly that what is left is for jobs that run. DELETE of jobs "
+            "and studies that have ended makes room, most of it of their snapshots; the option --keep-bytes does "
+            "so by itself",
+            wanted);
         return;
     }
     if (status == STORE_QUEUE_FULL) {
@@ -135,6 +140,30 @@ void retry_job(api_service *service, const http_request *request, http_response 
     else http_respond_json(response, 200, status_info(&job));
     job_record_clear(&job);
     if (status == STORE_OK) service->jobs_changed(service->daemon); /* now, so that it is shown as accepted */
+}
+
+static void set_pin(api_service *service, const http_request *request, http_response *response, bool pinned)
+{
+    const char *id = request->segment[0];
+    const store_status status = job_id_is_valid(id) ? store_pin_job(service->store, id, pinned) : STORE_NOT_FOUND;
+    job_record job;
+    if (status != STORE_OK && status != STORE_NOT_FOUND) {
+        respond_store_failure(response, status, pinned ? "pin the job" : "unpin the job");
+        return;
+    }
+    if (!find_job(service, request, response, &job)) return;
+    http_respond_json(response, 200, status_info(&job));
+    job_record_clear(&job);
+}
+
+void pin_job(api_service *service, const http_request *request, http_response *response)
+{
+    set_pin(service, request, response, true);
+}
+
+void unpin_job(api_service *service, const http_request *request, http_response *response)
+{
+    set_pin(service, request, response, false);
 }
 
 typedef struct job_page {

@@ -80,6 +80,7 @@ json_t *status_info(const job_record *job)
     if (job->status == JOB_RUNNING && isfinite(job->eta_seconds))
         json_object_set_new(info, "eta_seconds", json_real(job->eta_seconds));
     if (job->study[0]) json_object_set_new(info, "studyID", json_string(job->study));
+    if (job->is_pinned) json_object_set_new(info, "pinned", json_true());
     json_object_set(info, "label", job->label);
     json_object_set(info, "summary", job->summary);
     json_object_set_new(info, "links", links_of(job));

@@ -40,6 +40,7 @@ typedef struct job_record {
     double progress, eta_seconds; /* percent; s, NaN: unknown */
     char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], finished[JOB_TIME_SIZE], updated[JOB_TIME_SIZE];
     char message[1024];
+    bool is_pinned;  /* no rule removes it */
     json_t *label;   /* owned */
     json_t *summary; /* owned: main inputs, and main results once there are any */
 } job_record;
@@ -70,6 +71,8 @@ store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_I
 store_status store_dismiss_job(job_store *store, const char *id);
 /* Deletes an ended job: its row, all that the tables have of it, and its folder. STORE_CONFLICT: it has not ended. */
 store_status store_delete_job(job_store *store, const char *id);
+/* Pinned, no rule of the service (--keep-days, --keep-bytes) removes it; what is asked for still is. */
+store_status store_pin_job(job_store *store, const char *id, bool pinned);
 /* A failed or dismissed job into the queue once more, to go on from its checkpoint. STORE_CONFLICT: it is neither. */
 store_status store_retry_job(job_store *store, const char *id);
 /* Of the disk that the folders of jobs are on; NaN: not known. */

@@ -66,7 +66,8 @@ static bool is_ready(void *context, char *why_not, size_t size)
 static void write_metrics(void *context, text_buffer *out)
 {
     parts *all = context;
-    metrics_write(&all->server.metrics, &all->dispatcher, out);
+    const prune_tally pruned = folder_remover_pruned(&all->remover);
+    metrics_write(&all->server.metrics, &all->dispatcher, &pruned, out);
 }
 
 static void leave(void *context)
@@ -119,6 +120,11 @@ static void announce(const parts *all)
     if (all->settings.port_file) write_port_file(all->settings.port_file, all->server.port);
 }
 
+static prune_rules rules_of(const config *settings)
+{
+    return (prune_rules){ settings->keep_days, settings->keep_bytes, settings->dry_run };
+}
+
 static bool open_parts(parts *all)
 {
     if (!data_folder_open(&all->data, all->settings.data)) return false;
@@ -144,7 +150,8 @@ static bool open_parts(parts *all)
                                   .is_ready = is_ready,
                                   .write_metrics = write_metrics };
     if (all->service.web_folder < 0) log_line("no page: the folder %s can't be opened", all->settings.web);
-    if (!folder_remover_start(&all->remover, all->store)) return false;
+    const prune_rules rules = rules_of(&all->settings);
+    if (!folder_remover_start(&all->remover, all->store, &rules)) return false;
     return http_server_open(&all->server, &all->settings, &all->service) && http_server_start(&all->server);
 }
 
@@ -159,6 +166,12 @@ int main(int argc, char **argv)
     json_text_watch_memory();
     umask(077);
     if (strcmp(all.settings.command, "backup") == 0) return backup_make(all.settings.data, all.settings.argument) ? 0 : 1;
+    if (strcmp(all.settings.command, "prune") == 0) {
+        const prune_rules rules = rules_of(&all.settings);
+        if (rules.keep_days > 0 || rules.keep_bytes > 0.0) return prune_once(all.settings.data, &rules) ? 0 : 1;
+        fputs("reposed: say what is to be kept: --keep-days N, --keep-bytes SIZE\n", stderr);
+        return 2;
+    }
     if (strcmp(all.settings.command, "check") == 0) return data_check(all.settings.data, all.settings.repair) ? 0 : 1;
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */
     if (!arrange_signals(&all) || !open_parts(&all)) {

@@ -47,6 +47,27 @@ def test_a_job_that_finds_no_room_is_refused_and_leaves_nothing(small_disk):
     assert small_disk.ended(small_disk.submit())["status"] == "successful"
 
 
+def test_jobs_are_refused_before_the_disk_is_full(small_disk):
+    disk = os.statvfs(small_disk.data)
+    (small_disk.data / "ballast").write_bytes(b"x" * (disk.f_bavail * disk.f_frsize - 60_000))  # 2 % of 4 MB are 84 kB
+    answer = small_disk.post()
+    assert answer.status_code == 507 and "--keep-bytes" in answer.json()["detail"]
+    assert small_disk.get("/jobs").json()["jobs"] == [] and os.listdir(small_disk.data / "jobs") == []
+    assert os.statvfs(small_disk.data).f_bavail > 0
+
+
+def test_jobs_are_refused_before_there_are_no_inodes(small_disk):
+    assert subprocess.run(["mount", "-o", "remount,nr_inodes=400", small_disk.data]).returncode == 0
+    number = 0
+    while os.statvfs(small_disk.data).f_favail > 6:
+        (small_disk.data / f"ballast{number}").touch()
+        number += 1
+    assert small_disk.post().status_code == 507
+    for file in small_disk.data.glob("ballast*"):
+        file.unlink()
+    assert small_disk.ended(small_disk.submit())["status"] == "successful"
+
+
 def test_an_end_that_can_not_be_recorded_is_recorded_later(small_disk):
     slow = small_disk.submit(fake="slow", seconds="4")
     small_disk.until(slow, lambda info: info["progress"] > 0)

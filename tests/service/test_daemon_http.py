@@ -293,6 +293,10 @@ def test_metrics_count_jobs_requests_and_work(fake):
     fake.until(slow[1], lambda info: info["progress"] > 30)
     metrics = metrics_of(fake)
     assert metrics['reposed_jobs{status="running"}'] == 2 and metrics["reposed_queue_depth"] == 1
+    assert 0 < metrics["reposed_queue_age_seconds"] < 60
+    disk = os.statvfs(fake.data)
+    assert metrics["reposed_disk_bytes"] == disk.f_blocks * disk.f_frsize and metrics["reposed_disk_free_inodes"] > 0
+    assert metrics["reposed_pruned_jobs_total"] == metrics["reposed_pruned_bytes_total"] == 0
     assert metrics["reposed_particle_steps_per_second"] == 2e6  # each of two says one million
     assert metrics['reposed_http_requests_total{route="/processes/{}/execution",method="POST",code="201"}'] == 3
     assert metrics["reposed_http_request_seconds_count"] >= 4

@@ -178,6 +178,8 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/jobs/{id}", f"{url}/jobs/{endless}", 200, "DELETE")
     call("/jobs/{id}/results", f"{url}/jobs/{endless}/results", 404)
     call("/jobs/{id}/retry", f"{url}/jobs/{endless}/retry", 200, "POST")
+    call("/jobs/{id}/pin", f"{url}/jobs/{done}/pin", 200, "POST")
+    call("/jobs/{id}/unpin", f"{url}/jobs/{done}/unpin", 200, "POST")
     call("/jobs/{id}/retry", f"{url}/jobs/{done}/retry", 409, "POST")
     for once in (200, 200, 404):  # dismissed, deleted, gone
         call("/jobs/{id}", f"{url}/jobs/{endless}", once, "DELETE")

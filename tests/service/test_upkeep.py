@@ -6,6 +6,7 @@ import signal
 import sqlite3
 import subprocess
 import threading
+import time
 
 import pytest
 import requests
@@ -186,3 +187,69 @@ def test_a_folder_without_data_is_no_data_folder(tmp_path, command):
     refused = subprocess.run([BUILD / "reposed", *command, "--data", tmp_path / "nothing"], capture_output=True, text=True, cwd=tmp_path)
     assert refused.returncode == 1 and "No such file" in refused.stderr or "unable to open" in refused.stderr
     assert not (tmp_path / "nothing").exists() and not (tmp_path / "copy").exists()
+
+
+# --- what is not to be kept ---
+
+def age(daemon, job, days):
+    """As if it had ended so many days ago."""
+    then = time.strftime("%Y-%m-%dT%H:%M:%S.000Z", time.gmtime(time.time() - 86400 * days))
+    change(daemon, f"UPDATE job SET finished='{then}' WHERE id='{job}'")
+
+
+def folder_bytes(daemon):
+    return sum(path.stat().st_size for path in (daemon.data / "jobs").rglob("*") if path.is_file())
+
+
+def test_old_jobs_go_pinned_and_young_ones_stay(fake):
+    old, pinned, young = (fake.submit(angle=number) for number in (1, 2, 3))
+    for job in (old, pinned, young):
+        fake.ended(job)
+    assert "pinned" not in fake.job(pinned)
+    assert requests.post(f"{fake.url}/jobs/{pinned}/pin", timeout=30).json()["pinned"] is True and fake.job(pinned)["pinned"] is True
+    assert requests.post(f"{fake.url}/jobs/{old}/pin", timeout=30).json()["pinned"] is True
+    assert "pinned" not in requests.post(f"{fake.url}/jobs/{old}/unpin", timeout=30).json()
+    fake.stop()
+    for job, days in ((old, 8), (pinned, 8), (young, 6)):
+        age(fake, job, days)
+    before = contents(fake.data / "jobs")
+    told = reposed("prune", "--keep-days", "7", "--dry-run", data=fake.data)
+    assert told.returncode == 0 and told.stdout.startswith("1 jobs") and contents(fake.data / "jobs") == before
+    fake.options += ["--keep-days", "7"]  # by itself
+    fake.start()
+    end = time.monotonic() + 20
+    while fake.get(f"/jobs/{old}").status_code == 200 or (fake.data / "jobs" / old).exists():
+        assert time.monotonic() < end, fake.log()
+        time.sleep(0.05)
+    assert fake.job(pinned)["status"] == fake.job(young)["status"] == "successful"
+    assert f"job {old}: deleted to make room" in fake.log()
+    assert "reposed_pruned_jobs_total 1\n" in fake.get("/metrics").text
+
+
+def test_snapshots_go_before_results_the_oldest_first(ended):
+    daemon, (one, two) = ended
+    with_all = folder_bytes(daemon)
+    results = (daemon.data / f"jobs/{one}/result.json").read_bytes()
+    assert reposed("prune", "--keep-bytes", "1T", data=daemon.data).returncode == 0 and folder_bytes(daemon) == with_all
+    # The option does not go as low as these runs are small.
+    ballast = daemon.data / f"jobs/{two}/snapshots/ballast"
+    ballast.write_bytes(b"x" * 3_000_000)
+    taken = sum(512 * path.stat().st_blocks for path in (daemon.data / "jobs").rglob("*"))
+    done = reposed("prune", "--keep-bytes", str(taken - 50_000), data=daemon.data)
+    assert done.returncode == 0 and "snapshots of 1 jobs removed" in done.stdout, done.stdout + done.stderr
+    left = {path.name for path in (daemon.data / f"jobs/{one}").rglob("*") if path.is_file()}
+    assert "fields.hdf" in left and "result.json" in left and not {"000000.hdf", "checkpoint.hdf"} & left
+    assert (daemon.data / f"jobs/{one}/result.json").read_bytes() == results and ballast.exists()
+    assert reposed("check", data=daemon.data).returncode == 0
+    ballast.unlink()
+    (daemon.data / f"jobs/{two}/log.txt").write_bytes(b"x" * 3_000_000)
+    done = reposed("prune", "--keep-bytes", "1M", data=daemon.data)
+    assert done.stdout.startswith("2 jobs and 0 studies deleted, snapshots of 1 jobs removed"), done.stdout + done.stderr
+    assert list((daemon.data / "jobs").iterdir()) == []
+
+
+@pytest.mark.parametrize("options, says", [((), "say what is to be kept"), (("--keep-bytes", "12"), "must be a number in [1e+06, 1e+18]"),
+                                           (("--keep-bytes", "9Q"), "must be"), (("--keep-days", "0"), "must be a whole number in [1, 100000]")])
+def test_what_is_to_be_kept_must_be_said_plainly(tmp_path, options, says):
+    refused = reposed("prune", *options, data=tmp_path)
+    assert refused.returncode == 2 and says in refused.stderr

@@ -25,6 +25,7 @@ static const struct command {
 } commands[] = {
     { "serve", NULL, "run the service until SIGTERM, SIGINT or the like" },
     { "backup", "DIR", "copy the data folder of a service, also of one at work" },
+    { "prune", NULL, "remove what --keep-days and --keep-bytes do not keep" },
     { "check", NULL, "look whether the data folder is sound; with --repair, mend it" },
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

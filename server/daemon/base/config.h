@@ -20,7 +20,10 @@ typedef struct config {
     const char *worker, *web, *api_file;
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;
-    bool repair; /* what is found is to be mended */
+    int keep_days;     /* after its end a job is deleted; 0: never */
+    double keep_bytes; /* that the folders of jobs may take; 0: any number */
+    bool repair;       /* what is found is to be mended */
+    bool dry_run;      /* nothing is to be removed */
 
     bool is_installed; /* by `make install` or a package: what the program needs lies where these put it */
     int word_count;    /* the command line, for reading it again */

@@ -47,6 +47,7 @@ static bool take_confine(config *settings, const char *value, char problem[OPTIO
 
 #define AT(member) .offset = offsetof(config, member)
 #define WHOLE(member, least, most) .kind = OPTION_WHOLE, AT(member), .low = least, .high = most
+#define AMOUNT(member, least, most) .kind = OPTION_AMOUNT, AT(member), .low = least, .high = most
 #define FLAG(member) .kind = OPTION_FLAG, AT(member)
 #define TEXT(member) .kind = OPTION_TEXT, AT(member)
 
@@ -60,6 +61,9 @@ const config_option config_options[] = {
     { "threads", "N", "threads of a job that does not ask, 1 to 256 (1)", WHOLE(threads, 1, 256) },
     { "queue-limit", "N", "jobs that may wait, 1 to 1000000 (10000); a study that makes more is refused",
       WHOLE(queue_limit, 1, 1000000) },
+    { "keep-days", "N", "delete jobs so long after their end, 1 to 100000 (never); pinned ones stay", WHOLE(keep_days, 1, 100000) },
+    { "keep-bytes", "SIZE", "what the folders of jobs may take, as 500G (anything): the oldest snapshots go first,\nresults last",
+      AMOUNT(keep_bytes, 1e6, 1e18) },
     { "token-file", "FILE", "clients must send \"Authorization: Bearer\" with its text; mode 0600", TEXT(token_file) },
     { "allow-host", "NAME", "accept this name in the Host header; may be given 8 times", .kind = OPTION_TAKEN, .may_repeat = true,
       .take = take_host_name },
@@ -71,6 +75,7 @@ const config_option config_options[] = {
       .take = take_confine },
     { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
     { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
+    { "dry-run", NULL, "of prune: remove nothing, say what would go", FLAG(dry_run) },
     { "repair", NULL, "of check, while no service is at work: what is damaged is put into DATA/lost", FLAG(repair) },
 };
 const size_t config_option_count = sizeof config_options / sizeof config_options[0];
@@ -90,7 +95,21 @@ static bool take_whole(const config_option *option, int *number, const char *val
     const long read = strtol(value, &end, 10);
     const bool good = errno == 0 && end != value && *end == '\0' && read >= option->low && read <= option->high;
     if (good) *number = (int)read;
-    else snprintf(problem, OPTION_PROBLEM_SIZE, "a whole number in [%d, %d]", option->low, option->high);
+    else snprintf(problem, OPTION_PROBLEM_SIZE, "a whole number in [%.0f, %.0f]", option->low, option->high);
+    return good;
+}
+
+/* "1500", "1.5k": in units of 1000. */
+static bool take_amount(const config_option *option, double *number, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    static const char letters[] = "kMGT";
+    char *end;
+    double amount = strtod(value, &end);
+    const char *letter = end != value && *end ? strchr(letters, *end) : NULL;
+    for (const char *l = letters; letter && l <= letter; l++) amount *= 1e3;
+    const bool good = end != value && end[letter ? 1 : 0] == '\0' && amount >= option->low && amount <= option->high;
+    if (good) *number = amount;
+    else snprintf(problem, OPTION_PROBLEM_SIZE, "a number in [%g, %g], which may end in k, M, G or T", option->low, option->high);
     return good;
 }
 
@@ -99,6 +118,7 @@ bool config_option_take(const config_option *option, config *settings, const cha
     void *place = (char *)settings + option->offset;
     switch (option->kind) {
     case OPTION_WHOLE: return take_whole(option, place, value, problem);
+    case OPTION_AMOUNT: return take_amount(option, place, value, problem);
     case OPTION_FLAG: *(bool *)place = true; return true;
     case OPTION_TAKEN: return option->take(settings, value, problem);
     case OPTION_TEXT: break;

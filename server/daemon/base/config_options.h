@@ -9,9 +9,9 @@ enum { OPTION_PROBLEM_SIZE = 400, MOST_OPTIONS = 64 };
 typedef struct config_option {
     const char *name, *argument; /* argument NULL: it has none, and stands on the command line alone */
     const char *meaning;         /* for --help; \n begins a further line */
-    enum { OPTION_WHOLE, OPTION_TEXT, OPTION_FLAG, OPTION_TAKEN } kind;
-    size_t offset; /* in the config: of an int, a const char * or a bool */
-    int low, high; /* of a whole number */
+    enum { OPTION_WHOLE, OPTION_AMOUNT, OPTION_TEXT, OPTION_FLAG, OPTION_TAKEN } kind;
+    size_t offset;    /* in the config: of an int, a double, a const char * or a bool */
+    double low, high; /* of a number; an amount may end in k, M, G or T */
     bool may_repeat;
     /* OPTION_TAKEN: false, and what the value must be, as in `must be ...`. */
     bool (*take)(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE]);

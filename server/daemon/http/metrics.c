@@ -67,6 +67,8 @@ static void write_jobs(job_dispatcher *dispatcher, text_buffer *out)
         for (int i = 0; i < JOB_STATUSES; i++)
             text_buffer_print(out, "reposed_jobs{status=\"%s\"} %lld\n", job_status_name((job_status)i), (long long)counts[i]);
         write_one(out, "reposed_queue_depth", "gauge", "Jobs that wait for a worker.", (double)counts[JOB_ACCEPTED]);
+        write_one(out, "reposed_queue_age_seconds", "gauge", "How long the oldest of them has waited.",
+                  store_queue_age(dispatcher->store));
     }
     write_one(out, "reposed_workers", "gauge", "Most workers at once.", dispatcher->workers);
     write_one(out, "reposed_workers_running", "gauge", "Workers at work.", dispatcher->running);
@@ -79,6 +81,24 @@ static void write_jobs(job_dispatcher *dispatcher, text_buffer *out)
               dispatcher->speed);
 }
 
+static void write_disk(const data_folder *data, text_buffer *out)
+{
+    const disk_room room = data_folder_room(data);
+    write_one(out, "reposed_disk_free_bytes", "gauge", "Free room on the data folder's disk.", room.free_bytes);
+    write_one(out, "reposed_disk_bytes", "gauge", "Size of the data folder's disk.", room.bytes);
+    write_one(out, "reposed_disk_free_inodes", "gauge", "Files that can still be made there.", room.free_inodes);
+}
+
+static void write_pruned(const prune_tally *pruned, text_buffer *out)
+{
+    write_one(out, "reposed_pruned_jobs_total", "counter", "Jobs deleted by the rules of what is kept.", (double)pruned->jobs);
+    write_one(out, "reposed_pruned_studies_total", "counter", "Studies deleted by the rules of what is kept.",
+              (double)pruned->studies);
+    write_one(out, "reposed_stripped_jobs_total", "counter", "Jobs whose snapshots were removed by the rules of what is kept.",
+              (double)pruned->stripped);
+    write_one(out, "reposed_pruned_bytes_total", "counter", "Room made by these rules.", pruned->bytes);
+}
+
 static double resident_bytes(void)
 {
     long pages = 0;
@@ -88,7 +108,7 @@ static double resident_bytes(void)
     return (double)pages * (double)sysconf(_SC_PAGESIZE);
 }
 
-void metrics_write(http_metrics *metrics, job_dispatcher *dispatcher, text_buffer *out)
+void metrics_write(http_metrics *metrics, job_dispatcher *dispatcher, const prune_tally *pruned, text_buffer *out)
 {
     write_head(out, "reposed_build_info", "gauge", "Always 1; the label tells the version.");
     text_buffer_print(out, "reposed_build_info{version=\"" REPOSED_VERSION "\"} 1\n");
@@ -96,7 +116,7 @@ void metrics_write(http_metrics *metrics, job_dispatcher *dispatcher, text_buffe
     write_requests(metrics, out);
     write_latencies(metrics, out);
     write_one(out, "reposed_http_connections", "gauge", "Open connections.", metrics->connections);
-    write_one(out, "reposed_disk_free_bytes", "gauge", "Free room on the data folder's disk.",
-              data_folder_free_bytes(dispatcher->store->data));
+    write_disk(dispatcher->store->data, out);
+    write_pruned(pruned, out);
     write_one(out, "process_resident_memory_bytes", "gauge", "Resident memory of the daemon.", resident_bytes());
 }

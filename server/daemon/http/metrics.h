@@ -3,6 +3,7 @@
 #define METRICS_H
 
 #include "dispatcher.h"
+#include "prune.h"
 #include "routes.h"
 #include "text_buffer.h"
 
@@ -18,6 +19,7 @@ typedef struct http_metrics {
 
 /* route: NULL when none was reached. */
 void metrics_count(http_metrics *metrics, const http_route *route, int status, double seconds);
-void metrics_write(http_metrics *metrics, job_dispatcher *dispatcher, text_buffer *out);
+/* pruned: since the start. */
+void metrics_write(http_metrics *metrics, job_dispatcher *dispatcher, const prune_tally *pruned, text_buffer *out);
 
 #endif

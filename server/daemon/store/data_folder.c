@@ -17,6 +17,11 @@
 #include "job_folder.h"
 #include "log.h"
 
+/* Of the disk, for what has been begun; of a small one a share. */
+#define KEPT_BYTES 64e6
+#define KEPT_INODES 1000.0
+#define KEPT_SHARE 0.02
+
 enum { LONGEST_SEAL = 64 };
 
 static bool ends_in_tmp(const char *name)
@@ -323,10 +328,23 @@ void job_result_remove(const data_folder *data, const char *id)
     close(folder);
 }
 
-double data_folder_free_bytes(const data_folder *data)
+disk_room data_folder_room(const data_folder *data)
 {
     struct statvfs disk;
-    return fstatvfs(data->jobs, &disk) == 0 ? (double)disk.f_bavail * (double)disk.f_frsize : NAN;
+    if (fstatvfs(data->jobs, &disk) != 0) return (disk_room){ NAN, NAN, NAN };
+    const double block = (double)disk.f_frsize;
+    return (disk_room){ block * (double)disk.f_blocks, block * (double)disk.f_bavail, (double)disk.f_favail };
+}
+
+bool data_folder_is_nearly_full(const data_folder *data)
+{
+    struct statvfs disk;
+    if (fstatvfs(data->jobs, &disk) != 0) return false;
+    const double block = (double)disk.f_frsize, kept = fmin(KEPT_BYTES, KEPT_SHARE * block * (double)disk.f_blocks);
+    const double inodes = (double)disk.f_files; /* 0: of a file system that has no limit */
+    return block * (double)disk.f_bavail < kept || (double)disk.f_favail < fmin(KEPT_INODES, KEPT_SHARE * inodes);
 }
 
 bool data_folder_sync(const data_folder *data) { return syncfs(data->jobs) == 0; }
+
+double data_folder_free_bytes(const data_folder *data) { return data_folder_room(data).free_bytes; }

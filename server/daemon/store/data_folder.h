@@ -47,6 +47,12 @@ void job_result_remove(const data_folder *data, const char *id);
 bool data_folder_sync(const data_folder *data); /* all that was written so far is safe on the disk */
 /* Whether a file can be made, written and kept; it is removed again. False: errno says why. */
 bool data_folder_try_write(const data_folder *data);
+typedef struct disk_room {
+    double bytes, free_bytes, free_inodes; /* of the data folder's disk; NaN: not known */
+} disk_room;
+disk_room data_folder_room(const data_folder *data);
+/* What is left, of bytes or of inodes, is for jobs that run already and for the database: none is to be added. */
+bool data_folder_is_nearly_full(const data_folder *data);
 double data_folder_free_bytes(const data_folder *data); /* NaN: not known */
 
 #endif

@@ -1,11 +1,16 @@
 #include "folder_remover.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <time.h>
 
 #include "database.h"
 #include "log.h"
+
+/* s between looks at what is not to be kept: less often where one takes long */
+#define BETWEEN_PRUNINGS 60.0
+#define SHARE_OF_PRUNING 50.0
 
 enum { SECONDS_UNTIL_AGAIN = 2, SECONDS_KEPT = 60, IDS_A_LOOK = 1000 };
 
@@ -61,11 +66,58 @@ static int look(folder_remover *remover)
     return forgotten < rows ? SECONDS_KEPT + 1 : 0;
 }
 
+/* Seconds until the next; 0: there is nothing to keep to. */
+static int prune(folder_remover *remover)
+{
+    const double start = monotonic_seconds();
+    if (remover->rules.keep_days == 0 && !(remover->rules.keep_bytes > 0.0)) return 0;
+    if (start >= remover->prune_next) {
+        prune_tally tally = { .jobs = 0 };
+        store_prune(remover->store, &remover->rules, &remover->stopping, &tally);
+        const double end = monotonic_seconds();
+        remover->prune_next = end + fmax(BETWEEN_PRUNINGS, SHARE_OF_PRUNING * (end - start));
+        pthread_mutex_lock(&remover->lock);
+        remover->pruned.jobs += tally.jobs;
+        remover->pruned.studies += tally.studies;
+        remover->pruned.stripped += tally.stripped;
+        remover->pruned.bytes += tally.bytes;
+        pthread_mutex_unlock(&remover->lock);
+    }
+    return 1 + (int)fmin(1e6, fmax(0.0, remover->prune_next - monotonic_seconds()));
+}
+
+prune_tally folder_remover_pruned(folder_remover *remover)
+{
+    pthread_mutex_lock(&remover->lock);
+    const prune_tally pruned = remover->pruned;
+    pthread_mutex_unlock(&remover->lock);
+    return pruned;
+}
+
+bool prune_once(const char *path, const prune_rules *rules)
+{
+    data_folder data;
+    int64_t rows;
+    if (!data_folder_open(&data, path)) return false;
+    folder_remover remover = { .store = store_open(&data, 1) };
+    prune_tally tally = { .jobs = 0 };
+    bool good = remover.store && store_prune(remover.store, rules, &remover.stopping, &tally) == STORE_OK;
+    if (good && !rules->only_tell) good = remove_folders(&remover, &rows);
+    if (good)
+        printf("%lld jobs and %lld studies%s deleted, snapshots of %lld jobs%s removed: %.3g MB\n", (long long)tally.jobs,
+               (long long)tally.studies, rules->only_tell ? " would be" : "", (long long)tally.stripped,
+               rules->only_tell ? " would be" : "", 1e-6 * tally.bytes);
+    if (remover.store) store_close(remover.store);
+    data_folder_close(&data);
+    return good;
+}
+
 static void *remove_what_leaves(void *context)
 {
     folder_remover *remover = context;
     while (!remover->stopping) {
-        const int seconds = look(remover);
+        const int until_prune = prune(remover), until_look = look(remover);
+        const int seconds = until_look == 0 || (until_prune > 0 && until_prune < until_look) ? until_prune : until_look;
         struct timespec until;
         clock_gettime(CLOCK_MONOTONIC, &until);
         until.tv_sec += seconds;
@@ -80,9 +132,9 @@ static void *remove_what_leaves(void *context)
     return NULL;
 }
 
-bool folder_remover_start(folder_remover *remover, job_store *store)
+bool folder_remover_start(folder_remover *remover, job_store *store, const prune_rules *rules)
 {
-    *remover = (folder_remover){ .store = store };
+    *remover = (folder_remover){ .store = store, .rules = *rules };
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);
     pthread_condattr_setclock(&monotonic, CLOCK_MONOTONIC);

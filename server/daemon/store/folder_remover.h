@@ -11,9 +11,13 @@
 #include <stdbool.h>
 
 #include "job_store.h"
+#include "prune.h"
 
 typedef struct folder_remover {
     job_store *store;
+    prune_rules rules;  /* what is not to be kept; looked at now and then */
+    prune_tally pruned; /* since the start; under the lock */
+    double prune_next;  /* monotonic s */
     pthread_t thread;
     pthread_mutex_t lock;
     pthread_cond_t wakes;
@@ -22,7 +26,11 @@ typedef struct folder_remover {
 } folder_remover;
 
 /* Begins with what an earlier daemon left. */
-bool folder_remover_start(folder_remover *remover, job_store *store);
+bool folder_remover_start(folder_remover *remover, job_store *store, const prune_rules *rules);
+/* What has been pruned since the start. */
+prune_tally folder_remover_pruned(folder_remover *remover);
+/* `reposed prune`, while no daemon is at work: once, folders included. False: logged. */
+bool prune_once(const char *data, const prune_rules *rules);
 /* From any thread: something was deleted. */
 void folder_remover_wake(folder_remover *remover);
 /* Ends within the removal of one file. */

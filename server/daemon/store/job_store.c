@@ -197,6 +197,7 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
 {
     static const study_place of_no_study = { 0, 0, 0 };
     uint32_t bits;
+    if (data_folder_is_nearly_full(store->data)) return STORE_FULL;
     if (!text || !store_random_bits(&bits)) return STORE_FAILED;
     store_write_id(id, time(NULL), bits);
     const char *from = job_started_from(spec);
@@ -239,6 +240,20 @@ store_status store_has_job(job_store *store, const char *id)
     const store_status status = statement ? sql_finish(statement, code) : STORE_FAILED;
     store_return_reader(store, reader);
     return status == STORE_OK && code != SQLITE_ROW ? STORE_NOT_FOUND : status;
+}
+
+double store_queue_age(job_store *store)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *row = sql_prepare(reader,
+                                    "SELECT max(0.0,(julianday('now')-julianday(updated))*86400.0) FROM job"
+                                    " WHERE status='accepted' ORDER BY number LIMIT 1",
+                                    "");
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    const double age = code == SQLITE_ROW ? sqlite3_column_double(row, 0) : 0.0;
+    if (row) sql_finish(row, code);
+    store_return_reader(store, reader);
+    return age;
 }
 
 store_status store_dismiss_job(job_store *store, const char *id)

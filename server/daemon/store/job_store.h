@@ -111,6 +111,8 @@ store_status store_recover(job_store *store);
 /* unused_folders.c: those that a POST made which a crash has cut off. Before the first request: one that is being posted has no
  * row either. */
 store_status store_remove_unused_folders(job_store *store);
+/* s that the oldest of the jobs that wait has waited; 0: none waits. */
+double store_queue_age(job_store *store);
 store_status store_has_job(job_store *store, const char *id); /* STORE_NOT_FOUND: there is none */
 
 /* query.c: the limits, the authorizer and the functions of users' SQL, on store->query. False: no memory. */

@@ -41,6 +41,18 @@ store_status store_retry_job(job_store *store, const char *id)
     return status == STORE_OK ? store_end(store, put_into_queue(store, id)) : status;
 }
 
+store_status store_pin_job(job_store *store, const char *id, bool pinned)
+{
+    int64_t number;
+    store_status status = store_begin(store);
+    if (status != STORE_OK) return status;
+    status = read_number(store, "SELECT number FROM job WHERE id=?", id, &number);
+    if (status == STORE_OK)
+        status = sql_run(store->writer, NULL, pinned ? "INSERT OR IGNORE INTO pinned VALUES(?)" : "DELETE FROM pinned WHERE job=?",
+                         "i", number);
+    return store_end(store, status);
+}
+
 static double unix_seconds(void)
 {
     struct timespec now;

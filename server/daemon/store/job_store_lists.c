@@ -11,10 +11,11 @@
 
 /* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary: these two, and what the rows of
  * inputs and results say is listed. */
-#define RECORD_COLUMNS 14
+#define RECORD_COLUMNS 15
 #define RECORD                                                                                                                     \
     "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"                 \
-    " job.started, job.finished, job.updated, job.message, job.label, study.id, job.threads, job.estimated_seconds"
+    " job.started, job.finished, job.updated, job.message, job.label, study.id,"                                                   \
+    " job.number IN (SELECT job FROM pinned), job.threads, job.estimated_seconds"
 enum { MORE_OF_JOB = 2, LONGEST_SELECT = 65536 };
 
 static void write_select(const field_tables *fields, text_buffer *sql)
@@ -70,6 +71,7 @@ static void fill_record(const field_tables *fields, sqlite3_stmt *row, job_recor
     copy_text(job->updated, sizeof job->updated, row, 10);
     copy_text(job->message, sizeof job->message, row, 11);
     copy_text(job->study, sizeof job->study, row, 13);
+    job->is_pinned = sqlite3_column_int(row, 14) != 0;
     job->label = json_loads((const char *)sqlite3_column_text(row, 12), 0, NULL);
     job->summary = summary_of(fields, row);
 }

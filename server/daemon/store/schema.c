@@ -142,12 +142,14 @@ static const char waiting_by_setbacks[] = "DROP INDEX job_waiting;"
 static const char wanted_results[] = "ALTER TABLE job ADD COLUMN wanted TEXT;";
 
 /* What was posted as a study has a table of its own: it may be long, and each change of a job writes the study's row anew. */
-static const char documents_of_studies[] =
-    "CREATE TABLE study_document("
-    "  study INTEGER PRIMARY KEY REFERENCES study(number) ON DELETE CASCADE,"
-    "  document TEXT NOT NULL) STRICT;" /* JSON, repeats and seed chosen */
-    "INSERT INTO study_document SELECT number, document FROM study;"
-    "ALTER TABLE study DROP COLUMN document;";
+static const char documents_of_studies[] = "CREATE TABLE study_document("
+                                           "  study INTEGER PRIMARY KEY REFERENCES study(number) ON DELETE CASCADE,"
+                                           "  document TEXT NOT NULL) STRICT;" /* JSON, repeats and seed chosen */
+                                           "INSERT INTO study_document SELECT number, document FROM study;"
+                                           "ALTER TABLE study DROP COLUMN document;";
+
+/* Jobs that no rule removes. */
+static const char pinned_jobs[] = "CREATE TABLE pinned(job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE) STRICT;";
 
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
@@ -175,5 +177,6 @@ const schema_migration schema_migrations[] = {
     { { waiting_by_setbacks } },
     { { wanted_results } },
     { { documents_of_studies } },
+    { { pinned_jobs } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -26,7 +26,8 @@ static store_status insert_study(job_store *store, const study_spec *study, cons
                          "tttiidt", id, study->process, study->name, (int64_t)study->cases, (int64_t)study->repeats,
                          estimate->wall_seconds, now);
     *number = sqlite3_last_insert_rowid(store->writer);
-    if (status == STORE_OK) status = sql_run(store->writer, NULL, "INSERT INTO study_document VALUES(?,?)", "it", *number, document);
+    if (status == STORE_OK)
+        status = sql_run(store->writer, NULL, "INSERT INTO study_document VALUES(?,?)", "it", *number, document);
     free(document);
     return status;
 }
@@ -37,6 +38,10 @@ store_status store_add_study(job_store *store, study_stage *stage, const study_s
                              char id[JOB_ID_SIZE])
 {
     int64_t number;
+    if (data_folder_is_nearly_full(store->data)) {
+        study_stage_discard_starts(stage);
+        return STORE_FULL;
+    }
     store_status status = study_stage_bring_starts(stage);
     if (status == STORE_OK) status = store_begin(store);
     if (status == STORE_OK) {

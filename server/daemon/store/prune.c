@@ -1,0 +1,225 @@
+#include "prune.h"
+
+#include <dirent.h>
+#include <fcntl.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#include "database.h"
+#include "job_folder.h"
+#include "log.h"
+
+enum { DEEPEST = 2, MOST_ROUNDS = 1000000 };
+
+#define HAS_ENDED "job.status IN ('successful','failed','dismissed')"
+#define IS_PINNED "job.number IN (SELECT job FROM pinned)"
+#define ALL_ENDED "study.accepted+study.running=0 AND NOT EXISTS(SELECT 1 FROM job WHERE job.study=study.number AND " IS_PINNED ")"
+
+typedef struct pruning {
+    job_store *store;
+    const prune_rules *rules;
+    const atomic_bool *stopping;
+    prune_tally *tally;
+    double bytes; /* of all folders of jobs */
+} pruning;
+
+/* --- how large folders are --- */
+
+/* What a file takes; of one with several names, which start from each other's beds, a share. */
+static double bytes_of_file(const struct stat *facts)
+{
+    return 512.0 * (double)facts->st_blocks / fmax(1.0, S_ISREG(facts->st_mode) ? (double)facts->st_nlink : 1.0);
+}
+
+static double bytes_in(int folder, const char *name, int depth)
+{
+    const int inner = openat(folder, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    DIR *list = inner >= 0 ? fdopendir(inner) : NULL;
+    double bytes = 0.0;
+    if (!list && inner >= 0) close(inner);
+    for (const struct dirent *entry; list && (entry = readdir(list)) != NULL;) {
+        struct stat facts;
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        if (fstatat(dirfd(list), entry->d_name, &facts, AT_SYMLINK_NOFOLLOW) != 0) continue;
+        bytes += bytes_of_file(&facts);
+        if (S_ISDIR(facts.st_mode) && depth > 0) bytes += bytes_in(dirfd(list), entry->d_name, depth - 1);
+    }
+    if (list) closedir(list);
+    return bytes;
+}
+
+/* --- who is next --- */
+
+/* The first column of the first row, a text; "": there is none. The number is that of its second column. */
+static store_status next_of(job_store *store, const char *sql, const char *before, int64_t after, char id[JOB_ID_SIZE],
+                            int64_t *number)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *row = sql_prepare(reader, sql, "ti", before, after);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    id[0] = '\0';
+    if (code == SQLITE_ROW) {
+        snprintf(id, JOB_ID_SIZE, "%s", (const char *)sqlite3_column_text(row, 0));
+        *number = sqlite3_column_int64(row, 1);
+    }
+    const store_status status = row ? sql_finish(row, code) : STORE_FAILED;
+    store_return_reader(store, reader);
+    return status;
+}
+
+static double bytes_of_study(const pruning *p, const char *study)
+{
+    double bytes = 0.0;
+    int64_t number = 0;
+    char id[JOB_ID_SIZE];
+    static const char of_study[] =
+        "SELECT id, number FROM job WHERE study=(SELECT number FROM study WHERE id=?1) AND number>?2 ORDER BY number LIMIT 1";
+    while (next_of(p->store, of_study, study, number, id, &number) == STORE_OK && id[0])
+        bytes += bytes_in(p->store->data->jobs, id, DEEPEST);
+    return bytes;
+}
+
+/* --- what goes --- */
+
+static store_status let_go(pruning *p, const char *id, bool is_study)
+{
+    const double bytes = is_study ? bytes_of_study(p, id) : bytes_in(p->store->data->jobs, id, DEEPEST);
+    store_status status = STORE_OK;
+    if (!p->rules->only_tell) status = is_study ? store_delete_study(p->store, id) : store_delete_job(p->store, id);
+    if (status == STORE_CONFLICT || status == STORE_NOT_FOUND) return STORE_OK; /* somebody was there before */
+    if (status != STORE_OK) return status;
+    log_line("%s %s: deleted to make room, %.3g MB", is_study ? "study" : "job", id, 1e-6 * bytes);
+    if (is_study) p->tally->studies++;
+    else p->tally->jobs++;
+    p->tally->bytes += bytes;
+    p->bytes -= bytes;
+    return STORE_OK;
+}
+
+static void remove_file(const data_folder *data, const char *id, const char *folder, const char *name)
+{
+    char path[200];
+    snprintf(path, sizeof path, "%s/%s%s%s", id, folder ? folder : "", folder ? "/" : "", name);
+    unlinkat(data->jobs, path, 0);
+}
+
+static void remove_snapshots(const data_folder *data, const char *id)
+{
+    const int job = job_folder_open(data, id);
+    const int inner = job >= 0 ? openat(job, JOB_SNAPSHOT_FOLDER, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
+    DIR *list = inner >= 0 ? fdopendir(inner) : NULL;
+    for (const struct dirent *entry; list && (entry = readdir(list)) != NULL;)
+        if (entry->d_name[0] != '.') unlinkat(inner, entry->d_name, 0);
+    if (list) closedir(list);
+    else if (inner >= 0) close(inner);
+    if (job >= 0) close(job);
+    remove_file(data, id, NULL, JOB_SERIES_FILE);
+    remove_file(data, id, NULL, JOB_CHECKPOINT_FILE);
+    remove_file(data, id, NULL, JOB_EARLIER_CHECKPOINT_FILE);
+}
+
+/* The rows first: what is not told of any more is nowhere missing. Not of a job that has just been tried again. */
+static store_status strip(pruning *p, const char *id)
+{
+    job_store *store = p->store;
+    const double before = bytes_in(store->data->jobs, id, DEEPEST);
+    if (!p->rules->only_tell) {
+        int64_t changed = 0;
+        static const char tell[] = "UPDATE job SET message=message||'; its snapshots and checkpoints were removed to make room'"
+                                   " WHERE id=? AND " HAS_ENDED;
+        store_status status = store_begin(store);
+        if (status != STORE_OK) return status;
+        status = sql_run(store->writer, &changed, tell, "t", id);
+        if (status == STORE_OK && changed > 0)
+            status = sql_run(store->writer, NULL, "DELETE FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?)", "t", id);
+        status = store_end(store, status);
+        if (status != STORE_OK || changed == 0) return status;
+        remove_snapshots(store->data, id);
+    }
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *row =
+        sql_prepare(reader, "SELECT total(bytes) FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?)", "t", id);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    const double of_rows = code == SQLITE_ROW ? sqlite3_column_double(row, 0) : 0.0;
+    if (row) sql_finish(row, code);
+    store_return_reader(store, reader);
+    const double bytes = p->rules->only_tell ? of_rows : before - bytes_in(store->data->jobs, id, DEEPEST);
+    log_line("job %s: snapshots and checkpoints removed to make room, %.3g MB", id, 1e-6 * bytes);
+    p->tally->stripped++;
+    p->tally->bytes += bytes;
+    p->bytes -= bytes;
+    return STORE_OK;
+}
+
+/* One after the other, in order of submission, until there are no more, or it is enough. */
+static store_status go_through(pruning *p, const char *sql, const char *before, double enough,
+                               store_status (*one)(pruning *, const char *))
+{
+    store_status status = STORE_OK;
+    int64_t number = 0;
+    for (int round = 0; status == STORE_OK && !*p->stopping && !(p->bytes <= enough) && round < MOST_ROUNDS; round++) {
+        char id[JOB_ID_SIZE];
+        status = next_of(p->store, sql, before, number, id, &number);
+        if (status != STORE_OK || !id[0]) break;
+        status = one(p, id);
+    }
+    return status;
+}
+
+static store_status delete_job(pruning *p, const char *id) { return let_go(p, id, false); }
+static store_status delete_study(pruning *p, const char *id) { return let_go(p, id, true); }
+
+static store_status prune_by_age(pruning *p, char before[JOB_TIME_SIZE])
+{
+    const time_t then = time(NULL) - (time_t)p->rules->keep_days * 86400;
+    struct tm utc;
+    gmtime_r(&then, &utc);
+    strftime(before, JOB_TIME_SIZE, "%Y-%m-%dT%H:%M:%S.000Z", &utc);
+    store_status status = go_through(p,
+                                     "SELECT id, number FROM job WHERE finished<?1 AND number>?2 AND study IS NULL AND " HAS_ENDED
+                                     " AND NOT " IS_PINNED " ORDER BY number LIMIT 1",
+                                     before, -INFINITY, delete_job);
+    if (status == STORE_OK)
+        status =
+            go_through(p, "SELECT id, number FROM study WHERE updated<?1 AND number>?2 AND " ALL_ENDED " ORDER BY number LIMIT 1",
+                       before, -INFINITY, delete_study);
+    return status;
+}
+
+/* from: only what has ended since then, "": all. */
+static store_status prune_by_size(pruning *p, const char *from)
+{
+    const double enough = p->rules->keep_bytes;
+    store_status status = go_through(p,
+                                     "SELECT id, number FROM job WHERE finished>=?1 AND number>?2 AND " HAS_ENDED
+                                     " AND NOT " IS_PINNED " AND number IN (SELECT job FROM snapshot) ORDER BY number LIMIT 1",
+                                     from, enough, strip);
+    if (status == STORE_OK)
+        status = go_through(p,
+                            "SELECT id, number FROM job WHERE finished>=?1 AND number>?2 AND study IS NULL AND " HAS_ENDED
+                            " AND NOT " IS_PINNED " ORDER BY number LIMIT 1",
+                            from, enough, delete_job);
+    if (status == STORE_OK)
+        status =
+            go_through(p, "SELECT id, number FROM study WHERE updated>=?1 AND number>?2 AND " ALL_ENDED " ORDER BY number LIMIT 1",
+                       from, enough, delete_study);
+    return status;
+}
+
+store_status store_prune(job_store *store, const prune_rules *rules, const atomic_bool *stopping, prune_tally *tally)
+{
+    pruning p = { .store = store, .rules = rules, .stopping = stopping, .tally = tally, .bytes = NAN };
+    char before[JOB_TIME_SIZE] = "";
+    store_status status = rules->keep_days > 0 ? prune_by_age(&p, before) : STORE_OK;
+    tally->left = NAN;
+    if (status != STORE_OK || !(rules->keep_bytes > 0.0)) return status;
+    const int jobs = store->data->jobs;
+    p.bytes = bytes_in(jobs, ".", DEEPEST + 1) - (rules->only_tell ? tally->bytes : 0.0);
+    status = prune_by_size(&p, rules->only_tell ? before : "");
+    tally->left = p.bytes;
+    return status;
+}
