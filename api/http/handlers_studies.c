@@ -216,6 +216,25 @@ void remove_study(api_service *service, const http_request *request, http_respon
     else /* dismissing twice is no mistake */ http_respond_json(response, 200, study_info(&study));
 }
 
+/* Those of its jobs that failed; what is done stays. */
+void retry_study(api_service *service, const http_request *request, http_response *response)
+{
+    const char *id = request->segment[0];
+    const store_status status = job_id_is_valid(id) ? store_retry_study(service->store, id) : STORE_NOT_FOUND;
+    study_record study;
+    if (status != STORE_OK && status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
+        respond_store_failure(response, status, "put the study's failed jobs into the queue");
+        return;
+    }
+    if (!find_study(service, request, response, &study)) return;
+    if (status == STORE_CONFLICT)
+        http_respond_problem(response, 409, NULL, "The study can't be tried again",
+                             "of the %lld jobs of study %s none has failed; a dismissed one is tried again by itself",
+                             (long long)study.jobs, study.id);
+    else http_respond_json(response, 200, study_info(&study));
+    if (status == STORE_OK) service->jobs_changed(service->daemon);
+}
+
 /* --- results --- */
 
 static bool tabulate(api_service *service, const char *id, http_response *response, study_table *table)

@@ -30,7 +30,8 @@ typedef struct http_parameter {
 typedef struct http_request {
     const char *method, *path;
     /* headers; NULL where there is none */
-    const char *host, *origin, *accept, *content_type, *authorization, *prefer, *range, *if_range, *if_none_match, *accept_encoding;
+    const char *host, *origin, *accept, *content_type, *authorization, *prefer, *range, *if_range, *if_none_match, *accept_encoding,
+        *idempotency_key;
     size_t parameter_count;
     http_parameter parameter[HTTP_PARAMETERS];
     char segment[HTTP_SEGMENTS][HTTP_SEGMENT_SIZE]; /* what the pattern's {…} stood for */

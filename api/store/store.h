@@ -107,6 +107,8 @@ store_status store_add_study(job_store *store, study_stage *stage, const study_s
 store_status store_dismiss_study(job_store *store, const char *id);
 /* Deletes it with all its jobs, as store_delete_job. STORE_CONFLICT: not all have ended. */
 store_status store_delete_study(job_store *store, const char *id);
+/* Its failed jobs into the queue once more, all or none, as store_retry_job. STORE_CONFLICT: none has failed. */
+store_status store_retry_study(job_store *store, const char *id);
 store_status store_find_study(job_store *store, const char *id, study_record *study);
 store_status store_list_studies(job_store *store, int64_t before, int64_t limit, study_visitor *visit,
                                 void *context);                               /* newest first */
@@ -154,6 +156,29 @@ typedef struct snapshot_row {
 typedef bool snapshot_visitor(void *context, const snapshot_row *row);
 store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit,
                                   void *context);
+
+/* A request that may be sent again, and what is known of it. */
+enum { REQUEST_KEY_SIZE = 201 };
+typedef struct request_key {
+    char key[REQUEST_KEY_SIZE];
+    uint64_t fingerprint; /* of what is asked for */
+    bool awaited;         /* its answer may be one that comes later, and is not kept */
+    bool is_kept;         /* committed, with what the request did */
+    bool is_taken;        /* by another request: nothing was done */
+} request_key;
+/* From now on the next change that this thread commits is that of the request: its key is kept by the same commit. NULL: of none. */
+void store_use_key(request_key *key);
+
+typedef struct kept_answer {
+    uint64_t fingerprint;
+    char made[JOB_ID_SIZE]; /* the job or study that it is about; "": none */
+    int status;
+    char location[600];
+    char *body; /* for free(); NULL: not kept, or not yet */
+} kept_answer;
+/* STORE_NOT_FOUND: no request had this key in the last seven days. */
+store_status store_find_answer(job_store *store, const char *key, kept_answer *answer);
+void store_keep_answer(job_store *store, const char *key, int status, const char *location, const char *body);
 
 /* Descriptors for reading, the caller closes. */
 store_status store_open_snapshot(job_store *store, const char *id, int64_t number, int *file);

@@ -197,6 +197,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     again = call("/studies/{id}/spec", f"{study}/spec", 200).json()
     call("/jobs", f"{url}/jobs?study={study.removeprefix(f'{url}/studies/')}", 200)
     call("/studies/{id}", f"{study}?only=dismiss", 409, "DELETE")
+    call("/studies/{id}/retry", f"{study}/retry", 409, "POST")
     again = call("/studies", f"{url}/studies", 201, "POST", json=again).headers["Location"]
     call("/studies/{id}", f"{again}?only=dismiss", 200, "DELETE")
     older = call("/studies", f"{url}/studies?limit=1", 200).json()["links"][1]["href"]

@@ -423,3 +423,20 @@ def test_a_study_with_the_real_worker(daemon):
             own = [result["repose"]["standard_error_deg"] for result in results] if name == "angle_deg" else [0.0]
             found = row["results"][name]
             assert [found["mean"], found["standard_error"]] == mean_and_error(values, own=numpy.sqrt(numpy.mean(numpy.square(own))))
+
+
+def test_a_retry_takes_the_failed_jobs_of_a_study_and_no_other(fake):
+    cases = [{"name": name, "label": {"fake": name}} for name in ("quick", "numerical", "dies")]
+    study = submit(fake, {"base": {"inputs": SPEC}, "cases": cases})
+    assert ended(fake, study)["counts"] | {"successful": 1, "failed": 2} == ended(fake, study)["counts"]
+    before = {job["jobID"]: job for job in fake.get(f"/jobs?study={study}").json()["jobs"]}
+    answer = requests.post(f"{fake.url}/studies/{study}/retry", timeout=30)
+    assert answer.status_code == 200 and answer.json()["counts"]["failed"] == 0, answer.text
+    assert ended(fake, study)["counts"]["failed"] == 2
+    for job in fake.get(f"/jobs?study={study}").json()["jobs"]:
+        was = before[job["jobID"]]
+        assert (job["attempt"] > was["attempt"]) == (was["status"] == "failed")
+    good = submit(fake, {"base": {"inputs": SPEC, "label": {"fake": "quick"}}})
+    ended(fake, good)
+    assert requests.post(f"{fake.url}/studies/{good}/retry", timeout=30).status_code == 409
+    assert requests.post(f"{fake.url}/studies/20200101-000000-00000000/retry", timeout=30).status_code == 404

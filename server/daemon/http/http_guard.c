@@ -105,6 +105,7 @@ void http_headers_take(http_headers *headers, http_request *request, const char 
         { "If-Range", &request->if_range, NULL },
         { "If-None-Match", &request->if_none_match, NULL },
         { "Accept-Encoding", &request->accept_encoding, NULL },
+        { "Idempotency-Key", &request->idempotency_key, NULL },
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         if (strcasecmp(name, wanted[i].name) != 0) continue;

@@ -10,6 +10,7 @@
 
 #include "http_reply.h"
 #include "log.h"
+#include "request_key.h"
 
 enum {
     HTTP_THREADS = 4,
@@ -89,7 +90,7 @@ static enum MHD_Result answer(http_exchange *exchange)
         exchange->request.may_wait = !closing && !exchange->waits_no_more;
         exchange->request.waited = start - exchange->arrived;
         http_response_clear(&exchange->response);
-        route_respond(exchange->route, server->service, &exchange->request, &exchange->response);
+        respond_once(exchange->route, server->service, &exchange->request, &exchange->response);
         exchange->worked += monotonic_seconds() - start;
         if (exchange->response.wants_lane) return answer_slowly(exchange);
         if (!(exchange->response.wait > 0.0)) break;

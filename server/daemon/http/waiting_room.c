@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "log.h"
+#include "request_key.h"
 
 #define SECONDS_BETWEEN_SWEEPS 1.0
 #define SECONDS_BETWEEN_LOOKS 0.4 /* at who has left */
@@ -201,7 +202,7 @@ static void *run_slow(void *context)
         const double start = monotonic_seconds();
         http_response_clear(&exchange->response);
         exchange->request.in_lane = true;
-        route_respond(exchange->route, lane->room->service, &exchange->request, &exchange->response);
+        respond_once(exchange->route, lane->room->service, &exchange->request, &exchange->response);
         exchange->worked = monotonic_seconds() - start;
         /* What has begun in the lane may wait outside of it. */
         if (exchange->response.wait > 0.0) memcpy(exchange->request.made, exchange->response.made, sizeof exchange->request.made);

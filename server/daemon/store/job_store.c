@@ -91,6 +91,7 @@ store_status store_begin(job_store *store)
 
 store_status store_end(job_store *store, store_status status)
 {
+    if (status == STORE_OK) status = store_keep_key(store);
     if (status == STORE_OK) status = sql_run(store->writer, NULL, "COMMIT", "");
     /* A full disk may have rolled back by itself already. */
     if (status != STORE_OK && !sqlite3_get_autocommit(store->writer)) sql_run(store->writer, NULL, "ROLLBACK", "");
@@ -217,6 +218,7 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
         if (status == STORE_OK) status = last_number(store, &last);
         if (status == STORE_OK)
             status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &of_no_study, &machine);
+        store_name_made(id);
         if (status == STORE_OK && spec->wanted) status = keep_wanted(store->writer, last + 1, spec->wanted);
         status = store_end(store, status);
     }

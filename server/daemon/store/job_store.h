@@ -44,6 +44,10 @@ store_status store_walk(job_store *store, sqlite3 *reader, sqlite3_stmt *stateme
 store_status store_begin(job_store *store);
 store_status store_end(job_store *store, store_status status);
 
+/* request_keys.c, between begin and end: keeps the key of this thread's request, if it has one, and the id of what it is about. */
+store_status store_keep_key(job_store *store);
+void store_name_made(const char *id);
+
 /* Commits a change that changes nothing, to see whether that can be done; not while somebody else writes. */
 store_status store_try_write(job_store *store);
 

@@ -17,8 +17,12 @@ static store_status read_number(job_store *store, const char *sql, const char *i
     return status == STORE_OK && code != SQLITE_ROW ? STORE_NOT_FOUND : status;
 }
 
-/* The attempts that it has made do not count against it any more. What a dying worker of an earlier one still writes is
- * fenced off by the new number. */
+/* The attempts that were made do not count any more. What a dying worker of an earlier one still writes is fenced off by the
+ * new number. */
+#define TRY_AGAIN                                                                                                                  \
+    "UPDATE job SET status='accepted', message='waiting for a free worker: to be tried again', attempts_before=attempt,"           \
+    " attempt=attempt+1, setbacks=0, not_before=0, failure=NULL, finished=NULL, eta_seconds=NULL, updated=? "
+
 static store_status put_into_queue(job_store *store, const char *id)
 {
     int64_t may_be;
@@ -28,11 +32,8 @@ static store_status put_into_queue(job_store *store, const char *id)
     if (status == STORE_OK && !may_be) return STORE_CONFLICT;
     if (status == STORE_OK) status = store_check_queue(store, 1);
     if (status != STORE_OK) return status;
-    return sql_run(
-        store->writer, NULL,
-        "UPDATE job SET status='accepted', message='waiting for a free worker: to be tried again', attempts_before=attempt,"
-        " attempt=attempt+1, setbacks=0, not_before=0, failure=NULL, finished=NULL, eta_seconds=NULL, updated=? WHERE id=?",
-        "tt", now, id);
+    store_name_made(id);
+    return sql_run(store->writer, NULL, TRY_AGAIN "WHERE id=?", "tt", now, id);
 }
 
 store_status store_retry_job(job_store *store, const char *id)
@@ -51,6 +52,27 @@ store_status store_pin_job(job_store *store, const char *id, bool pinned)
         status = sql_run(store->writer, NULL, pinned ? "INSERT OR IGNORE INTO pinned VALUES(?)" : "DELETE FROM pinned WHERE job=?",
                          "i", number);
     return store_end(store, status);
+}
+
+/* Those of its jobs that failed. */
+static store_status put_failed_into_queue(job_store *store, const char *id)
+{
+    int64_t failed, number = 0;
+    char now[JOB_TIME_SIZE];
+    time_text(now);
+    store_status status = read_number(store, "SELECT failed FROM study WHERE id=?", id, &failed);
+    if (status == STORE_OK && failed == 0) return STORE_CONFLICT;
+    if (status == STORE_OK) status = store_check_queue(store, failed);
+    if (status == STORE_OK) status = read_number(store, "SELECT number FROM study WHERE id=?", id, &number);
+    if (status != STORE_OK) return status;
+    store_name_made(id);
+    return sql_run(store->writer, NULL, TRY_AGAIN "WHERE study=? AND +status='failed'", "ti", now, number);
+}
+
+store_status store_retry_study(job_store *store, const char *id)
+{
+    const store_status status = store_begin(store);
+    return status == STORE_OK ? store_end(store, put_failed_into_queue(store, id)) : status;
 }
 
 static double unix_seconds(void)

@@ -151,6 +151,14 @@ static const char documents_of_studies[] = "CREATE TABLE study_document("
 /* Jobs that no rule removes. */
 static const char pinned_jobs[] = "CREATE TABLE pinned(job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE) STRICT;";
 
+/* Requests with an Idempotency-Key, in the order in which they came, and what they were answered. */
+static const char request_keys[] = "CREATE TABLE request_key("
+                                   "  number INTEGER PRIMARY KEY,"
+                                   "  key TEXT NOT NULL UNIQUE, fingerprint INTEGER NOT NULL, since REAL NOT NULL,"
+                                   "  made TEXT NOT NULL,"
+                                   "  status INTEGER, location TEXT, body TEXT) STRICT;"
+                                   "CREATE INDEX request_key_age ON request_key(since);";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -178,5 +186,6 @@ const schema_migration schema_migrations[] = {
     { { wanted_results } },
     { { documents_of_studies } },
     { { pinned_jobs } },
+    { { request_keys } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

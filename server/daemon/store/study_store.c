@@ -48,6 +48,7 @@ store_status store_add_study(job_store *store, study_stage *stage, const study_s
         status = store_check_queue(store, (int64_t)study->cases * study->repeats);
         if (status == STORE_OK) status = insert_study(store, study, estimate, study_stage_id(stage), &number);
         if (status == STORE_OK) status = study_stage_copy(stage, number);
+        store_name_made(study_stage_id(stage));
         status = store_end(store, status);
     }
     if (status == STORE_OK) snprintf(id, JOB_ID_SIZE, "%s", study_stage_id(stage));
