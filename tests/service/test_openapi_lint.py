@@ -40,6 +40,8 @@ def faults_of_schema(schema, place):
         yield f"{place} has members beside its $ref"
     if "array" in (schema.get("type") if isinstance(schema.get("type"), list) else [schema.get("type")]) and "items" not in schema:
         yield f"{place} is a list of nobody knows what"
+    if schema.get("type") == "object" and not {"properties", "additionalProperties", "allOf", "oneOf", "unevaluatedProperties"} & set(schema):
+        yield f"{place} is an object that generated clients take for an empty one"
     if not isinstance(schema.get("description", ""), str):
         yield f"{place} has a description that is no text"
     for name in set(schema.get("required", [])) - set(schema.get("properties", {})):
@@ -114,6 +116,7 @@ def test_the_document_has_no_faults():
 @pytest.mark.parametrize("fault, told", [
     ("type: number, description: s of wall clock, when it was submitted", "when it was submitted"),
     ("type: array, minItems: 1", "nobody knows what"),
+    ("type: object, description: whatever", "empty one"),
     ("$ref: '#/components/schemas/Label', description: also", "beside its $ref"),
     ("type: object, properties: {a: {typ: string}}", "typ"),
     ("type: object, required: [b], properties: {a: {}}", "requires b"),

@@ -46,5 +46,6 @@ void describe_angle_methods(json_t *properties)
 
 void describe_profile(json_t *properties, const char *name, const char *meaning)
 {
-    json_object_set_new(properties, name, json_pack("{s:s, s:s}", "type", "object", "description", meaning));
+    json_object_set_new(properties, name,
+                        json_pack("{s:s, s:b, s:s}", "type", "object", "additionalProperties", 1, "description", meaning));
 }
