@@ -13,18 +13,20 @@ export class ApiError extends Error {
   }
 }
 
-// Kept for this tab only: the token opens the daemon to whoever holds it.
-export const token = {
-  read: () => sessionStorage.getItem('token'),
-  keep: value => sessionStorage.setItem('token', value),
+// The token goes to the daemon once and is kept nowhere: a cookie that scripts can't read stands for it from then on.
+export const session = {
+  isAsked: () => sessionStorage.getItem('session') !== null, // whether this daemon wants a token
+  begin: async token => {
+    sessionStorage.setItem('session', 'asked');
+    await request(`${root}session`, { method: 'POST', body: JSON.stringify({ token }) });
+  },
 };
 
-// A header takes no other characters, and the daemon's token has none.
+// The daemon's tokens have no other characters.
 export const canBeToken = text => /^[\x21-\x7e]+$/.test(text);
 
-export async function request(path, { method = 'GET', accept = 'application/json' } = {}) {
+export async function request(path, { method = 'GET', accept = 'application/json', body } = {}) {
   const headers = { Accept: accept };
-  if (canBeToken(token.read() ?? '')) headers.Authorization = `Bearer ${token.read()}`;
   if (method !== 'GET') headers['Content-Type'] = 'application/json';
   const silence = new AbortController();
   let timer = 0, answer;
@@ -34,7 +36,7 @@ export async function request(path, { method = 'GET', accept = 'application/json
   };
   try {
     heard();
-    answer = await whole(await fetch(path, { method, headers, cache: 'no-store', signal: silence.signal }), heard);
+    answer = await whole(await fetch(path, { method, headers, body, cache: 'no-store', signal: silence.signal }), heard);
   } catch {
     throw new ApiError(0, silence.signal.aborted ? `no answer for ${SILENCE / 1000} s` : 'no connection');
   } finally {

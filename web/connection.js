@@ -1,7 +1,7 @@
 // What both pages show of their connection: live or not, what is wrong, and the question for a token. Asking to
 // confirm is here, too.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { ApiError, canBeToken, root, token } from './api.js';
+import { ApiError, canBeToken, root, session } from './api.js';
 
 export function showConnected() {
   byId('token').hidden = true;
@@ -14,7 +14,6 @@ export function showFailure(error, pause, refresh) {
   if (!(error instanceof ApiError)) console.error(error);
   replaceIfChanged(byId('connection'), 'away', () => h('span', { class: 'away' }, 'not live'));
   byId('token').hidden = error.status !== 401;
-  if (error.status === 401) showTokenProblem(token.read() ? 'The daemon does not take this token: it is not the content of its token file.' : '');
   const again = `Trying again in ${Math.round(pause / 1000)} s.`;
   if (error.status === 401) showTrouble('');
   else if (isOfAddress(error)) showTrouble(`There is nothing to show at this address: ${error.message}.`, null, root);
@@ -40,14 +39,20 @@ function showTokenProblem(text) {
 }
 
 export function takeToken(refresh) {
-  byId('token').addEventListener('submit', event => {
+  byId('token').addEventListener('submit', async event => {
     event.preventDefault();
     const value = byId('token-value').value.trim();
-    if (canBeToken(value)) {
-      token.keep(value);
-      refresh();
-    } else {
+    if (!canBeToken(value)) {
       showTokenProblem('A token has only letters, digits and signs of ASCII, without spaces; this is none.');
+      return;
+    }
+    try {
+      await session.begin(value);
+      showTokenProblem('');
+      byId('token-value').value = '';
+      refresh();
+    } catch (error) {
+      showTokenProblem(error.status === 401 ? 'The daemon does not take this token: its token file has no such one.' : `${error.message}.`);
     }
   });
 }

@@ -91,13 +91,13 @@ function showLinks(box, job) {
   const fields = job.links?.find(link => link.rel === 'fields');
   replaceIfChanged(box, job.status, () => [
     h('ul', { class: 'links' },
-      job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results', `${job.jobID}-results.json`)) : null,
+      job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results')) : null,
       job.studyID ? h('li', null, h('a', { href: `${root}web/studies.html#${job.studyID}` }, 'Study')) : null,
-      h('li', null, fileLink(`${path}/spec`, 'Spec', `${job.jobID}-spec.json`)),
-      h('li', null, fileLink(`${path}/log`, 'Log', `${job.jobID}-log.txt`)),
-      series ? h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)', `${job.jobID}-samples.json`)) : null,
-      series ? h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)', `${job.jobID}-samples.csv`)) : null,
-      fields ? h('li', null, fileLink(`${path}/fields.hdf`, 'Fields (HDF5)', `${job.jobID}-fields.hdf`)) : null),
+      h('li', null, fileLink(`${path}/spec`, 'Spec')),
+      h('li', null, fileLink(`${path}/log`, 'Log')),
+      series ? h('li', null, fileLink(`${path}/samples`, 'Samples (JSON)')) : null,
+      series ? h('li', null, fileLink(`${path}/samples?format=csv`, 'Samples (CSV)')) : null,
+      fields ? h('li', null, fileLink(`${path}/fields.hdf`, 'Fields (HDF5)')) : null),
     job.status === 'accepted' || !series ? null : snapshotList(path)]);
 }
 

@@ -1,7 +1,7 @@
 // The page: one list of jobs, newest first, never more of them than a page. It reads the view from the URL,
 // asks the daemon for that list again and again, and shows what changed.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { dismissJob, listJobs, root, token } from './api.js';
+import { dismissJob, listJobs, root, session } from './api.js';
 import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { answerInWords, count } from './format.js';
 import { createRow, nameOf } from './job_row.js';
@@ -150,7 +150,7 @@ function noMatch() {
 function firstJob() {
   const inputs = { drum: { diameter: 0.126, length: 0.0189, rotation_rate: 1.5708 },
     particles: [{ diameter: 0.00378 }], contact: { friction: 0.1 } };
-  const bearer = token.read() ? ' -H "Authorization: Bearer $(cat TOKEN_FILE)"' : '';
+  const bearer = session.isAsked() ? ' -H "Authorization: Bearer $(cat TOKEN_FILE)"' : '';
   return [h('h2', null, 'No jobs yet'),
     h('p', null, 'Two lines in a terminal submit the first one, a drum of 126 mm half full of glass beads, and watch it:'),
     h('pre', { tabindex: '0' }, h('code', null,

@@ -1,6 +1,6 @@
 // The page of studies: a list, newest first, or one study, the one that the address names after its #.
 import { byId, h, replaceIfChanged } from './dom.js';
-import { dismissStudy, json, root, studyPath, token } from './api.js';
+import { dismissStudy, json, root, studyPath, session } from './api.js';
 import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { clock, count, duration, secondsBetween } from './format.js';
 import { startPolling } from './polling.js';
@@ -83,7 +83,7 @@ function pageButton(text, to) {
 function firstStudy() {
   const study = { name: 'friction', base: { inputs: { drum: { diameter: 0.126, length: 0.0189, rotation_rate: 1.5708 },
     particles: [{ diameter: 0.00378 }] } }, vary: { '/inputs/contact/friction': [0.1, 0.2, 0.5] }, repeats: 2 };
-  const bearer = token.read() ? ' -H "Authorization: Bearer $(cat TOKEN_FILE)"' : '';
+  const bearer = session.isAsked() ? ' -H "Authorization: Bearer $(cat TOKEN_FILE)"' : '';
   return [h('h2', null, 'No studies yet'),
     h('p', null, 'A study is many tests from one document: lists of values in all combinations, or cases, times repeats with other seeds. This line submits six jobs:'),
     h('pre', { tabindex: '0' }, h('code', null, `curl${bearer} ${location.origin}/studies \\\n  --json '${JSON.stringify(study)}'`)),
@@ -132,9 +132,9 @@ function head(study) {
 function links(id) {
   const path = studyPath(id);
   return h('ul', { class: 'links' },
-    h('li', null, fileLink(`${path}/results.csv`, 'Results (CSV)', `${id}-results.csv`)),
-    h('li', null, fileLink(`${path}/results`, 'Results (JSON)', `${id}-results.json`)),
-    h('li', null, fileLink(`${path}/spec`, 'Study', `${id}-study.json`)),
+    h('li', null, fileLink(`${path}/results.csv`, 'Results (CSV)')),
+    h('li', null, fileLink(`${path}/results`, 'Results (JSON)')),
+    h('li', null, fileLink(`${path}/spec`, 'Study')),
     h('li', null, h('a', { href: `${root}?study=${encodeURIComponent(id)}` }, 'Its jobs')));
 }
 

@@ -10,6 +10,9 @@
 #include "text_buffer.h"
 #include "version.h"
 
+/* What a request may do. */
+typedef enum access_level { ACCESS_NONE, ACCESS_READ, ACCESS_WRITE } access_level;
+
 typedef struct api_service {
     job_store *store;
     int web_folder;                     /* descriptor of the page's folder; -1: none */
@@ -21,6 +24,9 @@ typedef struct api_service {
     void (*jobs_deleted)(void *daemon); /* their folders are to be removed */
     bool (*is_ready)(void *daemon, char *why_not, size_t size);
     void (*write_metrics)(void *daemon, text_buffer *out);
+    /* Fill the response. */
+    void (*begin_session)(void *daemon, const http_request *request, const char *token, http_response *response);
+    void (*end_session)(void *daemon, const http_request *request, http_response *response);
 } api_service;
 
 #endif

@@ -70,6 +70,24 @@ static void write_metrics(void *context, text_buffer *out)
     metrics_write(&all->server.metrics, &all->dispatcher, &pruned, out);
 }
 
+static void begin_session_of(void *context, const http_request *request, const char *token, http_response *response)
+{
+    parts *all = context;
+    http_guard_begin_session(&all->server.guard, request, token, response);
+}
+
+static void end_session_of(void *context, const http_request *request, http_response *response)
+{
+    parts *all = context;
+    http_guard_end_session(&all->server.guard, request, response);
+}
+
+static void read_tokens_again(void *context)
+{
+    parts *all = context;
+    access_read_again(&all->server.guard.access);
+}
+
 static void leave(void *context)
 {
     parts *all = context;
@@ -91,6 +109,7 @@ static bool arrange_signals(parts *all)
 {
     sigset_t ends;
     dispatcher_end_signals(&ends);
+    if (all->settings.token_file) sigaddset(&ends, SIGHUP); /* also under nohup: it ends nothing then */
     pthread_sigmask(SIG_BLOCK, &ends, NULL);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
@@ -148,6 +167,8 @@ static bool open_parts(parts *all)
                                   .jobs_changed = jobs_changed_by_request,
                                   .jobs_deleted = jobs_deleted,
                                   .is_ready = is_ready,
+                                  .begin_session = begin_session_of,
+                                  .end_session = end_session_of,
                                   .write_metrics = write_metrics };
     if (all->service.web_folder < 0) log_line("no page: the folder %s can't be opened", all->settings.web);
     const prune_rules rules = rules_of(&all->settings);
@@ -178,6 +199,7 @@ int main(int argc, char **argv)
         log_line("the daemon can't start; data folder %s", all.settings.data);
         return 1;
     }
+    if (all.settings.token_file) end_signals_on_hangup(read_tokens_again, &all);
     announce(&all);
     calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);

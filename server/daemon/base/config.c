@@ -233,6 +233,7 @@ static enum config_outcome read_all(config *settings, const struct command *comm
     settings->port = 8080;
     settings->threads = 1;
     settings->queue_limit = 10000;
+    settings->address_rate = 2000;
     settings->confine = true;
     settings->workers = cores < 1 ? 1 : cores > CONFIG_MOST_WORKERS ? CONFIG_MOST_WORKERS : (int)cores;
     find_parts(settings);

@@ -16,7 +16,8 @@ typedef struct config {
     const char *public_url; /* without / at the end; NULL: none */
     char public_host[256];  /* of it, without the port; "": none */
     int port, workers, threads, queue_limit;
-    bool confine; /* workers, to their folders */
+    int address_rate; /* requests a second of one address */
+    bool confine;     /* workers, to their folders */
     const char *worker, *web, *api_file;
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;

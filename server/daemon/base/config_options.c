@@ -64,7 +64,11 @@ const config_option config_options[] = {
     { "keep-days", "N", "delete jobs so long after their end, 1 to 100000 (never); pinned ones stay", WHOLE(keep_days, 1, 100000) },
     { "keep-bytes", "SIZE", "what the folders of jobs may take, as 500G (anything): the oldest snapshots go first,\nresults last",
       AMOUNT(keep_bytes, 1e6, 1e18) },
-    { "token-file", "FILE", "clients must send \"Authorization: Bearer\" with its text; mode 0600", TEXT(token_file) },
+    { "token-file", "FILE",
+      "clients must send \"Authorization: Bearer\" with a token of it, a line each: NAME read|write TOKEN;\nmode 0600; read again "
+      "on SIGHUP",
+      TEXT(token_file) },
+    { "address-rate", "N", "requests a second of one address, 1 to 1000000 (2000)", WHOLE(address_rate, 1, 1000000) },
     { "allow-host", "NAME", "accept this name in the Host header; may be given 8 times", .kind = OPTION_TAKEN, .may_repeat = true,
       .take = take_host_name },
     { "public-url", "URL", "what addresses begin with for clients, as https://host/prefix behind a proxy", .kind = OPTION_TAKEN,

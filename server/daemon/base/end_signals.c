@@ -10,6 +10,16 @@
 
 #include "log.h"
 
+/* Both are set once; take last. */
+static void *hangup_context;
+static void (*_Atomic hangup_take)(void *context);
+
+void end_signals_on_hangup(void (*take)(void *context), void *context)
+{
+    hangup_context = context;
+    hangup_take = take;
+}
+
 typedef struct watch {
     sigset_t ends;
     double seconds;
@@ -22,7 +32,11 @@ static void *run(void *context)
     const watch *w = context;
     const uint64_t one = 1;
     int number;
-    while (sigwait(&w->ends, &number) != 0) continue;
+    for (;;) {
+        if (sigwait(&w->ends, &number) != 0) continue;
+        if (number != SIGHUP || !hangup_take) break;
+        hangup_take(hangup_context);
+    }
     const ssize_t ignored = write(w->descriptor, &one, sizeof one);
     (void)ignored;
     struct timespec left = { .tv_sec = (time_t)w->seconds };

@@ -9,5 +9,7 @@
 /* Starts the thread. ends: blocked in all threads. When one of them comes, `descriptor` becomes readable, and the process is
  * ended after `seconds` unless it has ended by then. False: no memory, descriptor or thread for it. */
 bool end_signals_watch(const sigset_t *ends, double seconds, int *descriptor);
+/* From then on SIGHUP ends nothing, but has this called in that thread. */
+void end_signals_on_hangup(void (*take)(void *context), void *context);
 
 #endif

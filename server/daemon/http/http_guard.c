@@ -11,58 +11,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "http_accept.h"
 #include "log.h"
 
-/* --- the token and the address to listen on --- */
-
-/* The whole file, or as much of it as the buffer holds; -1: errno says why not. */
-static ssize_t read_file(const char *path, char *text, size_t size, mode_t *mode)
-{
-    const int file = open(path, O_RDONLY | O_CLOEXEC);
-    struct stat facts = { .st_mode = 0 };
-    ssize_t got = file < 0 || fstat(file, &facts) != 0 ? -1 : 1, length = 0;
-    while (got > 0 && (size_t)length < size) {
-        got = read(file, text + length, size - (size_t)length);
-        if (got > 0) length += got;
-    }
-    const int problem = errno;
-    if (file >= 0) close(file);
-    errno = problem;
-    *mode = facts.st_mode;
-    return got < 0 ? -1 : length;
-}
-
-/* A token is never taken in part: a client that sends all of it would be refused, and who knows a part let in. */
-static bool read_token(const char *path, char token[HTTP_TOKEN_SIZE])
-{
-    char text[HTTP_TOKEN_SIZE + 64]; /* and white space around it */
-    mode_t mode;
-    const ssize_t length = read_file(path, text, sizeof text, &mode);
-    if (length < 0) {
-        log_line("token file %s can't be read: %s", path, strerror(errno));
-        return false;
-    }
-    size_t first = 0, end = (size_t)length;
-    while (first < end && isspace((unsigned char)text[first])) first++;
-    while (end > first && isspace((unsigned char)text[end - 1])) end--;
-    size_t plain = first;
-    while (plain < end && isgraph((unsigned char)text[plain])) plain++;
-    const size_t characters = end - first;
-    if ((mode & 077) != 0) log_line("token file %s has mode %03o; must be 0600", path, (unsigned)mode & 0777U);
-    else if ((size_t)length == sizeof text)
-        log_line("token file %s holds %zu characters or more; must hold 16 to %d", path, sizeof text, HTTP_TOKEN_SIZE - 1);
-    else if (characters < 16 || characters >= HTTP_TOKEN_SIZE)
-        log_line("token file %s holds %zu characters; must hold 16 to %d", path, characters, HTTP_TOKEN_SIZE - 1);
-    else if (plain < end)
-        log_line("token file %s holds, at character %zu, one that a header can't hold; must hold ASCII without spaces", path,
-                 plain - first + 1);
-    else {
-        memcpy(token, text + first, characters);
-        token[characters] = '\0';
-        return true;
-    }
-    return false;
-}
+/* --- the address to listen on --- */
 
 static bool is_loopback(const char *host)
 {
@@ -75,9 +27,10 @@ static bool is_loopback(const char *host)
 
 bool http_guard_init(http_guard *guard, const config *settings)
 {
-    *guard = (http_guard){ .settings = settings };
-    if (settings->token_file) return read_token(settings->token_file, guard->token);
-    if (is_loopback(settings->host)) return true;
+    guard->settings = settings;
+    address_limits_init(&guard->limits, settings->address_rate);
+    if (!access_open(&guard->access, settings->token_file)) return false;
+    if (settings->token_file || is_loopback(settings->host)) return true;
     log_line("--host %s is reachable from outside; this needs --token-file", settings->host);
     return false;
 }
@@ -106,6 +59,7 @@ void http_headers_take(http_headers *headers, http_request *request, const char 
         { "If-None-Match", &request->if_none_match, NULL },
         { "Accept-Encoding", &request->accept_encoding, NULL },
         { "Idempotency-Key", &request->idempotency_key, NULL },
+        { "Cookie", &request->cookie, NULL },
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         if (strcasecmp(name, wanted[i].name) != 0) continue;
@@ -180,17 +134,6 @@ static bool is_json(const char *content_type)
            && (content_type[sizeof json - 1] == '\0' || strchr("; \t", content_type[sizeof json - 1]));
 }
 
-/* Looks at every byte whatever it finds, so that the time tells nothing about where they differ. */
-static bool token_matches(const char *token, const char *authorization)
-{
-    if (!authorization || strncasecmp(authorization, "Bearer ", 7) != 0) return false;
-    const char *given = authorization + 7;
-    const size_t length = strlen(token), given_length = strlen(given);
-    unsigned char difference = length != given_length;
-    for (size_t i = 0; i < length; i++) difference |= (unsigned char)(token[i] ^ (i < given_length ? given[i] : 0));
-    return difference == 0;
-}
-
 /* All methods but these may change something. */
 static bool only_reads(const char *method) { return strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0; }
 
@@ -214,16 +157,93 @@ static bool admits_body(const http_headers *headers, const http_request *request
     return true;
 }
 
-bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
+static bool refuse_for(http_response *response, double seconds, const char *title, const char *detail)
+{
+    response->retry_after = (int)seconds + 1;
+    return refuse(response, 429, title, detail);
+}
+
+/* Before the token is looked at: guesses are slow, and hold nothing meanwhile. What an address has sent as a token shows in no
+ * other way than that it may have to wait. */
+static bool token_may_be_tried(http_guard *guard, const http_request *request, http_response *response)
+{
+    const double seconds = request->address ? address_limits_try(&guard->limits, request->address) : 0.0;
+    return seconds <= 0.0
+           || refuse_for(response, seconds, "Too many wrong tokens",
+                         "many tokens from this address were none; no token is looked at for a while");
+}
+
+static void refuse_token(http_response *response)
+{
+    refuse(response, 401, "Token needed", "send Authorization: Bearer with a token of --token-file");
+    response->authenticate = "Bearer";
+}
+
+/* A page is for everybody, but the same address tells programs about the service. */
+static bool is_open(const http_request *request, const http_route *route)
+{
+    static const http_format formats[] = { { "json", "application/json" }, { "html", "text/html" } };
+    return route->open && (strcmp(route->pattern, "/") != 0 || http_format_choose(request, formats, 2) == 1);
+}
+
+static bool has_access(http_guard *guard, const http_request *request, const http_route *route, http_response *response)
+{
+    if (!guard->access.file || is_open(request, route)) return true;
+    access_level level = ACCESS_NONE;
+    if (!request->authorization) {
+        level = access_of_cookie(&guard->access, request->cookie);
+    } else if (!token_may_be_tried(guard, request, response)) {
+        return false;
+    } else if (strncasecmp(request->authorization, "Bearer ", 7) == 0) {
+        level = access_of_token(&guard->access, request->authorization + 7);
+        if (level == ACCESS_NONE && request->address) address_limits_note_failure(&guard->limits, request->address);
+    }
+    if (level == ACCESS_WRITE || (level == ACCESS_READ && only_reads(request->method))) return true;
+    if (level == ACCESS_NONE) refuse_token(response);
+    else refuse(response, 403, "The token may only read", "this needs a token with \"write\" in the token file");
+    return false;
+}
+
+void http_guard_begin_session(http_guard *guard, const http_request *request, const char *token, http_response *response)
+{
+    char id[ACCESS_SESSION_SIZE], name[ACCESS_NAME_SIZE] = "";
+    const char *url = guard->settings->public_url, *host = url ? strstr(url, "://") + 3 : "", *prefix = strchr(host, '/');
+    if (!guard->access.file) {
+        http_respond_json(response, 200, json_pack("{s:n, s:s}", "name", "access", "write"));
+        return;
+    }
+    if (!token_may_be_tried(guard, request, response)) return;
+    const access_level level = access_begin_session(&guard->access, token, id, name);
+    if (level == ACCESS_NONE) {
+        if (request->address) address_limits_note_failure(&guard->limits, request->address);
+        refuse_token(response);
+        return;
+    }
+    snprintf(response->set_cookie, sizeof response->set_cookie, ACCESS_COOKIE "=%s; Path=%s/; HttpOnly; SameSite=Strict%s", id,
+             prefix ? prefix : "", url && strncmp(url, "https:", 6) == 0 ? "; Secure" : "");
+    http_respond_json(response, 201, json_pack("{s:s, s:s}", "name", name, "access", level == ACCESS_WRITE ? "write" : "read"));
+}
+
+void http_guard_end_session(http_guard *guard, const http_request *request, http_response *response)
+{
+    access_end_session(&guard->access, request->cookie);
+    snprintf(response->set_cookie, sizeof response->set_cookie, ACCESS_COOKIE "=; Path=/; Max-Age=0; HttpOnly; SameSite=Strict");
+    http_respond_json(response, 200, json_pack("{s:n, s:s}", "name", "access", guard->access.file ? "none" : "write"));
+}
+
+bool http_guard_admits(http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
                        http_response *response, size_t *body_length)
 {
-    if (guard->token[0] && !route->open && !token_matches(guard->token, request->authorization)) {
-        refuse(response, 401, "Token needed", "send Authorization: Bearer with the token of --token-file");
-        response->authenticate = "Bearer";
-        return false;
-    }
+    if (!has_access(guard, request, route, response)) return false;
     if (!only_reads(request->method) && !origin_is_ours(guard->settings, request))
         return refuse(response, 403, "Foreign page",
                       "writes are taken from this service's own page or from programs, not from other pages");
     return admits_body(headers, request, route->bodiless, response, body_length);
+}
+
+bool http_guard_counts(http_guard *guard, const http_request *request, http_response *response)
+{
+    const double seconds = request->address ? address_limits_ask(&guard->limits, request->address) : 0.0;
+    return seconds <= 0.0
+           || refuse_for(response, seconds, "Too many requests", "this address asks faster than --address-rate allows");
 }

@@ -3,14 +3,17 @@
 #ifndef HTTP_GUARD_H
 #define HTTP_GUARD_H
 
+#include "access.h"
+#include "address_limits.h"
 #include "config.h"
 #include "routes.h"
 
-enum { HTTP_BODY_LIMIT = 1 << 20, HTTP_TOKEN_SIZE = 256 };
+enum { HTTP_BODY_LIMIT = 1 << 20 };
 
 typedef struct http_guard {
     const config *settings;
-    char token[HTTP_TOKEN_SIZE]; /* "": none is needed */
+    access_list access;
+    address_limits limits;
 } http_guard;
 
 /* What the headers add up to beyond those in http_request. */
@@ -24,8 +27,13 @@ typedef struct http_headers {
 bool http_guard_init(http_guard *guard, const config *settings);
 void http_headers_take(http_headers *headers, http_request *request, const char *name, const char *value);
 /* False: the response says why not. *body_length: to be expected. */
-bool http_guard_admits(const http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
+bool http_guard_admits(http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
                        http_response *response, size_t *body_length);
+/* Whether the address asks no faster than it may. */
+bool http_guard_counts(http_guard *guard, const http_request *request, http_response *response);
+/* What the service's functions of these names do. */
+void http_guard_begin_session(http_guard *guard, const http_request *request, const char *token, http_response *response);
+void http_guard_end_session(http_guard *guard, const http_request *request, http_response *response);
 /* The part that holds for requests to unknown addresses, too. */
 bool http_guard_knows_host(const http_guard *guard, const http_headers *headers, const http_request *request,
                            http_response *response);

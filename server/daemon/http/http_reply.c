@@ -34,6 +34,7 @@ static void add_headers(struct MHD_Response *reply, const http_response *respons
     add_header(reply, "Preference-Applied", response->preference_applied);
     add_header(reply, "WWW-Authenticate", response->authenticate);
     add_header(reply, "Retry-After", retry_after);
+    add_header(reply, "Set-Cookie", response->set_cookie);
     add_header(reply, "Content-Security-Policy", "default-src 'self'; frame-ancestors 'none'; base-uri 'none'; form-action 'self'");
     add_header(reply, "X-Content-Type-Options", "nosniff");
     add_header(reply, "Referrer-Policy", "no-referrer");

@@ -116,6 +116,7 @@ static void set_out(http_exchange *exchange, http_server *server, struct MHD_Con
     exchange->room = &server->room;
     exchange->connection = connection;
     exchange->watched = watched(connection);
+    exchange->request.address = exchange->watched ? exchange->watched->address : NULL;
     exchange->socket = exchange->watched ? exchange->watched->socket : -1;
     exchange->request.client = (client_watch){ waiting_room_has_left, exchange };
 }
@@ -140,7 +141,8 @@ static bool admit(http_exchange *exchange, const char *method)
         http_respond_problem(&exchange->response, 400, NULL, "Bad address", "%s", problem);
         return false;
     }
-    const http_guard *guard = &exchange->server->guard;
+    http_guard *guard = &exchange->server->guard;
+    if (!http_guard_counts(guard, request, &exchange->response)) return false;
     if (!http_guard_knows_host(guard, &exchange->headers, request, &exchange->response)) return false;
     route_set_base(service, request, &exchange->response);
     route_strip_prefix(service, request);

@@ -3,7 +3,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static const int codes[] = { 200, 201, 206, 304, 400, 401, 403, 404, 405, 408, 409, 411, 413, 415, 416, 421, 500, 503, 507 };
+static const int codes[] = { 200, 201, 206, 304, 400, 401, 403, 404, 405, 408, 409, 411, 413, 415, 416, 421, 429, 500, 503, 507 };
 static const double bounds[] = { 0.001, 0.005, 0.025, 0.1, 0.5, 2.5, 1e300 };
 _Static_assert(sizeof codes / sizeof *codes == METRICS_CODES - 1, "the last is for all other codes");
 _Static_assert(sizeof bounds / sizeof *bounds == METRICS_BUCKETS, "a bound for each bucket");

@@ -7,7 +7,7 @@
 #include "routes.h"
 #include "text_buffer.h"
 
-enum { METRICS_CODES = 20, METRICS_BUCKETS = 7 };
+enum { METRICS_CODES = 21, METRICS_BUCKETS = 7 };
 
 typedef struct http_metrics {
     /* [route_count] counts requests that reached no route; the last code counts all others */

@@ -1,0 +1,145 @@
+"""Who may: tokens by name, sessions of the page, guesses that get slow, and one address that can't take what others need."""
+import signal
+import socket
+import subprocess
+import time
+from concurrent.futures import ThreadPoolExecutor
+
+import pytest
+import requests
+import yaml
+from conftest import BUILD, FAKE_WORKER, ROOT, Daemon, run_daemon
+from test_daemon_clients import until
+from test_daemon_http import head
+
+READER, WRITER, LATER = "reads-only-0123456789", "writes-too-0123456789", "comes-later-0123456789"
+LINES = f"# who may\nanna read {READER}\n\n  ci-server\twrite {WRITER}\r\n"
+
+
+def write_tokens(folder, text):
+    file = folder / "tokens"
+    file.write_text(text)
+    file.chmod(0o600)
+    return file
+
+
+@pytest.fixture
+def guarded(tmp_path):
+    yield from run_daemon(tmp_path, worker=FAKE_WORKER, options=["--token-file", str(write_tokens(tmp_path, LINES))])
+
+
+def bearer(token):
+    return {"Authorization": f"Bearer {token}"}
+
+
+def test_a_token_does_what_its_line_says(guarded):
+    assert guarded.get("/jobs", headers=bearer(READER)).status_code == 200
+    refused = guarded.post(headers=bearer(READER))
+    assert refused.status_code == 403 and refused.json()["type"].endswith("/token-may-only-read")
+    answer = guarded.post(headers=bearer(WRITER))
+    assert answer.status_code == 201
+    job = f"{guarded.url}/jobs/{answer.json()['jobID']}"
+    assert requests.delete(job, headers=bearer(READER), timeout=30).status_code == 403
+    assert requests.delete(job, headers=bearer(WRITER), timeout=30).status_code == 200
+
+
+def test_every_address_but_the_page_needs_a_token(guarded):
+    """By the list of addresses that the OpenAPI document has."""
+    paths = yaml.safe_load((ROOT / "api/openapi.yaml").read_text())["paths"]
+    asked = 0
+    for path, operations in paths.items():
+        for method in operations:
+            if path in ("/web/{name}", "/session") or method == "parameters":
+                continue
+            target = path.replace("{", "").replace("}", "")
+            answer = requests.request(method, guarded.url + target, timeout=30)
+            assert answer.status_code == 401 and answer.headers["WWW-Authenticate"] == "Bearer", (method, path)
+            asked += 1
+    assert asked > 25
+    page = guarded.get("/", headers={"Accept": "text/html"})
+    assert page.status_code == 200 and "<html" in page.text
+    assert guarded.get("/web/style.css").status_code == 200
+    assert requests.get(f"{guarded.url}/", headers=bearer(READER), timeout=30).status_code == 200
+
+
+@pytest.mark.parametrize("text, says", [
+    (f"anna reed {READER} x\n", ["line 1 must be: name"]), (f"anna reed {READER}\n", ["line 1 says neither read nor write"]),
+    (f"#\nanna read {READER}\nanna write {WRITER}\n", ["line 3 has a name that is there already"]),
+    (f"a/b read {READER}\nb read short\n", ["line 1 has a name", "line 2 has a token that is not 16"]),
+    (f"a read {READER}\nb write {READER}\n", ["line 2 has a token that is there already"]), ("# nobody\n", ["has no token"]),
+    ("".join(f"n{k} read token-{k:020}\n" for k in range(33)), ["line 33 is one too many"])])
+def test_a_token_file_that_is_wrong_is_refused_with_all_lines(tmp_path, text, says):
+    command = [BUILD / "reposed", "serve", "--port", "0", "--data", tmp_path / "data", "--worker", FAKE_WORKER,
+               "--token-file", write_tokens(tmp_path, text)]
+    refused = subprocess.run(command, capture_output=True, text=True, timeout=60)
+    assert refused.returncode == 1
+    assert [words for words in says if words not in refused.stderr] == []
+    assert READER not in refused.stderr
+
+
+def test_tokens_are_read_again_on_sighup_and_a_wrong_file_leaves_them(guarded, tmp_path):
+    session = requests.Session()
+    assert session.post(f"{guarded.url}/session", json={"token": READER}, timeout=30).status_code == 201
+    other = requests.Session()
+    assert other.post(f"{guarded.url}/session", json={"token": WRITER}, timeout=30).status_code == 201
+    write_tokens(tmp_path, f"anna read {READER}\nberta write {LATER}\n")
+    guarded.process.send_signal(signal.SIGHUP)
+    until(lambda: guarded.get("/jobs", headers=bearer(LATER)).status_code == 200, 10)
+    assert guarded.get("/jobs", headers=bearer(WRITER)).status_code == 401
+    assert session.get(f"{guarded.url}/jobs", timeout=30).status_code == 200
+    assert other.get(f"{guarded.url}/jobs", timeout=30).status_code == 401  # its token is gone
+    write_tokens(tmp_path, "anna write\n")
+    guarded.process.send_signal(signal.SIGHUP)
+    until(lambda: "the tokens stay as they were" in guarded.log(), 10)
+    assert guarded.get("/jobs", headers=bearer(LATER)).status_code == 200
+    assert guarded.is_running()
+
+
+def test_a_session_is_a_cookie_that_scripts_and_other_sites_do_not_get(guarded):
+    page = requests.Session()
+    begun = page.post(f"{guarded.url}/session", json={"token": WRITER}, timeout=30)
+    assert begun.status_code == 201 and begun.json() == {"name": "ci-server", "access": "write"}
+    words = [word.strip() for word in begun.headers["Set-Cookie"].split(";")]
+    assert {"HttpOnly", "SameSite=Strict", "Path=/"} <= set(words) and WRITER not in begun.headers["Set-Cookie"]
+    assert page.get(f"{guarded.url}/jobs", timeout=30).status_code == 200
+    body = {"inputs": {"friction": 0.5}}
+    execution = f"{guarded.url}/processes/granule/execution"
+    assert page.post(execution, json=body, timeout=30).status_code == 201
+    assert page.post(execution, json=body, headers={"Origin": "http://evil.example"}, timeout=30).status_code == 403
+    kept = dict(page.cookies)
+    assert page.delete(f"{guarded.url}/session", timeout=30).status_code == 200
+    assert guarded.get("/jobs", cookies=kept).status_code == 401  # ended, and not only forgotten by the browser
+    for wrong in ({"token": 5}, {"tokens": WRITER}, {}, [WRITER]):
+        assert requests.post(f"{guarded.url}/session", json=wrong, timeout=30).status_code == 400
+
+
+def test_guesses_get_slow_for_one_address_alone(guarded):
+    """Twenty at once, then one a second, by whichever way they come."""
+    codes = [guarded.get("/jobs", headers=bearer(f"guess-{k:020}")).status_code for k in range(12)]
+    codes += [requests.post(f"{guarded.url}/session", json={"token": f"guess-{k}"}, timeout=30).status_code for k in range(14)]
+    assert codes[:20] == [401] * 20 and 429 in codes[20:]
+    late = guarded.get("/jobs", headers=bearer(WRITER))
+    if late.status_code == 429:  # not even a right one is looked at, or guesses would not be slow
+        assert int(late.headers["Retry-After"]) >= 1 and late.json()["type"].endswith("/too-many-wrong-tokens")
+    assert ask_from("127.0.0.9", guarded, "/jobs", f"Authorization: Bearer {READER}\r\n").startswith(b"HTTP/1.1 200")
+    until(lambda: guarded.get("/jobs", headers=bearer(WRITER)).status_code == 200, 20)
+
+
+def connect_from(address, daemon):
+    return socket.create_connection(("127.0.0.1", daemon.port), timeout=20, source_address=(address, 0))
+
+
+def ask_from(address, daemon, target, headers=""):
+    with connect_from(address, daemon) as connection:
+        connection.sendall(head(daemon, target=target).encode().replace(b"\r\n\r\n", b"\r\n" + headers.encode() + b"\r\n"))
+        return connection.recv(65536)
+
+
+def test_one_address_that_asks_too_fast_is_told_so_and_no_other(tmp_path):
+    for daemon in run_daemon(tmp_path, worker=FAKE_WORKER, options=["--address-rate", "5"]):
+        answers = [daemon.get("/healthz") for _ in range(30)]
+        codes = [answer.status_code for answer in answers]
+        assert codes[:10] == [200] * 10 and 429 in codes
+        assert all(int(answer.headers["Retry-After"]) >= 1 for answer in answers if answer.status_code == 429)
+        assert ask_from("127.0.0.9", daemon, "/healthz").startswith(b"HTTP/1.1 200")
+        until(lambda: daemon.get("/healthz").status_code == 200, 10)
