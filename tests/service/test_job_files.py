@@ -146,7 +146,7 @@ def test_the_archive_is_made_while_it_is_read(service):
     daemon, job, folder = service
     big = folder / "big.bin"
     with open(big, "wb") as file:
-        file.truncate(300 << 20)
+        file.truncate(100 << 20)
     resident = lambda: int(next(line for line in open(f"/proc/{daemon.process.pid}/status") if line.startswith("VmRSS")).split()[1])  # noqa: E731
     before, most, length = resident(), 0, 0
     with requests.get(f"{daemon.url}/jobs/{job}/files.tar", stream=True, timeout=60) as answer:
@@ -154,7 +154,7 @@ def test_the_archive_is_made_while_it_is_read(service):
             length += len(piece)
             most = max(most, resident())
     big.unlink()
-    assert length > 300 << 20 and most - before < 16 << 10  # kB
+    assert length > 100 << 20 and most - before < 16 << 10  # kB
     assert not list(daemon.data.rglob("*.tar"))
 
 
