@@ -32,8 +32,9 @@ typedef struct http_request {
     /* headers; NULL where there is none */
     const char *host, *origin, *accept, *content_type, *authorization, *prefer, *range, *if_range, *if_none_match, *accept_encoding,
         *idempotency_key;
-    const char *cookie;
-    const uint8_t *address; /* of the client, 16 bytes; NULL: not known */
+    const char *cookie, *asked_method; /* Access-Control-Request-Method */
+    const char *allowed_origin;        /* that of the page which asks, where it may read the answer; else NULL */
+    const uint8_t *address;            /* of the client, 16 bytes; NULL: not known */
     size_t parameter_count;
     http_parameter parameter[HTTP_PARAMETERS];
     char segment[HTTP_SEGMENTS][HTTP_SEGMENT_SIZE]; /* what the pattern's {…} stood for */
@@ -65,7 +66,8 @@ typedef struct http_response {
     char file_name[100];       /* under which a client may keep the body; "": none */
     bool is_attachment;        /* to be kept rather than shown */
     char location[HTTP_BASE_SIZE + 520], etag[80], content_range[80], allow[64], link[HTTP_LINK_SIZE], preference_applied[40];
-    char set_cookie[480], allow_origin[128];
+    char set_cookie[480];
+    bool is_preflight; /* tells a browser what pages of allowed_origin may ask */
     const char *cache_control, *authenticate, *accept_ranges;
     int retry_after;           /* s; 0: no such header */
     bool wants_lane;           /* nothing to say yet: it may take long; call the handler again with in_lane */

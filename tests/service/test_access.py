@@ -3,12 +3,11 @@ import signal
 import socket
 import subprocess
 import time
-from concurrent.futures import ThreadPoolExecutor
 
 import pytest
 import requests
 import yaml
-from conftest import BUILD, FAKE_WORKER, ROOT, Daemon, run_daemon
+from conftest import BUILD, FAKE_WORKER, ROOT, run_daemon
 from test_daemon_clients import until
 from test_daemon_http import head
 
@@ -143,3 +142,37 @@ def test_one_address_that_asks_too_fast_is_told_so_and_no_other(tmp_path):
         assert all(int(answer.headers["Retry-After"]) >= 1 for answer in answers if answer.status_code == 429)
         assert ask_from("127.0.0.9", daemon, "/healthz").startswith(b"HTTP/1.1 200")
         until(lambda: daemon.get("/healthz").status_code == 200, 10)
+
+
+def test_pages_of_an_allowed_origin_alone_may_use_the_service(tmp_path):
+    ours, evil = "https://lab.example:8443", "https://evil.example"
+    options = ["--token-file", str(write_tokens(tmp_path, LINES)), "--allow-origin", ours]
+    for daemon in run_daemon(tmp_path, worker=FAKE_WORKER, options=options):
+        asked = {"Access-Control-Request-Method": "POST", "Access-Control-Request-Headers": "authorization, content-type"}
+        execution = f"{daemon.url}/processes/granule/execution"
+        preflight = requests.options(execution, headers={"Origin": ours, **asked}, timeout=30)
+        assert preflight.status_code == 204 and preflight.headers["Access-Control-Allow-Origin"] == ours
+        assert "POST" in preflight.headers["Access-Control-Allow-Methods"]
+        assert {"Authorization", "Content-Type"} <= set(preflight.headers["Access-Control-Allow-Headers"].split(", "))
+        body = {"inputs": {"friction": 0.5}}
+        answer = requests.post(execution, json=body, headers={"Origin": ours, **bearer(WRITER)}, timeout=30)
+        assert answer.status_code == 201 and answer.headers["Access-Control-Allow-Origin"] == ours
+        assert "Origin" in answer.headers["Vary"] and "Access-Control-Allow-Credentials" not in answer.headers
+        for origin in (evil, ours + "0", ours.upper(), "null"):
+            refused = requests.options(execution, headers={"Origin": origin, **asked}, timeout=30)
+            assert refused.status_code == 405 and "Access-Control-Allow-Origin" not in refused.headers
+            assert requests.post(execution, json=body, headers={"Origin": origin, **bearer(WRITER)}, timeout=30).status_code == 403
+
+
+def test_three_hundred_waiters_of_one_address_stop_no_other(fake):
+    job = fake.submit(fake="slow", seconds="60")
+    waiters = [connect_from("127.0.0.1", fake) for _ in range(300)]
+    try:
+        for waiter in waiters:
+            waiter.sendall(head(fake, target=f"/jobs/{job}?wait=60").encode())
+        start = time.monotonic()
+        assert ask_from("127.0.0.9", fake, f"/jobs/{job}").startswith(b"HTTP/1.1 200")
+        assert time.monotonic() - start < 5
+    finally:
+        for waiter in waiters:
+            waiter.close()

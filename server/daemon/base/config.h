@@ -21,6 +21,8 @@ typedef struct config {
     const char *worker, *web, *api_file;
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;
+    const char *allowed_origin[CONFIG_HOSTS]; /* whose pages may use the service: scheme://host[:port] */
+    int allowed_origins;
     int keep_days;     /* after its end a job is deleted; 0: never */
     double keep_bytes; /* that the folders of jobs may take; 0: any number */
     bool repair;       /* what is found is to be mended */

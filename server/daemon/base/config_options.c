@@ -38,6 +38,15 @@ static bool take_host_name(config *settings, const char *value, char problem[OPT
     return true;
 }
 
+static bool take_origin(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    const char *host = strncmp(value, "https://", 8) == 0 ? value + 8 : strncmp(value, "http://", 7) == 0 ? value + 7 : "";
+    const bool good = *host && !strpbrk(host, "/ ,*?#@") && settings->allowed_origins < CONFIG_HOSTS;
+    snprintf(problem, OPTION_PROBLEM_SIZE, "one of %d at most, as https://host:port without a path", CONFIG_HOSTS);
+    if (good) settings->allowed_origin[settings->allowed_origins++] = value;
+    return good;
+}
+
 static bool take_confine(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
 {
     settings->confine = strcmp(value, "yes") == 0;
@@ -71,6 +80,8 @@ const config_option config_options[] = {
     { "address-rate", "N", "requests a second of one address, 1 to 1000000 (2000)", WHOLE(address_rate, 1, 1000000) },
     { "allow-host", "NAME", "accept this name in the Host header; may be given 8 times", .kind = OPTION_TAKEN, .may_repeat = true,
       .take = take_host_name },
+    { "allow-origin", "ORIGIN", "let pages of https://host:port use the service; may be given 8 times", .kind = OPTION_TAKEN,
+      .may_repeat = true, .take = take_origin },
     { "public-url", "URL", "what addresses begin with for clients, as https://host/prefix behind a proxy", .kind = OPTION_TAKEN,
       .take = take_public_url },
     { "port-file", "FILE", "write the port there once it is open", TEXT(port_file) },

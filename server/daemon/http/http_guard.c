@@ -60,6 +60,7 @@ void http_headers_take(http_headers *headers, http_request *request, const char 
         { "Accept-Encoding", &request->accept_encoding, NULL },
         { "Idempotency-Key", &request->idempotency_key, NULL },
         { "Cookie", &request->cookie, NULL },
+        { "Access-Control-Request-Method", &request->asked_method, NULL },
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         if (strcasecmp(name, wanted[i].name) != 0) continue;
@@ -118,7 +119,7 @@ bool http_guard_knows_host(const http_guard *guard, const http_headers *headers,
 
 static bool origin_is_ours(const config *settings, const http_request *request)
 {
-    if (!request->origin) return true;
+    if (!request->origin || request->allowed_origin) return true;
     const size_t length = strlen(request->origin);
     if (settings->public_url && strncasecmp(settings->public_url, request->origin, length) == 0
         && strchr("/", settings->public_url[length]))
@@ -239,6 +240,17 @@ bool http_guard_admits(http_guard *guard, const http_headers *headers, const htt
         return refuse(response, 403, "Foreign page",
                       "writes are taken from this service's own page or from programs, not from other pages");
     return admits_body(headers, request, route->bodiless, response, body_length);
+}
+
+bool http_guard_is_preflight(const http_guard *guard, http_request *request, http_response *response)
+{
+    const config *settings = guard->settings;
+    for (int i = 0; request->origin && i < settings->allowed_origins; i++)
+        if (strcmp(request->origin, settings->allowed_origin[i]) == 0) request->allowed_origin = settings->allowed_origin[i];
+    if (!request->allowed_origin || !request->asked_method || strcmp(request->method, "OPTIONS") != 0) return false;
+    response->status = 204;
+    response->is_preflight = true;
+    return true;
 }
 
 bool http_guard_counts(http_guard *guard, const http_request *request, http_response *response)

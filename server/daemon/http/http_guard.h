@@ -29,6 +29,8 @@ void http_headers_take(http_headers *headers, http_request *request, const char 
 /* False: the response says why not. *body_length: to be expected. */
 bool http_guard_admits(http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,
                        http_response *response, size_t *body_length);
+/* Notes whether a page of --allow-origin asks. True: it asks what it may ask, and the response says so. */
+bool http_guard_is_preflight(const http_guard *guard, http_request *request, http_response *response);
 /* Whether the address asks no faster than it may. */
 bool http_guard_counts(http_guard *guard, const http_request *request, http_response *response);
 /* What the service's functions of these names do. */

@@ -42,6 +42,20 @@ static void add_headers(struct MHD_Response *reply, const http_response *respons
     if (response->status >= 400) add_header(reply, "Connection", "close");
 }
 
+/* A page of another origin sends its token as any program does: cookies are not for it. */
+static void add_headers_for_pages(struct MHD_Response *reply, const char *origin, const http_response *response)
+{
+    add_header(reply, "Access-Control-Allow-Origin", origin);
+    add_header(reply, "Vary", "Origin");
+    add_header(reply, "Access-Control-Expose-Headers",
+               "Location, Link, ETag, Retry-After, Content-Disposition, Preference-Applied");
+    if (!response->is_preflight) return;
+    add_header(reply, "Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
+    add_header(reply, "Access-Control-Allow-Headers",
+               "Authorization, Content-Type, Prefer, Range, If-Range, If-None-Match, Idempotency-Key");
+    add_header(reply, "Access-Control-Max-Age", "600");
+}
+
 /* --- answers in pieces --- */
 
 typedef struct stream {
@@ -131,5 +145,6 @@ struct MHD_Response *http_reply_make(const http_request *request, http_response 
     }
     if (response->status == 304 || http_compress_is_text(response)) add_header(reply, "Vary", "Accept-Encoding");
     add_headers(reply, response);
+    if (request->allowed_origin) add_headers_for_pages(reply, request->allowed_origin, response);
     return reply;
 }

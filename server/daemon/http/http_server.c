@@ -144,6 +144,7 @@ static bool admit(http_exchange *exchange, const char *method)
     http_guard *guard = &exchange->server->guard;
     if (!http_guard_counts(guard, request, &exchange->response)) return false;
     if (!http_guard_knows_host(guard, &exchange->headers, request, &exchange->response)) return false;
+    if (http_guard_is_preflight(guard, request, &exchange->response)) return false;
     route_set_base(service, request, &exchange->response);
     route_strip_prefix(service, request);
     exchange->route = routes_match(route_table, route_count, request, &exchange->response);
