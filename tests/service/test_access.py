@@ -8,7 +8,7 @@ import pytest
 import requests
 import yaml
 from conftest import BUILD, FAKE_WORKER, ROOT, run_daemon
-from test_daemon_clients import until
+from test_daemon_clients import ENDLESS, ask_and_keep, until
 from test_daemon_http import head
 
 READER, WRITER, LATER = "reads-only-0123456789", "writes-too-0123456789", "comes-later-0123456789"
@@ -176,3 +176,12 @@ def test_three_hundred_waiters_of_one_address_stop_no_other(fake):
     finally:
         for waiter in waiters:
             waiter.close()
+
+
+def test_slow_queries_of_one_address_leave_a_place_for_another(fake):
+    clients = [ask_and_keep(fake, f"/query?sql={ENDLESS}") for _ in range(140)]
+    try:
+        assert ask_from("127.0.0.9", fake, "/query?sql=select+1").startswith(b"HTTP/1.1 200")
+    finally:
+        for client in clients:
+            client.close()

@@ -73,8 +73,9 @@ static enum MHD_Result send_response(http_exchange *exchange)
 static enum MHD_Result answer_slowly(http_exchange *exchange)
 {
     if (waiting_room_queue_slow(&exchange->server->room, exchange)) return MHD_YES;
-    http_respond_problem(&exchange->response, 503, NULL, "Too many requests that take long", "%d wait already; try again later",
-                         WAITING_ROOM_SLOW_LIMIT);
+    http_respond_problem(&exchange->response, 503, NULL, "Too many requests that take long",
+                         "%d wait already, or %d of this address; try again later", WAITING_ROOM_SLOW_LIMIT,
+                         WAITING_ROOM_SLOW_PER_ADDRESS);
     exchange->response.retry_after = 5;
     return send_response(exchange);
 }

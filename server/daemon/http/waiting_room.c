@@ -125,11 +125,19 @@ void waiting_room_jobs_changed(waiting_room *room)
 
 /* --- slow: a thread a lane --- */
 
+/* With the lock held. */
+static bool has_place_in_lane(const slow_lane *lane, const http_exchange *exchange)
+{
+    int same = 0;
+    for (const http_exchange *e = lane->first; e; e = e->next) same += connection_is_from(e->watched, exchange->watched);
+    return lane->count < WAITING_ROOM_SLOW_LIMIT && same < WAITING_ROOM_SLOW_PER_ADDRESS;
+}
+
 bool waiting_room_queue_slow(waiting_room *room, http_exchange *exchange)
 {
     slow_lane *lane = &room->lane[strcmp(exchange->route->method, "GET") != 0];
     pthread_mutex_lock(&room->lock);
-    const bool fits = lane->count < WAITING_ROOM_SLOW_LIMIT && !room->closing;
+    const bool fits = has_place_in_lane(lane, exchange) && !room->closing;
     if (fits) {
         http_exchange **end = &lane->first;
         while (*end) end = &(*end)->next;

@@ -15,6 +15,7 @@ enum {
     WAITING_ROOM_PARKED = 160, /* of all that may be connected: the others stay for who does not wait */
     WAITING_ROOM_PARKED_PER_ADDRESS = 96,
     WAITING_ROOM_SLOW_LIMIT = 128, /* of each lane */
+    WAITING_ROOM_SLOW_PER_ADDRESS = 96,
     WAITING_ROOM_LANES = 2
 };
 
