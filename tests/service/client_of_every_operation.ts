@@ -19,6 +19,8 @@ await say('GET /conformance', GET('/conformance'));
 await say('GET /api', GET('/api', { params: { query: { f: 'yaml', version: '3.1' } }, ...text }));
 await say('GET /problems', GET('/problems'));
 await say('GET /problems/{name}', GET('/problems/{name}', { params: { path: { name: 'not-found' } } }));
+await say('POST /session', POST('/session', { body: { token: 'of a daemon that asks for none' } }));
+await say('DELETE /session', DELETE('/session'));
 await say('GET /healthz', GET('/healthz'));
 await say('GET /readyz', GET('/readyz'));
 await say('GET /metrics', GET('/metrics', text));

@@ -268,6 +268,13 @@ def test_a_program_finds_its_way_through_a_proxy(behind):
 
 
 @pytest.mark.parametrize("behind", [True], indirect=True)
+def test_a_session_behind_a_proxy_ends_where_it_began(behind):
+    """The cookie that is taken back has the path of the one that was given: browsers tell cookies apart by it."""
+    answer = requests.delete(f"http://127.0.0.1:{behind.port}/session", timeout=30)
+    assert "Path=/lab/drums/;" in answer.headers["Set-Cookie"] and "Max-Age=0" in answer.headers["Set-Cookie"]
+
+
+@pytest.mark.parametrize("behind", [True], indirect=True)
 def test_the_page_works_behind_a_proxy(behind, browser):  # noqa: F811
     study = {"base": {"inputs": SPEC, "label": {"fake": "quick"}}, "vary": {"/inputs/contact/friction": [0.1, 0.3]}}
     made = requests.post(f"{behind.url}/studies", json=study, timeout=30).headers["Location"]

@@ -205,10 +205,17 @@ static bool has_access(http_guard *guard, const http_request *request, const htt
     return false;
 }
 
+/* Where the cookie counts: below the path of the public address. */
+static const char *prefix_of(const char *url)
+{
+    const char *path = url ? strchr(strstr(url, "://") + 3, '/') : NULL;
+    return path ? path : "";
+}
+
 void http_guard_begin_session(http_guard *guard, const http_request *request, const char *token, http_response *response)
 {
     char id[ACCESS_SESSION_SIZE], name[ACCESS_NAME_SIZE] = "";
-    const char *url = guard->settings->public_url, *host = url ? strstr(url, "://") + 3 : "", *prefix = strchr(host, '/');
+    const char *url = guard->settings->public_url;
     if (!guard->access.file) {
         http_respond_json(response, 200, json_pack("{s:n, s:s}", "name", "access", "write"));
         return;
@@ -221,14 +228,15 @@ void http_guard_begin_session(http_guard *guard, const http_request *request, co
         return;
     }
     snprintf(response->set_cookie, sizeof response->set_cookie, ACCESS_COOKIE "=%s; Path=%s/; HttpOnly; SameSite=Strict%s", id,
-             prefix ? prefix : "", url && strncmp(url, "https:", 6) == 0 ? "; Secure" : "");
+             prefix_of(url), url && strncmp(url, "https:", 6) == 0 ? "; Secure" : "");
     http_respond_json(response, 201, json_pack("{s:s, s:s}", "name", name, "access", level == ACCESS_WRITE ? "write" : "read"));
 }
 
 void http_guard_end_session(http_guard *guard, const http_request *request, http_response *response)
 {
     access_end_session(&guard->access, request->cookie);
-    snprintf(response->set_cookie, sizeof response->set_cookie, ACCESS_COOKIE "=; Path=/; Max-Age=0; HttpOnly; SameSite=Strict");
+    snprintf(response->set_cookie, sizeof response->set_cookie, ACCESS_COOKIE "=; Path=%s/; Max-Age=0; HttpOnly; SameSite=Strict",
+             prefix_of(guard->settings->public_url));
     http_respond_json(response, 200, json_pack("{s:n, s:s}", "name", "access", guard->access.file ? "none" : "write"));
 }
 
