@@ -44,6 +44,18 @@ bool find_job(api_service *service, const http_request *request, http_response *
 
 static bool has_ended(const job_record *job) { return job->status != JOB_ACCEPTED && job->status != JOB_RUNNING; }
 
+/* What is told of one job: of one that waits also where it stands. */
+static json_t *info_with_place(api_service *service, const job_record *job)
+{
+    json_t *info = status_info(job);
+    queue_place place;
+    if (job->status == JOB_ACCEPTED && store_find_place(service->store, job->id, &place) == STORE_OK) {
+        json_object_set_new(info, "position", json_integer(place.position));
+        json_object_set_new(info, "expected_start", json_string(place.expected_start));
+    }
+    return info;
+}
+
 /* ?wait=SECONDS answers as soon as the job has ended, at the latest when the time is up. */
 void show_job(api_service *service, const http_request *request, http_response *response)
 {
@@ -59,7 +71,7 @@ void show_job(api_service *service, const http_request *request, http_response *
         ;
     else if (!has_ended(&job) && request->may_wait && request->waited < (double)wait)
         response->wait = (double)wait - request->waited;
-    else http_respond_json(response, 200, status_info(&job));
+    else http_respond_json(response, 200, info_with_place(service, &job));
     job_record_clear(&job);
 }
 

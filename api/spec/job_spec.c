@@ -84,6 +84,16 @@ static void read_inputs(job_spec *spec, spec_memory *memory, const json_t *input
     json_decref(rest);
 }
 
+int read_priority(const json_t *priority, problem_list *problems)
+{
+    char seen[60];
+    const json_int_t value = json_integer_value(priority);
+    if (!priority || (json_is_integer(priority) && value >= -PRIORITY_MOST && value <= PRIORITY_MOST)) return (int)value;
+    json_value_text(priority, seen, sizeof seen);
+    problem_list_add(problems, "/priority", "is %s; must be a whole number in [%d, %d]", seen, -PRIORITY_MOST, PRIORITY_MOST);
+    return 0;
+}
+
 bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if_missing, job_spec *spec, problem_list *problems)
 {
     return job_spec_parse_with(NULL, process, request, seed_if_missing, spec, problems);
@@ -92,7 +102,7 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
 bool job_spec_parse_with(const start_source *beds, const char *process, const json_t *request, uint64_t seed_if_missing,
                          job_spec *spec, problem_list *problems)
 {
-    static const char *const known[] = { "process", "inputs", "label", "response", "outputs", "subscriber", NULL };
+    static const char *const known[] = { "process", "inputs", "label", "response", "outputs", "subscriber", "priority", NULL };
     memset(spec, 0, sizeof *spec);
     if (!json_is_object(request)) {
         problem_list_add(problems, "", "must be an object with \"inputs\" and, if wanted, \"label\"");
@@ -123,6 +133,7 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
     }
     spec->beds = NULL;
 
+    spec->priority = read_priority(json_object_get(request, "priority"), problems);
     spec->wanted = execute_request_wanted(request);
     spec->label = read_label(json_object_get(request, "label"), problems);
     if (problem_list_is_empty(problems) && !spec->label) problem_list_add(problems, "/label", "could not be kept: out of memory");

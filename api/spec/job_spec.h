@@ -110,12 +110,15 @@ typedef struct start_source {
     const client_watch *client; /* the client that waits for the answer; NULL: none that could go away */
 } start_source;
 
+enum { PRIORITY_MOST = 10 };
+
 typedef struct job_spec {
     const process_type *type;
     const char *process;      /* its name, "drum" */
     const start_source *beds; /* while it is parsed */
     int threads;              /* of the worker */
     json_t *label;            /* object of strings and numbers, owned; never NULL */
+    int priority;   /* in [-PRIORITY_MOST, PRIORITY_MOST]; no part of the canonical spec, since results do not depend on it */
     json_t *wanted; /* how its results are wanted (execute_request.h), owned; NULL: as ever. No part of the canonical spec */
 
     /* Of all that advance a scene: */
@@ -151,6 +154,8 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
  * the start is taken as valid, as it is in a spec that has been checked before. */
 bool job_spec_parse_with(const start_source *beds, const char *process, const json_t *request, uint64_t seed_if_missing,
                          job_spec *spec, problem_list *problems);
+/* Of a job or a study, a member of its request: those of a higher one run first. NULL: 0. */
+int read_priority(const json_t *priority, problem_list *problems);
 void job_spec_clear(job_spec *spec);
 
 /* {"process", "inputs", "label"}: canonical. New reference; NULL: no memory. */

@@ -73,6 +73,7 @@ json_t *status_info(const job_record *job)
         json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:i}", "jobID", job->id, "processID", job->process, "type", "process", "status",
                   job_status_name(job->status), "message", job->message, "progress", (int)job->progress, "attempt", job->attempt);
     if (!info) return NULL;
+    json_object_set_new(info, "priority", json_integer(job->priority));
     set_time(info, "created", job->created);
     set_time(info, "started", job->started);
     set_time(info, "finished", job->finished);

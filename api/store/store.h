@@ -36,7 +36,7 @@ typedef struct job_record {
     char id[JOB_ID_SIZE], process[16];
     char study[JOB_ID_SIZE]; /* id of the study it belongs to; "": none */
     job_status status;
-    int attempt;
+    int attempt, priority;
     double progress, eta_seconds; /* percent; s, NaN: unknown */
     char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], finished[JOB_TIME_SIZE], updated[JOB_TIME_SIZE];
     char message[1024];
@@ -79,6 +79,12 @@ store_status store_retry_job(job_store *store, const char *id);
 double store_free_bytes(const job_store *store);
 
 store_status store_find_job(job_store *store, const char *id, job_record *job);
+/* Of a job that waits: its place among those that do, from 1, and when it is expected to start. STORE_NOT_FOUND: it does not. */
+typedef struct queue_place {
+    int64_t position;
+    char expected_start[JOB_TIME_SIZE];
+} queue_place;
+store_status store_find_place(job_store *store, const char *id, queue_place *place);
 store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context); /* newest first */
 store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES]);
 /* Of those that the filter lets through, whatever their status: what it says of statuses does not count here, nor does the page. */
@@ -88,6 +94,7 @@ typedef struct study_record {
     int64_t number; /* order of submission */
     char id[JOB_ID_SIZE], process[16], name[STUDY_NAME_SIZE];
     int64_t cases, repeats, jobs, counts[JOB_STATUSES]; /* counts: of its jobs */
+    int priority;
     double progress, estimated_seconds;                 /* percent; s of one worker, when it was submitted */
     char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], updated[JOB_TIME_SIZE]; /* updated: the last change of a job's state */
 } study_record;

@@ -59,6 +59,7 @@ json_t *study_info(const study_record *study)
     for (int i = 0; i < JOB_STATUSES; i++)
         json_object_set_new(counts, job_status_name((job_status)i), json_integer(study->counts[i]));
     json_object_set_new(info, "counts", counts);
+    json_object_set_new(info, "priority", json_integer(study->priority));
     json_object_set_new(info, "created", json_string(study->created));
     if (study->started[0]) json_object_set_new(info, "started", json_string(study->started));
     if (status != JOB_ACCEPTED && status != JOB_RUNNING) json_object_set_new(info, "finished", json_string(study->updated));

@@ -35,7 +35,7 @@ static bool read_text(const json_t *value, const char *pointer, size_t size, pro
 
 static void read_head(study_spec *study, problem_list *problems)
 {
-    static const char *const known[] = { "name", "description", "base", "cases", "vary", "repeats", NULL };
+    static const char *const known[] = { "name", "description", "base", "cases", "vary", "repeats", "priority", NULL };
     refuse_unknown_members(study->document, "", known, problems);
     const json_t *process = json_object_get(json_object_get(study->document, "base"), "process");
     snprintf(study->process, sizeof study->process, "%s", json_is_string(process) ? json_string_value(process) : "drum");
@@ -43,6 +43,7 @@ static void read_head(study_spec *study, problem_list *problems)
     const json_t *name = json_object_get(study->document, "name");
     if (name && read_text(name, "/name", STUDY_NAME_SIZE, problems))
         snprintf(study->name, sizeof study->name, "%s", json_string_value(name));
+    study->priority = read_priority(json_object_get(study->document, "priority"), problems);
     const json_t *description = json_object_get(study->document, "description");
     if (description) read_text(description, "/description", LONGEST_DESCRIPTION + 1, problems);
 }
@@ -313,6 +314,7 @@ json_t *study_job_request(const study_spec *study, size_t index, int repeat)
     json_t *request = case_request(study, index);
     if (!request) return NULL;
     name_in_label(study, index, request);
+    json_object_set_new(request, "priority", json_integer(study->priority));
     json_t *inputs = own_member(request, "inputs");
     const json_t *seed = json_object_get(inputs, "seed");
     /* A seed beyond its range stays as it is, to be refused. */

@@ -24,7 +24,7 @@ typedef struct study_spec {
     json_t *document; /* as posted, with repeats and seed chosen: posting it again gives the same jobs; owned */
     json_t *columns;  /* (n) pointers below /inputs, as "contact/friction", in which cases differ; owned */
     size_t cases;
-    int repeats;
+    int repeats, priority;
     const start_source *beds; /* what its jobs may start from; NULL: starts are taken for good */
     bool has_seed;            /* the process begins at random, so that repeats differ */
 } study_spec;

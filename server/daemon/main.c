@@ -150,6 +150,7 @@ static bool open_parts(parts *all)
     all->store = store_open(&all->data, all->settings.queue_limit);
     if (!all->store) return false;
     executor_local_init(&all->executor, all->settings.worker, all->settings.confine);
+    all->store->places = all->settings.workers;
     if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.workers, all->settings.threads, all->signals))
         return false;
     all->dispatcher.recovered = store_recover(all->store) == STORE_OK;

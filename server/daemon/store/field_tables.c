@@ -251,7 +251,7 @@ static bool write_view(const field_columns *columns, text_buffer *sql)
     if (!list) return false;
     const size_t count = field_columns_select(columns, COLUMNS_IN_VIEW, list);
     text_buffer_print(sql, "CREATE VIEW run_summary AS SELECT job.id, job.process, job.label, job.status, job.created, job.started,"
-                           " job.finished, job.attempt");
+                           " job.finished, job.attempt, job.priority");
     write_columns(sql, list, count);
     text_buffer_print(sql, " FROM job JOIN run_result ON run_result.job=job.number");
     write_joins(sql, list, count, "run_result");

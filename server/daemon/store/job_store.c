@@ -20,6 +20,7 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
     if (!store) return NULL;
     store->data = data;
     store->queue_limit = queue_limit;
+    store->places = 1;
     pthread_mutex_init(&store->write_lock, NULL);
     pthread_mutex_init(&store->readers_lock, NULL);
     pthread_cond_init(&store->reader_is_free, NULL);
@@ -139,14 +140,16 @@ static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
+    const char *client = json_string_value(json_object_get(spec->label, "client"));
     return sql_run(
         writer, NULL,
         "INSERT INTO "
         "job(number,id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
-        "study,study_case,study_repeat) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted','waiting for a free worker',?5,?6,?7,?8,?8,"
-        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11))",
-        "ttttiddtiiii", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes, now,
-        place->study, place->index, place->repeat, number);
+        "study,study_case,study_repeat,priority,client,turn) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted','waiting for a free "
+        "worker',?5,?6,?7,?8,?8,"
+        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11),?13,?14,iif(?9=0,0,?12))",
+        "ttttiddtiiiiit", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes,
+        now, place->study, place->index, place->repeat, number, (int64_t)spec->priority, client ? client : "");
 }
 
 store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,
@@ -173,6 +176,28 @@ bool store_bring_start(job_store *store, const char *from, double snapshot, cons
     const bool is_snapshot = !isnan(snapshot);
     if (is_snapshot) snprintf(name, sizeof name, JOB_SNAPSHOT_FILE_FORMAT, (long long)snapshot);
     return job_folder_add_start(store->data, id, from, is_snapshot ? JOB_SNAPSHOT_FOLDER : NULL, name);
+}
+
+store_status store_last_turn(job_store *store, const char *client, int64_t priority, int64_t *turn)
+{
+    sqlite3_stmt *row =
+        sql_prepare(store->writer,
+                    "SELECT max(coalesce((SELECT turn FROM queue_turn WHERE priority=?2),0),"
+                    " coalesce((SELECT max(turn) FROM job WHERE status='accepted' AND client=?1 AND priority=?2),0))",
+                    "ti", client, priority);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    if (code == SQLITE_ROW) *turn = sqlite3_column_int64(row, 0);
+    return row ? sql_finish(row, code) : STORE_FAILED;
+}
+
+/* Its place among the others', when it has no place in a study. */
+static store_status take_turn(job_store *store, int64_t number, const job_spec *spec)
+{
+    const char *client = json_string_value(json_object_get(spec->label, "client"));
+    int64_t last = 0;
+    const store_status status = store_last_turn(store, client ? client : "", spec->priority, &last);
+    return status == STORE_OK ? sql_run(store->writer, NULL, "UPDATE job SET turn=? WHERE number=?", "ii", last + 1, number)
+                              : status;
 }
 
 /* The largest that a job ever had. */
@@ -218,6 +243,7 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
         if (status == STORE_OK) status = last_number(store, &last);
         if (status == STORE_OK)
             status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &of_no_study, &machine);
+        if (status == STORE_OK) status = take_turn(store, last + 1, spec);
         store_name_made(id);
         if (status == STORE_OK && spec->wanted) status = keep_wanted(store->writer, last + 1, spec->wanted);
         status = store_end(store, status);

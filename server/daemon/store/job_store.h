@@ -19,6 +19,7 @@ struct job_store {
     data_folder *data;
     field_tables fields;
     int64_t queue_limit;        /* jobs that may wait */
+    int places;                 /* jobs that may run at once */
     pthread_mutex_t write_lock; /* held for each transaction of the one writer */
     sqlite3 *writer;
     pthread_mutex_t readers_lock;
@@ -70,6 +71,8 @@ store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64
 char *study_parts_expand(sqlite3 *database, int64_t study, const char *text);
 /* machine_speed.c, between begin and end: what its steps have to do, for when it has run. */
 store_status store_insert_load(sqlite3 *writer, int64_t job, const job_estimate *estimate, const calibration *machine);
+/* Between begin and end: the last of this client's waiting jobs of that priority, or of those that have run. */
+store_status store_last_turn(job_store *store, const char *client, int64_t priority, int64_t *turn);
 /* Between begin and end: STORE_QUEUE_FULL where `jobs` more would be too many. */
 store_status store_check_queue(job_store *store, int64_t jobs);
 store_status store_read_text(job_store *store, const char *sql, const char *id, char **text);

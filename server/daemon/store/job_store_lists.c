@@ -11,11 +11,11 @@
 
 /* The first RECORD_COLUMNS fill the record; the rest, by their own names, are the summary: these two, and what the rows of
  * inputs and results say is listed. */
-#define RECORD_COLUMNS 15
+#define RECORD_COLUMNS 16
 #define RECORD                                                                                                                     \
     "SELECT job.number, job.id, job.process, job.status, job.attempt, job.progress, job.eta_seconds, job.created,"                 \
     " job.started, job.finished, job.updated, job.message, job.label, study.id,"                                                   \
-    " job.number IN (SELECT job FROM pinned), job.threads, job.estimated_seconds"
+    " job.number IN (SELECT job FROM pinned), job.priority, job.threads, job.estimated_seconds"
 enum { MORE_OF_JOB = 2, LONGEST_SELECT = 65536 };
 
 static void write_select(const field_tables *fields, text_buffer *sql)
@@ -71,6 +71,7 @@ static void fill_record(const field_tables *fields, sqlite3_stmt *row, job_recor
     copy_text(job->updated, sizeof job->updated, row, 10);
     copy_text(job->message, sizeof job->message, row, 11);
     copy_text(job->study, sizeof job->study, row, 13);
+    job->priority = sqlite3_column_int(row, 15);
     job->is_pinned = sqlite3_column_int(row, 14) != 0;
     job->label = json_loads((const char *)sqlite3_column_text(row, 12), 0, NULL);
     job->summary = summary_of(fields, row);
@@ -94,6 +95,38 @@ store_status store_find_job(job_store *store, const char *id, job_record *job)
     }
     store_return_reader(store, reader);
     return status;
+}
+
+/* One walk over the jobs before it, in their index alone. */
+static const char place_sql[] =
+    "WITH before(jobs, seconds) AS ("
+    " SELECT count(*), total(estimated_seconds) FROM job INDEXED BY job_waiting_turn WHERE status='accepted' AND priority>?1"
+    " UNION ALL SELECT count(*), total(estimated_seconds) FROM job INDEXED BY job_waiting_turn"
+    " WHERE status='accepted' AND priority=?1 AND (turn,number)<(?2,?3)"
+    " UNION ALL SELECT 0, total(coalesce(eta_seconds,estimated_seconds*(1-progress/100))) FROM job WHERE status='running')"
+    "SELECT sum(jobs)+1,"
+    " strftime('%Y-%m-%dT%H:%M:%fZ','now',format('+%.3f seconds',min(1e9,total(seconds)/?4))) FROM before";
+
+store_status store_find_place(job_store *store, const char *id, queue_place *place)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *row = sql_prepare(reader, "SELECT priority, turn, number FROM job WHERE id=? AND status='accepted'", "t", id);
+    int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    const bool waits = code == SQLITE_ROW;
+    int64_t key[3] = { 0 };
+    for (int k = 0; waits && k < 3; k++) key[k] = sqlite3_column_int64(row, k);
+    store_status status = row ? sql_finish(row, code) : STORE_FAILED;
+    if (waits && status == STORE_OK) {
+        row = sql_prepare(reader, place_sql, "iiii", key[0], key[1], key[2], (int64_t)store->places);
+        code = row ? sqlite3_step(row) : SQLITE_ERROR;
+        if (code == SQLITE_ROW) {
+            place->position = sqlite3_column_int64(row, 0);
+            copy_text(place->expected_start, sizeof place->expected_start, row, 1);
+        }
+        status = row ? sql_finish(row, code) : STORE_FAILED;
+    }
+    store_return_reader(store, reader);
+    return status == STORE_OK && !waits ? STORE_NOT_FOUND : status;
 }
 
 /* --- lists --- */

@@ -66,11 +66,18 @@ store_status store_claim_job(job_store *store, bool by_setbacks, int free_thread
     const double unix = unix_seconds();
     store_status status = store_begin(store);
     if (status != STORE_OK) return status;
-    sqlite3_stmt *statement = sql_prepare(store->writer,
-                                          by_setbacks ? CLAIM(NEXT_JOB("job INDEXED BY job_waiting", "setbacks, number"))
-                                                      : CLAIM(NEXT_JOB("job", "number")),
-                                          "tdiid", now, unix, (int64_t)all_threads, (int64_t)free_threads, unix + LONGEST_DELAY);
-    status = store_end(store, statement ? read_claim(statement, claim) : STORE_FAILED);
+    sqlite3_stmt *statement =
+        sql_prepare(store->writer,
+                    by_setbacks ? CLAIM(NEXT_JOB("job INDEXED BY job_waiting", "setbacks, number"))
+                                : CLAIM(NEXT_JOB("job INDEXED BY job_waiting_turn", "priority DESC, turn, number")),
+                    "tdiid", now, unix, (int64_t)all_threads, (int64_t)free_threads, unix + LONGEST_DELAY);
+    status = statement ? read_claim(statement, claim) : STORE_FAILED;
+    if (status == STORE_OK)
+        status = sql_run(store->writer, NULL,
+                         "INSERT INTO queue_turn SELECT priority, turn FROM job WHERE number=?"
+                         " ON CONFLICT DO UPDATE SET turn=max(turn,excluded.turn)",
+                         "i", claim->number);
+    status = store_end(store, status);
     if (status != STORE_OK) {
         free(claim->spec);
         claim->spec = NULL;

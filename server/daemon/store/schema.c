@@ -159,6 +159,19 @@ static const char request_keys[] = "CREATE TABLE request_key("
                                    "  status INTEGER, location TEXT, body TEXT) STRICT;"
                                    "CREATE INDEX request_key_age ON request_key(since);";
 
+/* Jobs run by priority. Among those of one priority clients, who name themselves in the label, take turns: each job has a turn
+ * behind the client's others that wait and behind those that have run (queue_turn). What waits shorter than two seconds has an
+ * index of its own. */
+static const char turns_of_clients[] =
+    "ALTER TABLE job ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;"
+    "ALTER TABLE job ADD COLUMN client TEXT NOT NULL DEFAULT '';"
+    "ALTER TABLE job ADD COLUMN turn INTEGER NOT NULL DEFAULT 0;"
+    "ALTER TABLE study ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;"
+    "UPDATE job SET turn=number WHERE status='accepted';"
+    "CREATE TABLE queue_turn(priority INTEGER PRIMARY KEY, turn INTEGER NOT NULL) STRICT;"
+    "CREATE INDEX job_waiting_turn ON job(priority DESC, turn, number, estimated_seconds) WHERE status='accepted';"
+    "CREATE INDEX job_waiting_client ON job(client, priority, turn) WHERE status='accepted';";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -187,5 +200,6 @@ const schema_migration schema_migrations[] = {
     { { documents_of_studies } },
     { { pinned_jobs } },
     { { request_keys } },
+    { { turns_of_clients } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

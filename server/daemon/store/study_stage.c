@@ -205,7 +205,8 @@ void study_stage_discard_starts(study_stage *stage)
 
 /* --- copying --- */
 
-/* How a column's value comes to be: numbers of jobs go on from the last job (?1), the study is ?2, times are now (?3). */
+/* How a column's value comes to be: numbers of jobs go on from the last job (?1) and turns from the last
+ * turn (?4), the study is ?2, times are now (?3). */
 static void add_column(text_buffer *sources, text_buffer *targets, const char *table, const char *name)
 {
     const char *comma = sources->length ? "," : "";
@@ -213,6 +214,7 @@ static void add_column(text_buffer *sources, text_buffer *targets, const char *t
     text_buffer_print(targets, "%s\"%s\"", comma, name);
     if (strcmp(name, "study") == 0) text_buffer_print(sources, "%s?2", comma);
     else if (of_job && (strcmp(name, "created") == 0 || strcmp(name, "updated") == 0)) text_buffer_print(sources, "%s?3", comma);
+    else if (of_job && strcmp(name, "turn") == 0) text_buffer_print(sources, "%s\"turn\"+?4", comma);
     else if (strcmp(name, of_job ? "number" : "job") == 0) text_buffer_print(sources, "%s\"%s\"+?1", comma, name);
     else text_buffer_print(sources, "%s\"%s\"", comma, name);
 }
@@ -255,7 +257,7 @@ static store_status copy_rows(sqlite3_stmt *from, sqlite3_stmt *to, int columns)
 
 /* What the copied rows are given. */
 typedef struct copied_rows {
-    int64_t last_job, study;
+    int64_t last_job, last_turn, study;
     char now[JOB_TIME_SIZE];
 } copied_rows;
 
@@ -274,6 +276,7 @@ static store_status copy_table(study_stage *stage, const char *table, void *cont
             sqlite3_bind_int64(from, 1, rows->last_job);
             sqlite3_bind_int64(from, 2, rows->study);
             sqlite3_bind_text(from, 3, rows->now, -1, SQLITE_STATIC);
+            sqlite3_bind_int64(from, 4, rows->last_turn);
             status = copy_rows(from, to, columns);
         }
         sqlite3_finalize(from);
@@ -281,6 +284,18 @@ static store_status copy_table(study_stage *stage, const char *table, void *cont
     }
     text_buffer_clear(&select);
     text_buffer_clear(&insert);
+    return status;
+}
+
+/* Of the client of its first job, who as a rule is that of all. */
+static store_status read_last_turn(study_stage *stage, int64_t *turn)
+{
+    sqlite3_stmt *row = sql_prepare(stage->database, "SELECT client, priority FROM job ORDER BY number LIMIT 1", "");
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    const store_status status = code == SQLITE_ROW ? store_last_turn(stage->store, (const char *)sqlite3_column_text(row, 0),
+                                                                     sqlite3_column_int64(row, 1), turn)
+                                                   : STORE_FAILED;
+    sqlite3_finalize(row);
     return status;
 }
 
@@ -292,5 +307,6 @@ store_status study_stage_copy(study_stage *stage, int64_t study)
         sql_prepare(stage->store->writer, "SELECT max(number,coalesce((SELECT max(number) FROM job),0)) FROM last_deleted", "");
     rows.last_job = row && sqlite3_step(row) == SQLITE_ROW ? sqlite3_column_int64(row, 0) : -1;
     sqlite3_finalize(row);
-    return rows.last_job < 0 ? STORE_FAILED : visit_tables(stage, copy_table, &rows);
+    return rows.last_job < 0 || read_last_turn(stage, &rows.last_turn) != STORE_OK ? STORE_FAILED
+                                                                                   : visit_tables(stage, copy_table, &rows);
 }

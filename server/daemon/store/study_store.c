@@ -21,10 +21,10 @@ static store_status insert_study(job_store *store, const study_spec *study, cons
     store_status status = document ? STORE_OK : STORE_FAILED;
     if (status == STORE_OK)
         status = sql_run(store->writer, NULL,
-                         "INSERT INTO study(id,process,name,cases,repeats,jobs,estimated_seconds,created,updated) "
-                         "VALUES(?1,?2,?3,?4,?5,?4*?5,?6,?7,?7)",
-                         "tttiidt", id, study->process, study->name, (int64_t)study->cases, (int64_t)study->repeats,
-                         estimate->wall_seconds, now);
+                         "INSERT INTO study(id,process,name,cases,repeats,jobs,estimated_seconds,created,updated,priority) "
+                         "VALUES(?1,?2,?3,?4,?5,?4*?5,?6,?7,?7,?8)",
+                         "tttiidti", id, study->process, study->name, (int64_t)study->cases, (int64_t)study->repeats,
+                         estimate->wall_seconds, now, (int64_t)study->priority);
     *number = sqlite3_last_insert_rowid(store->writer);
     if (status == STORE_OK)
         status = sql_run(store->writer, NULL, "INSERT INTO study_document VALUES(?,?)", "it", *number, document);
@@ -83,7 +83,7 @@ store_status store_dismiss_study(job_store *store, const char *id)
 #define SELECT_STUDIES                                                                                                             \
     "SELECT number, id, process, name, cases, repeats, jobs, estimated_seconds, created, started, updated,"                        \
     " accepted, running, successful, failed, dismissed,"                                                                           \
-    " (SELECT coalesce(sum(progress),0) FROM job WHERE status='running' AND +job.study=study.number) FROM study"
+    " (SELECT coalesce(sum(progress),0) FROM job WHERE status='running' AND +job.study=study.number), priority FROM study"
 
 static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
 {
@@ -96,7 +96,8 @@ static void fill_record(sqlite3_stmt *row, study_record *study)
                              .cases = sqlite3_column_int64(row, 4),
                              .repeats = sqlite3_column_int64(row, 5),
                              .jobs = sqlite3_column_int64(row, 6),
-                             .estimated_seconds = sqlite3_column_double(row, 7) };
+                             .estimated_seconds = sqlite3_column_double(row, 7),
+                             .priority = sqlite3_column_int(row, 17) };
     copy_text(study->id, sizeof study->id, row, 1);
     copy_text(study->process, sizeof study->process, row, 2);
     copy_text(study->name, sizeof study->name, row, 3);
