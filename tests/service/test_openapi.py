@@ -206,6 +206,9 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/studies", older, 200)
     call("/studies/{id}", study, 200, "DELETE")
     call("/studies/{id}", study, 404)
+    call("/session", f"{url}/session", 200, "POST", json={"token": "none is asked for"})
+    call("/session", f"{url}/session", 400, "POST", json={})
+    call("/session", f"{url}/session", 200, "DELETE")
 
     assert called == set(contract.operations)
     addresses = {re.sub(r"{\w+}", "", path) for _, path in contract.operations}
