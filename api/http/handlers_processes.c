@@ -119,9 +119,14 @@ static bool takes_long(const json_t *document)
     return left == 0 || json_is_object(start); /* whose bed may have been made by a long specification */
 }
 
-static bool fits_disk(api_service *service, const job_spec *spec, problem_list *problems)
+/* The disk, and what one POST may ask for. */
+static bool fits_service(api_service *service, const job_spec *spec, problem_list *problems)
 {
-    const job_estimate estimate = job_spec_estimate(spec, NULL);
+    calibration machine;
+    store_read_calibration(service->store, &machine);
+    const job_estimate estimate = job_spec_estimate(spec, &machine);
+    job_check_limits(&service->limits, "/inputs", estimate.wall_seconds, estimate.particles, estimate.snapshot_bytes, spec->threads,
+                     problems);
     job_check_disk(job_estimate_disk_bytes(&estimate), store_free_bytes(service->store), "/inputs/snapshots/interval", problems);
     return problem_list_is_empty(problems);
 }
@@ -147,7 +152,7 @@ static bool read_spec(api_service *service, const process_type *type, const http
         start_source beds = store_beds(service->store);
         beds.client = &request->client;
         good = job_spec_parse_with(&beds, type->name, document, choose_seed(), spec, &problems);
-        if (good && !fits_disk(service, spec, &problems)) {
+        if (good && !fits_service(service, spec, &problems)) {
             job_spec_clear(spec);
             good = false;
         }

@@ -1,4 +1,5 @@
 /* Studies: posting one, the list, one, its results and its document, cancelling it. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -67,8 +68,11 @@ static void check_and_add(api_service *service, const http_request *request, htt
     }
     study_taker taker = store_stage_taker(stage);
     taker.client = &request->client;
-    if (study_check(study, &machine, &taker, &estimate, problems, &warnings))
+    taker.limits = &service->limits;
+    if (study_check(study, &machine, &taker, &estimate, problems, &warnings)) {
+        job_check_limits(&service->limits, "/base/inputs", estimate.wall_seconds, NAN, estimate.snapshot_bytes, NAN, problems);
         job_check_disk(estimate.disk_bytes, store_free_bytes(service->store), "/base/inputs/snapshots/interval", problems);
+    }
     if (store_stage_status(stage) == STORE_OK && problem_list_is_empty(problems))
         add_study(service, response, stage, study, &estimate, &warnings);
     else if (problem_list_is_empty(problems) && store_stage_status(stage) == STORE_OK)

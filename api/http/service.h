@@ -19,6 +19,7 @@ typedef struct api_service {
     const char *api_file;               /* the OpenAPI document, YAML */
     const char *public_url;             /* what addresses begin with, without / at the end; NULL: with the host that was asked */
     int default_threads;                /* of a job that does not ask */
+    post_limits limits;                 /* what one POST may ask for */
     void *daemon;                       /* first argument of the functions below */
     void (*jobs_changed)(void *daemon); /* a job was added, dismissed or put into the queue again */
     void (*jobs_deleted)(void *daemon); /* their folders are to be removed */

@@ -1,7 +1,9 @@
 /* What a job will cost. Each process has its own way of telling. */
 #include <math.h>
+#include <stdio.h>
 
 #include "process_type.h"
+#include "spec_text.h"
 
 job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine) { return spec->type->estimate(spec, machine); }
 
@@ -29,6 +31,34 @@ void job_check_disk(double bytes, double free_bytes, const char *pointer, proble
             "makes about %.3g GB of snapshots and checkpoints; must be less than the %.3g GB that are free on the data "
             "folder's disk",
             1e-9 * bytes, 1e-9 * free_bytes);
+}
+
+static void check_limit(double value, double limit, const char *at, const char *place, const char *format, const char *option,
+                        problem_list *problems)
+{
+    char pointer[120], said[160];
+    if (!(limit > 0.0) || !(value > limit)) return;
+    snprintf(pointer, sizeof pointer, "%.60s%s", at, place);
+    snprintf(said, sizeof said, format, value, limit);
+    problem_list_add(problems, pointer, "%s, the service's --%s", said, option);
+}
+
+void job_check_limits(const post_limits *limits, const char *at, double wall_seconds, double particles, double snapshot_bytes,
+                      double threads, problem_list *problems)
+{
+    char words[TIME_IN_WORDS_SIZE], most[TIME_IN_WORDS_SIZE];
+    if (limits->estimate_seconds > 0.0 && wall_seconds > limits->estimate_seconds) {
+        time_in_words(wall_seconds, words);
+        time_in_words(limits->estimate_seconds, most);
+        problem_list_add(problems, at,
+                         "take about %s (%.6g s) on this machine; must take at most %s (%.6g s), the service's "
+                         "--max-estimate-seconds",
+                         words, wall_seconds, most, limits->estimate_seconds);
+    }
+    check_limit(particles, limits->particles, at, "/particles", "are %.0f; must be at most %.0f", "max-particles", problems);
+    check_limit(snapshot_bytes, limits->snapshot_bytes, at, "/snapshots/interval",
+                "makes about %.4g bytes of snapshots; must make at most %.4g", "max-snapshot-bytes", problems);
+    check_limit(threads, limits->threads, at, "/threads", "is %.0f; must be at most %.0f", "max-threads", problems);
 }
 
 json_t *job_estimate_to_json(const job_estimate *estimate)

@@ -172,6 +172,13 @@ double job_estimate_disk_bytes(const job_estimate *estimate);
 /* Adds a problem at the pointer, that of the interval between snapshots, where files of so many bytes do not fit into what is
  * free of the data folder's disk (NaN: not known). */
 void job_check_disk(double bytes, double free_bytes, const char *pointer, problem_list *problems);
+/* What one POST may ask for; 0: anything. Of a study the seconds and the bytes are those of all its jobs together. */
+typedef struct post_limits {
+    double estimate_seconds, particles, snapshot_bytes, threads;
+} post_limits;
+/* Adds a problem for each limit that the numbers are beyond (NaN: there is no such number). at: where the inputs are, "/inputs". */
+void job_check_limits(const post_limits *limits, const char *at, double wall_seconds, double particles, double snapshot_bytes,
+                      double threads, problem_list *problems);
 /* A checkpoint of a scene with so many spheres, and frames that take so many bytes. */
 double scene_checkpoint_bytes(double spheres, double frame_bytes);
 json_t *job_estimate_to_json(const job_estimate *estimate);

@@ -3,6 +3,7 @@
  * A job's problem has a pointer into the job's request. It is the case's own where the case says something at that
  * place; it is the base's where the base alone has the very same problem (told once, not for each case); otherwise
  * base and case don't go together, and the case is named. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -138,6 +139,17 @@ static void give_repeats(checking *check, job_spec *spec, size_t index)
     }
 }
 
+/* What the jobs together may take is known at the end. */
+static void check_limits(checking *check, size_t index, const job_spec *spec)
+{
+    problem_list found;
+    if (!check->taker || !check->taker->limits || !problem_list_init(&found)) return;
+    const job_estimate one = job_spec_estimate(spec, check->machine);
+    job_check_limits(check->taker->limits, "/inputs", NAN, one.particles, NAN, spec->threads, &found);
+    tell_all(check->study, index, &found, &check->wrong.of_base, check->wrong.all);
+    problem_list_clear(&found);
+}
+
 /* The last repeat stands for all: they differ in the seed alone, and its seed is the largest. */
 static void check_case(checking *check, size_t index)
 {
@@ -155,6 +167,7 @@ static void check_case(checking *check, size_t index)
     if (job_spec_parse_with(&check->source, NULL, request, 0, &spec, &found)) {
         add_estimate(study, &spec, check->machine, check->estimate);
         add_warnings(study, index, &spec, check->machine, &check->unusual);
+        check_limits(check, index, &spec);
         if (problem_list_is_empty(check->wrong.all)) give_repeats(check, &spec, index);
         job_spec_clear(&spec);
     } else {

@@ -59,6 +59,7 @@ typedef struct study_estimate {
 /* Takes the jobs as they are read, each once: of each case its repeats. They count only when study_check says true. When the
  * client has left, nobody wants them any more and the check ends. */
 typedef struct study_taker {
+    const post_limits *limits; /* of each job alone: particles and threads; NULL: none */
     const client_watch *client;
     bool (*take)(void *context, const job_spec *spec, size_t index, int repeat); /* false: it can't; the check ends */
     void *context;

@@ -163,7 +163,13 @@ static bool open_parts(parts *all)
                                   .web_folder = open(all->settings.web, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
                                   .api_file = all->settings.api_file,
                                   .public_url = all->settings.public_url,
-                                  .default_threads = all->settings.threads,
+                                  .default_threads = all->settings.max_threads && all->settings.max_threads < all->settings.threads
+                                                         ? all->settings.max_threads
+                                                         : all->settings.threads,
+                                  .limits = { .estimate_seconds = all->settings.max_estimate_seconds,
+                                              .particles = all->settings.max_particles,
+                                              .snapshot_bytes = all->settings.max_snapshot_bytes,
+                                              .threads = all->settings.max_threads },
                                   .daemon = all,
                                   .jobs_changed = jobs_changed_by_request,
                                   .jobs_deleted = jobs_deleted,
@@ -177,6 +183,17 @@ static bool open_parts(parts *all)
     return http_server_open(&all->server, &all->settings, &all->service) && http_server_start(&all->server);
 }
 
+/* What is not the service itself; the exit status. */
+static int run_command(const config *settings)
+{
+    if (strcmp(settings->command, "backup") == 0) return backup_make(settings->data, settings->argument) ? 0 : 1;
+    if (strcmp(settings->command, "check") == 0) return data_check(settings->data, settings->repair) ? 0 : 1;
+    const prune_rules rules = rules_of(settings);
+    if (rules.keep_days > 0 || rules.keep_bytes > 0.0) return prune_once(settings->data, &rules) ? 0 : 1;
+    fputs("reposed: say what is to be kept: --keep-days N, --keep-bytes SIZE\n", stderr);
+    return 2;
+}
+
 int main(int argc, char **argv)
 {
     static parts all;
@@ -187,14 +204,8 @@ int main(int argc, char **argv)
     keep_memory_small();
     json_text_watch_memory();
     umask(077);
-    if (strcmp(all.settings.command, "backup") == 0) return backup_make(all.settings.data, all.settings.argument) ? 0 : 1;
-    if (strcmp(all.settings.command, "prune") == 0) {
-        const prune_rules rules = rules_of(&all.settings);
-        if (rules.keep_days > 0 || rules.keep_bytes > 0.0) return prune_once(all.settings.data, &rules) ? 0 : 1;
-        fputs("reposed: say what is to be kept: --keep-days N, --keep-bytes SIZE\n", stderr);
-        return 2;
-    }
-    if (strcmp(all.settings.command, "check") == 0) return data_check(all.settings.data, all.settings.repair) ? 0 : 1;
+    if (all.settings.log_json) log_as_json();
+    if (strcmp(all.settings.command, "serve") != 0) return run_command(&all.settings);
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */
     if (!arrange_signals(&all) || !open_parts(&all)) {
         log_line("the daemon can't start; data folder %s", all.settings.data);

@@ -27,6 +27,9 @@ typedef struct config {
     double keep_bytes; /* that the folders of jobs may take; 0: any number */
     bool repair;       /* what is found is to be mended */
     bool dry_run;      /* nothing is to be removed */
+    double max_estimate_seconds, max_particles, max_snapshot_bytes; /* that one POST may ask for; 0: any */
+    int max_threads;
+    bool log_json; /* lines of the log are JSON */
 
     bool is_installed; /* by `make install` or a package: what the program needs lies where these put it */
     int word_count;    /* the command line, for reading it again */

@@ -54,6 +54,13 @@ static bool take_confine(config *settings, const char *value, char problem[OPTIO
     return settings->confine || strcmp(value, "no") == 0;
 }
 
+static bool take_log_format(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    settings->log_json = strcmp(value, "json") == 0;
+    snprintf(problem, OPTION_PROBLEM_SIZE, "text or json");
+    return settings->log_json || strcmp(value, "text") == 0;
+}
+
 #define AT(member) .offset = offsetof(config, member)
 #define WHOLE(member, least, most) .kind = OPTION_WHOLE, AT(member), .low = least, .high = most
 #define AMOUNT(member, least, most) .kind = OPTION_AMOUNT, AT(member), .low = least, .high = most
@@ -73,6 +80,13 @@ const config_option config_options[] = {
     { "keep-days", "N", "delete jobs so long after their end, 1 to 100000 (never); pinned ones stay", WHOLE(keep_days, 1, 100000) },
     { "keep-bytes", "SIZE", "what the folders of jobs may take, as 500G (anything): the oldest snapshots go first,\nresults last",
       AMOUNT(keep_bytes, 1e6, 1e18) },
+    { "max-estimate-seconds", "S", "what one POST may take by its estimate, at least 1 (anything)",
+      AMOUNT(max_estimate_seconds, 1.0, 1e12) },
+    { "max-particles", "N", "particles of one job, at least 1 (anything)", AMOUNT(max_particles, 1.0, 1e9) },
+    { "max-snapshot-bytes", "SIZE", "what the snapshots of one POST may take, as 20G (anything)",
+      AMOUNT(max_snapshot_bytes, 1.0, 1e18) },
+    { "max-threads", "N", "threads of one job, 1 to 256 (256)", WHOLE(max_threads, 1, 256) },
+    { "log", "FORMAT", "text or json: lines of the log (text)", .kind = OPTION_TAKEN, .take = take_log_format },
     { "token-file", "FILE",
       "clients must send \"Authorization: Bearer\" with a token of it, a line each: NAME read|write TOKEN;\nmode 0600; read again "
       "on SIGHUP",

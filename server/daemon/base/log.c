@@ -1,6 +1,7 @@
 #include "log.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
@@ -23,19 +24,64 @@ double monotonic_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+static bool as_json;
+static _Thread_local char request[LOG_REQUEST_SIZE];
+
+void log_as_json(void) { as_json = true; }
+
+void log_set_request(const char *id) { snprintf(request, sizeof request, "%s", id); }
+
+/* One write a line: lines of several threads never mix. A log that can't be written is no reason to stop. */
+static void write_line(char *line, size_t length)
+{
+    line[length++] = '\n';
+    const ssize_t ignored = write(STDERR_FILENO, line, length);
+    (void)ignored;
+}
+
+/* facts: members of the object, with their comma before; "": none. */
+static void write_json(const char *message, const char *facts)
+{
+    char time[28], line[3000];
+    time_text(time);
+    size_t length = (size_t)snprintf(line, sizeof line, "{\"time\":\"%s\",\"message\":\"", time);
+    for (const unsigned char *c = (const unsigned char *)message; *c && length < sizeof line - 900; c++) {
+        if (*c == '"' || *c == '\\') line[length++] = '\\';
+        if (*c < 0x20) length += (size_t)snprintf(line + length, 8, "\\u%04x", *c);
+        else line[length++] = (char)*c;
+    }
+    length += (size_t)snprintf(line + length, sizeof line - length - 2, "\"%s%s%s%.600s}", request[0] ? ",\"request\":\"" : "",
+                               request, request[0] ? "\"" : "", facts);
+    write_line(line, length);
+}
+
 void log_line(const char *format, ...)
 {
     char line[1024];
+    va_list arguments;
     time_text(line);
     size_t length = strlen(line);
     line[length++] = ' ';
-    va_list arguments;
+    if (as_json) length = 0;
     va_start(arguments, format);
     const int written = vsnprintf(line + length, sizeof line - length - 1, format, arguments);
     va_end(arguments);
     if (written > 0) length += (size_t)written < sizeof line - length - 1 ? (size_t)written : sizeof line - length - 2;
-    line[length++] = '\n';
-    /* One write a line: lines of several threads never mix. A log that can't be written is no reason to stop. */
-    const ssize_t ignored = write(STDERR_FILENO, line, length);
-    (void)ignored;
+    line[length] = '\0';
+    if (as_json) write_json(line, "");
+    else write_line(line, length);
+}
+
+/* The method and the path have plain characters alone (http_guard.c); what has others was refused before it had a path. */
+void log_request(const char *method, const char *path, int status, double seconds)
+{
+    char facts[600];
+    if (!as_json) {
+        if (status >= 500) log_line("%s %s: answered %d%s%s", method, path, status, request[0] ? "; request " : "", request);
+        return;
+    }
+    const bool is_plain = path[strcspn(path, "\"\\")] == '\0' && method[strcspn(method, "\"\\")] == '\0';
+    snprintf(facts, sizeof facts, ",\"method\":\"%.16s\",\"path\":\"%.300s\",\"status\":%d,\"seconds\":%.6f",
+             is_plain ? method : "?", is_plain ? path : "?", status, seconds);
+    write_json("answered", facts);
 }

@@ -7,6 +7,7 @@
 
 #include "connection_watch.h"
 #include "http_guard.h"
+#include "log.h"
 #include "routes.h"
 
 typedef struct http_exchange {
@@ -29,6 +30,7 @@ typedef struct http_exchange {
         EXCHANGE_WHOLE,   /* to be answered */
         EXCHANGE_ANSWERED /* the answer is made */
     } stage;
+    char id[LOG_REQUEST_SIZE]; /* by which log and answer name it */
     double arrived, worked; /* monotonic s when the request was whole; s spent on the answer */
     double resume_at;       /* monotonic s, while parked */
     bool

@@ -61,6 +61,7 @@ void http_headers_take(http_headers *headers, http_request *request, const char 
         { "Idempotency-Key", &request->idempotency_key, NULL },
         { "Cookie", &request->cookie, NULL },
         { "Access-Control-Request-Method", &request->asked_method, NULL },
+        { "X-Request-Id", &request->request_id, NULL },
     };
     for (size_t i = 0; i < sizeof wanted / sizeof wanted[0]; i++) {
         if (strcasecmp(name, wanted[i].name) != 0) continue;

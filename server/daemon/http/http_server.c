@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "http_reply.h"
@@ -63,11 +64,28 @@ static enum MHD_Result send_response(http_exchange *exchange)
     struct MHD_Response *reply = http_reply_make(&exchange->request, response);
     if (!reply) return MHD_NO;
     metrics_count(&exchange->server->metrics, exchange->route, response->status, exchange->worked);
-    if (response->status >= 500) log_line("%s %s: answered %d", exchange->request.method, exchange->request.path, response->status);
+    MHD_add_response_header(reply, "X-Request-Id", exchange->id);
+    log_set_request(exchange->id);
+    log_request(exchange->request.method, exchange->request.path, response->status, exchange->worked);
+    log_set_request("");
     connection_watch_set_sending(&exchange->server->watch, exchange->watched);
     const enum MHD_Result result = MHD_queue_response(exchange->connection, (unsigned)response->status, reply);
     MHD_destroy_response(reply);
     return result;
+}
+
+/* The client's own id where it sent a plain one, else one that nothing else has. */
+static void name_request(http_exchange *exchange)
+{
+    static atomic_ullong count;
+    const char *sent = exchange->request.request_id;
+    const size_t length = sent ? strlen(sent) : 0;
+    if (length > 0 && length < sizeof exchange->id
+        && strspn(sent, "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-._~") == length)
+        memcpy(exchange->id, sent, length + 1);
+    else
+        snprintf(exchange->id, sizeof exchange->id, "%lx-%llx", (unsigned long)time(NULL),
+                 (unsigned long long)atomic_fetch_add(&count, 1) + 1);
 }
 
 static enum MHD_Result answer_slowly(http_exchange *exchange)
@@ -91,8 +109,10 @@ static enum MHD_Result answer(http_exchange *exchange)
         exchange->request.may_wait = !closing && !exchange->waits_no_more;
         exchange->request.waited = start - exchange->arrived;
         http_response_clear(&exchange->response);
+        log_set_request(exchange->id);
         respond_once(exchange->route, server->service, &exchange->request, &exchange->response);
         exchange->worked += monotonic_seconds() - start;
+        log_set_request("");
         if (exchange->response.wants_lane) return answer_slowly(exchange);
         if (!(exchange->response.wait > 0.0)) break;
         memcpy(exchange->request.made, exchange->response.made, sizeof exchange->request.made);
@@ -136,6 +156,7 @@ static bool admit(http_exchange *exchange, const char *method)
     request->method = method;
     request->path = "/";
     MHD_get_connection_values(exchange->connection, MHD_HEADER_KIND, take_header, exchange);
+    name_request(exchange);
     const api_service *service = exchange->server->service;
     const char *problem = http_request_split_target(request, exchange->target);
     if (problem) {
