@@ -35,7 +35,7 @@ typedef struct http_request {
     const char *cookie, *asked_method; /* Access-Control-Request-Method */
     const char *allowed_origin;        /* that of the page which asks, where it may read the answer; else NULL */
     const uint8_t *address;            /* of the client, 16 bytes; NULL: not known */
-    const char *request_id; /* as its client sent it; NULL: it did not */
+    const char *request_id;            /* as its client sent it; NULL: it did not */
     size_t parameter_count;
     http_parameter parameter[HTTP_PARAMETERS];
     char segment[HTTP_SEGMENTS][HTTP_SEGMENT_SIZE]; /* what the pattern's {…} stood for */

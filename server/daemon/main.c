@@ -11,6 +11,7 @@
 
 #include "backup.h"
 #include "calibrator.h"
+#include "client.h"
 #include "data_check.h"
 #include "end_signals.h"
 #include "folder_remover.h"
@@ -187,6 +188,9 @@ static bool open_parts(parts *all)
 static int run_command(const config *settings)
 {
     if (strcmp(settings->command, "backup") == 0) return backup_make(settings->data, settings->argument) ? 0 : 1;
+    if (strcmp(settings->command, "submit") == 0) return client_submit(settings);
+    if (strcmp(settings->command, "jobs") == 0) return client_jobs(settings);
+    if (strcmp(settings->command, "show") == 0) return client_show(settings);
     if (strcmp(settings->command, "check") == 0) return data_check(settings->data, settings->repair) ? 0 : 1;
     const prune_rules rules = rules_of(settings);
     if (rules.keep_days > 0 || rules.keep_bytes > 0.0) return prune_once(settings->data, &rules) ? 0 : 1;

@@ -24,6 +24,9 @@ static const struct command {
     const char *name, *argument, *meaning;
 } commands[] = {
     { "serve", NULL, "run the service until SIGTERM, SIGINT or the like" },
+    { "submit", "FILE", "post a job or a study to the service, print its id; with --wait, what becomes of it" },
+    { "jobs", NULL, "list the newest jobs" },
+    { "show", "ID", "show a job, and its results when there are any" },
     { "backup", "DIR", "copy the data folder of a service, also of one at work" },
     { "prune", NULL, "remove what --keep-days and --keep-bytes do not keep" },
     { "check", NULL, "look whether the data folder is sound; with --repair, mend it" },

@@ -23,13 +23,15 @@ typedef struct config {
     int allowed_hosts;
     const char *allowed_origin[CONFIG_HOSTS]; /* whose pages may use the service: scheme://host[:port] */
     int allowed_origins;
-    int keep_days;     /* after its end a job is deleted; 0: never */
-    double keep_bytes; /* that the folders of jobs may take; 0: any number */
-    bool repair;       /* what is found is to be mended */
-    bool dry_run;      /* nothing is to be removed */
+    int keep_days;                                                  /* after its end a job is deleted; 0: never */
+    double keep_bytes;                                              /* that the folders of jobs may take; 0: any number */
     double max_estimate_seconds, max_particles, max_snapshot_bytes; /* that one POST may ask for; 0: any */
     int max_threads;
     bool log_json; /* lines of the log are JSON */
+    bool wait;     /* until what was submitted has ended */
+    bool json;     /* what is shown, as JSON */
+    bool repair;   /* what is found is to be mended */
+    bool dry_run;  /* nothing is to be removed */
 
     bool is_installed; /* by `make install` or a package: what the program needs lies where these put it */
     int word_count;    /* the command line, for reading it again */

@@ -104,6 +104,8 @@ const config_option config_options[] = {
       .take = take_confine },
     { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
     { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
+    { "wait", NULL, "of submit: until it has ended; 0 only where it is successful", FLAG(wait) },
+    { "json", NULL, "of jobs and show: as the service sends it", FLAG(json) },
     { "dry-run", NULL, "of prune: remove nothing, say what would go", FLAG(dry_run) },
     { "repair", NULL, "of check, while no service is at work: what is damaged is put into DATA/lost", FLAG(repair) },
 };
