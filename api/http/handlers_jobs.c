@@ -277,6 +277,8 @@ void list_jobs(api_service *service, const http_request *request, http_response 
         return;
     }
     if (leads_to_list(request, response)) return;
+    response->wants_lane = filter.label_name && !request->in_lane; /* each label is read */
+    if (response->wants_lane) return;
     job_page page = { .jobs = json_array(), .limit = filter.limit };
     filter.limit++; /* one more than asked for says whether there is a next page */
     const store_status status = store_list_jobs(service->store, &filter, add_job_to_page, &page);

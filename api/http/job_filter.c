@@ -183,6 +183,27 @@ static size_t characters_of(const char *text)
     return count;
 }
 
+/* label.project=axial: the one that is given. */
+static bool read_label(const http_request *request, job_filter *filter, char *problem, size_t size)
+{
+    static const char beginning[] = "label.";
+    for (size_t p = 0; p < request->parameter_count; p++) {
+        const http_parameter *one = &request->parameter[p];
+        if (strncmp(one->name, beginning, strlen(beginning)) != 0) continue;
+        if (filter->label_name) {
+            snprintf(problem, size, "parameter %.40s is given beside label.%.40s; give one member of the label", one->name,
+                     filter->label_name);
+            return false;
+        }
+        filter->label_name = one->name + strlen(beginning);
+        filter->label_value = one->value;
+        if (*filter->label_name) continue;
+        snprintf(problem, size, "parameter label. names no member of the label; for example label.project=axial");
+        return false;
+    }
+    return true;
+}
+
 bool read_job_filter(const http_request *request, job_filter *filter, char *problem, size_t size)
 {
     filter_reading reading = { filter, problem, size };
@@ -200,7 +221,7 @@ bool read_job_filter(const http_request *request, job_filter *filter, char *prob
                  datetime);
         return false;
     }
-    if (!http_request_values(request, "status", take_status, &reading)
+    if (!read_label(request, filter, problem, size) || !http_request_values(request, "status", take_status, &reading)
         || !http_request_values(request, "processID", take_process, &reading)
         || !http_request_values(request, "type", take_type, &reading)
         || !read_duration(request, "minDuration", &filter->least_seconds, problem, size)

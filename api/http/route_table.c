@@ -11,7 +11,7 @@ const http_route route_table[] = {
     { "GET", "/processes", " limit cursor f ", list_processes, .open = false },
     { "GET", "/processes/{}", " f ", show_process, .open = false },
     { "POST", "/processes/{}/execution", " f ", execute_process, .open = false },
-    { "GET", "/jobs", " status* processID* type* datetime minDuration maxDuration limit cursor q study f ", list_jobs,
+    { "GET", "/jobs", " status* processID* type* datetime minDuration maxDuration limit cursor q study label. f ", list_jobs,
       .formats = " json html " },
     { "GET", "/jobs/{}", " wait f ", show_job, .formats = " json html " },
     { "DELETE", "/jobs/{}", " only f ", remove_job, .open = false },

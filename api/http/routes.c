@@ -57,6 +57,16 @@ static const char *find_parameter(const char *known, const char *name)
     return NULL;
 }
 
+/* " label. " stands for all parameters that begin so. */
+static const char *find_parameter_or_beginning(const char *known, const char *name)
+{
+    const char *end = find_parameter(known, name), *dot = strchr(name, '.');
+    char beginning[16];
+    if (end || !dot || !dot[1] || (size_t)(dot - name) + 2 > sizeof beginning) return end;
+    snprintf(beginning, sizeof beginning, "%.*s", (int)(dot - name) + 1, name);
+    return find_parameter(known, beginning);
+}
+
 static bool is_given_before(const http_request *request, size_t i)
 {
     for (size_t k = 0; k < i; k++)
@@ -69,7 +79,7 @@ static bool parameters_are_good(const http_route *route, const http_request *req
 {
     const char *formats = route->formats ? route->formats : " json ";
     for (size_t i = 0; i < request->parameter_count; i++) {
-        const char *name = request->parameter[i].name, *end = find_parameter(route->parameters, name);
+        const char *name = request->parameter[i].name, *end = find_parameter_or_beginning(route->parameters, name);
         if (!end)
             http_respond_problem(response, 400, NULL, "Unknown parameter", "query parameter \"%.40s\" is unknown here; known:%s",
                                  name, route->parameters[0] ? route->parameters : " none");

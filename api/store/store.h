@@ -57,6 +57,7 @@ typedef struct job_filter {
     bool by_type, type_is_process;                                   /* by_type: only jobs of that type, or none */
     const char *text;                                                /* to be found in the id or the label; NULL: all */
     const char *study;                                               /* id; NULL: all */
+    const char *label_name, *label_value;                            /* a member of the label, and what it is as text; NULL: all */
     char created_from[JOB_TIME_SIZE], created_before[JOB_TIME_SIZE]; /* "": since ever, for ever */
     double least_seconds, most_seconds; /* that a job has run, up to now or its end; NaN: whether it has or not */
     int64_t before;                     /* only jobs with a smaller number; 0: all */
@@ -95,7 +96,7 @@ typedef struct study_record {
     char id[JOB_ID_SIZE], process[16], name[STUDY_NAME_SIZE];
     int64_t cases, repeats, jobs, counts[JOB_STATUSES]; /* counts: of its jobs */
     int priority;
-    double progress, estimated_seconds;                 /* percent; s of one worker, when it was submitted */
+    double progress, estimated_seconds; /* percent; s of one worker, when it was submitted */
     char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], updated[JOB_TIME_SIZE]; /* updated: the last change of a job's state */
 } study_record;
 typedef bool study_visitor(void *context, const study_record *study);

@@ -79,3 +79,26 @@ def test_the_next_job_is_found_without_a_look_at_the_others(one):
         plan = database.execute("EXPLAIN QUERY PLAN SELECT number FROM job INDEXED BY job_waiting_turn WHERE status='accepted'"
                                 " AND not_before NOT BETWEEN 1 AND 2 ORDER BY priority DESC, turn, number LIMIT 1").fetchall()
     assert len(plan) == 1 and "USING INDEX job_waiting_turn" in plan[0][3]
+
+
+def test_jobs_are_found_by_a_member_of_their_label(one):
+    labels = [{"project": "axial"}, {"project": "axial", "1": "x"}, {"project": "axial flow"}, {"other": "axial"},
+              {"project": 3}, {"project": 1.5}, {"a.b": "dot", '"': "quote", "$": "money", "[0]": "list"}, {}]
+    jobs = [post(one, **label).json()["jobID"] for label in labels]
+
+    def found(**parameters):
+        answer = one.get("/jobs", params={name.replace("label_", "label."): value for name, value in parameters.items()})
+        assert answer.status_code == 200, answer.text
+        listed = answer.json()
+        assert sum(listed["counts"].values()) == len(listed["jobs"]) or "limit" in parameters
+        return [jobs.index(job["jobID"]) for job in listed["jobs"]]
+
+    for name, value in (("project", "axial"), ("project", "3"), ("project", "1.5"), ("1", "x"), ("a.b", "dot"), ('"', "quote"),
+                        ("$", "money"), ("[0]", "list"), ("project", "Axial"), ("nothing", "")):
+        expected = [i for i, label in enumerate(labels) if str(label.get(name, "missing")) == value]
+        assert found(**{f"label_{name}": value}) == expected[::-1], (name, value)
+    page = one.get("/jobs?label.project=axial&limit=1").json()
+    second = one.get(next(link["href"] for link in page["links"] if link["rel"] == "next")).json()
+    assert [job["jobID"] for job in page["jobs"] + second["jobs"]] == jobs[1::-1]
+    for query in ("label.=x", "label.project=axial&label.other=axial", "lable.project=axial", "label.project=a&label.project=b"):
+        assert one.get(f"/jobs?{query}").status_code == 400, query

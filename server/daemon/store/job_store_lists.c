@@ -169,6 +169,9 @@ static void write_condition(const job_filter *filter, text_buffer *sql)
     else text_buffer_print(sql, " AND ?4=?5");
     if (isnan(filter->least_seconds) && isnan(filter->most_seconds)) text_buffer_print(sql, " AND ?6 IS ?7");
     else text_buffer_print(sql, " AND " SECONDS_RUN ">=coalesce(?6,0) AND " SECONDS_RUN "<=coalesce(?7,1e300)");
+    text_buffer_print(sql, filter->label_name
+                               ? " AND EXISTS(SELECT 1 FROM json_each(job.label) WHERE key=?9 AND CAST(value AS TEXT)=?10)"
+                               : " AND ?9 IS ?10");
     if (filter->by_type && !filter->type_is_process) text_buffer_print(sql, " AND 0");
     if (!filter->by_process) return;
     text_buffer_print(sql, " AND job.process IN (");
@@ -179,8 +182,9 @@ static void write_condition(const job_filter *filter, text_buffer *sql)
 static sqlite3_stmt *prepare_filtered(sqlite3 *reader, const text_buffer *sql, const job_filter *filter, int64_t before)
 {
     if (sql->failed) return NULL;
-    return sql_prepare(reader, sql->text, "ittttddi", before, filter->text, filter->study, filter->created_from,
-                       filter->created_before, filter->least_seconds, filter->most_seconds, filter->limit);
+    return sql_prepare(reader, sql->text, "ittttdditt", before, filter->text, filter->study, filter->created_from,
+                       filter->created_before, filter->least_seconds, filter->most_seconds, filter->limit, filter->label_name,
+                       filter->label_value);
 }
 
 /* One status walks its index in order; for several the + keeps the walk on the jobs themselves, newest first, where an
@@ -224,8 +228,8 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, job_vis
 
 static bool lets_all_through(const job_filter *filter)
 {
-    return !filter->by_process && !filter->by_type && !filter->text && !filter->study && !filter->created_from[0]
-           && !filter->created_before[0] && isnan(filter->least_seconds) && isnan(filter->most_seconds);
+    return !filter->label_name && !filter->by_process && !filter->by_type && !filter->text && !filter->study
+           && !filter->created_from[0] && !filter->created_before[0] && isnan(filter->least_seconds) && isnan(filter->most_seconds);
 }
 
 store_status store_count_listed(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES])
