@@ -49,6 +49,8 @@ await say('GET /jobs/{id}/fields.hdf', GET('/jobs/{id}/fields.hdf', { params: id
 await say('GET /jobs/{id}/walls.vtp', GET('/jobs/{id}/walls.vtp', { params: id, ...text }));
 await say('GET /jobs/{id}/snapshots.hdf.series', GET('/jobs/{id}/snapshots.hdf.series', { params: id }));
 await say('GET /jobs/{id}/files.tar', GET('/jobs/{id}/files.tar', { params: id, ...text }));
+await say('POST /jobs/{id}/pin', POST('/jobs/{id}/pin', { params: id }));
+await say('POST /jobs/{id}/unpin', POST('/jobs/{id}/unpin', { params: id }));
 await say('DELETE /jobs/{id}', DELETE('/jobs/{id}', { params: { path: { id: running }, query: { only: 'dismiss' } } }));
 await say('POST /jobs/{id}/retry', POST('/jobs/{id}/retry', { params: { path: { id: running } } }));
 await say('GET /query', GET('/query', { params: { query: { sql: 'select count(*) from job', f: 'json' } } }));
@@ -61,4 +63,5 @@ await say('GET /studies/{id}', GET('/studies/{id}', { params: { ...its, query: {
 await say('GET /studies/{id}/results', GET('/studies/{id}/results', { params: its }));
 await say('GET /studies/{id}/results.csv', GET('/studies/{id}/results.csv', { params: its, ...text }));
 await say('GET /studies/{id}/spec', GET('/studies/{id}/spec', { params: its }));
+await say('POST /studies/{id}/retry', POST('/studies/{id}/retry', { params: its }));
 await say('DELETE /studies/{id}', DELETE('/studies/{id}', { params: its }));
