@@ -1,8 +1,10 @@
 """Read-only SQL: what it answers, and what it can't be made to do."""
 import csv
 import io
+import json
 import os
 import sqlite3
+import statistics
 import threading
 import time
 from urllib.parse import urljoin
@@ -273,3 +275,14 @@ def test_comments_and_semicolons_are_no_second_statement(filled, sql):
 def test_a_missing_query_is_explained(filled):
     answer = filled.get("/query")
     assert answer.status_code == 400 and "/query?sql=" in answer.json()["detail"]
+
+
+def test_the_standard_deviation_is_that_of_a_sample(fake):
+    def answer(values):
+        sql = f"select stddev(value) from json_each('{json.dumps(values)}')"
+        return fake.get("/query", params={"sql": sql}).json()["rows"][0][0]
+
+    for values in ([1, 2, 4, 8.5], [1e9, 1e9 + 1, 1e9 + 2], [3, 3], [2, None, "text", 5]):
+        numbers = [value for value in values if isinstance(value, (int, float))]
+        assert answer(values) == pytest.approx(statistics.stdev(numbers), rel=1e-12)
+    assert answer([1]) is None and answer([]) is None

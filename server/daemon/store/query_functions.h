@@ -25,6 +25,9 @@ bool query_function_is_ours(const char *name, size_t length);
 /* Within a call; false: it has been answered with an error. */
 bool query_call_is_in_time(sqlite3_context *call);
 
+/* query_statistics.c */
+bool query_statistics_install(sqlite3 *database);
+
 /* query_printf.c */
 void query_printf(sqlite3_context *call, int count, sqlite3_value **values);
 
