@@ -17,6 +17,7 @@
 #include "failure_report.h"
 #include "file_publish.h"
 #include "json_text.h"
+#include "process_type.h"
 #include "run_summary.h"
 #include "snapshot_file.h"
 #include "start_file.h"
@@ -189,6 +190,17 @@ static enum worker_exit save_checkpoint(scene_run *r)
     return add_event(r, "checkpoint", json_pack("{s:i}", "attempt", r->options->attempt)) ? WORKER_DONE : WORKER_DISK;
 }
 
+/* For whoever follows the log. */
+static void log_tenth(scene_run *r, const progress_report *report)
+{
+    const int tenth = (int)(report->percent / 10.0);
+    char left[TIME_IN_WORDS_SIZE];
+    if (tenth <= r->tenth) return;
+    r->tenth = tenth;
+    time_in_words(report->eta_seconds, left);
+    worker_log("%d %% done at step %lld, about %s left", 10 * tenth, (long long)dem_scene_step_count(r->scene), left);
+}
+
 static enum worker_exit report_progress(scene_run *r)
 {
     if (dem_scene_phase(r->scene) != r->phase) {
@@ -198,6 +210,7 @@ static enum worker_exit report_progress(scene_run *r)
     }
     progress_report report;
     if (!progress_is_due(&r->progress, r->scene, &report)) return WORKER_DONE;
+    log_tenth(r, &report);
     if (r->options->on_terminal) terminal_progress(&report, dem_scene_phase_name(r->scene), dem_scene_time(r->scene));
     json_t *event =
         json_pack("{s:s, s:f, s:o, s:f}", "phase", dem_scene_phase_name(r->scene), "progress", report.percent, "eta_seconds",

@@ -44,6 +44,7 @@ struct scene_run {
     const char *ended_by;                /* NULL: not yet, or by its time */
     double next_checkpoint, last_series; /* s, monotonic */
     dem_phase phase;                     /* the last one logged */
+    int tenth;                           /* of the run, likewise */
     progress progress;
     run_profile profile;
 };
