@@ -49,6 +49,8 @@ def missing(before, now, where=""):
     """What of an answer is no longer as it was; objects may have got more members."""
     if isinstance(before, dict) and isinstance(now, dict):
         return [one for name, value in before.items() for one in missing(value, now.get(name), f"{where}/{name}")]
+    if where.endswith("/links"):  # of which there may be more
+        return [(where, link) for link in before if link not in now]
     if isinstance(before, list) and isinstance(now, list) and len(before) == len(now):
         return [one for i in range(len(before)) for one in missing(before[i], now[i], f"{where}/{i}")]
     return [] if type(before) is type(now) and before == now else [(where, before, now)]
