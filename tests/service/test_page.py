@@ -1,6 +1,7 @@
 """The page in a real browser against a real daemon: what a user sees and clicks."""
 import contextlib
 import json
+import math
 import re
 import sqlite3
 import subprocess
@@ -94,7 +95,8 @@ def test_a_job_is_followed_to_its_angle(daemon, browser):
     until(browser, lambda b: find(row, ".badge").text == "successful", 60)
     results = daemon.get(f"/jobs/{job}/results").json()
     repose = results["repose"]
-    assert find(row, ".angle .value").text.startswith(f"{repose['angle_deg']:.1f}")
+    decimals = min(3, max(0, 1 - math.floor(math.log10(repose["standard_error_deg"]))))  # two digits of the error
+    assert find(row, ".angle .value").text.startswith(f"{repose['angle_deg']:.{decimals}f} ± ")
     regime = results["regime"]
     assert find(row, "td.regime").text == regime["name"] + ("" if regime["certain"] else ", not certain")
     inputs = find(row, "td.inputs").text

@@ -102,7 +102,8 @@ def test_members_of_inputs_in_the_prose_are_accepted(service, tmp_path, code):
     elif "plate" in piece:
         submit(service, {"process": "heap", "inputs": merged(json.loads((ROOT / "api/examples/heap.json").read_text())["inputs"], piece)})
     else:
-        submit(service, {"process": "drum", "inputs": the_example_with(piece, service.first)})
+        around = {name: piece.pop(name) for name in ("label", "priority") if name in piece}  # of the request, not of its inputs
+        submit(service, {"process": "drum", "inputs": the_example_with(piece, service.first)} | around)
 
 
 def test_commands_do_what_they_say(service, tmp_path):

@@ -184,7 +184,7 @@ def test_a_database_of_a_later_program_is_refused_and_stays_as_it_is(ended):
 
 @pytest.mark.parametrize("command", [("backup", "copy"), ("check",), ("check", "--repair")])
 def test_a_folder_without_data_is_no_data_folder(tmp_path, command):
-    refused = subprocess.run([BUILD / "reposed", *command, "--data", tmp_path / "nothing"], capture_output=True, text=True, cwd=tmp_path)
+    refused = subprocess.run([BUILD.absolute() / "reposed", *command, "--data", tmp_path / "nothing"], capture_output=True, text=True, cwd=tmp_path)
     assert refused.returncode == 1 and "No such file" in refused.stderr or "unable to open" in refused.stderr
     assert not (tmp_path / "nothing").exists() and not (tmp_path / "copy").exists()
 

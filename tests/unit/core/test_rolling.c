@@ -126,7 +126,7 @@ static void compare_block(dice *d, dem_contact_law law)
         list.rolling_friction[k] = (real)dice_uniform(d, 0, 1);
         b->f_n[k] = (real)fmax(0, dice_uniform(d, -0.1, 0.1));
         k_t[k] = law == DEM_WALTON_BRAUN ? 2000 : (real)dice_uniform(d, 1000, 3000);
-        b->stored[k] = k_t[k];
+        b->k_t[k] = k_t[k];
         const double full = b->f_n[k] * list.rolling_friction[k];
         for (int c = 0; c < 3; c++) {
             b->n[c][k] = (real)n[c];
