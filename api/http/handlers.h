@@ -22,7 +22,8 @@ route_handler list_samples, list_snapshots, send_snapshot;
 /* handlers_files.c */
 route_handler send_fields, send_walls, send_snapshot_series, send_archive;
 /* handlers_studies.c */
-route_handler create_study, list_studies, show_study, remove_study, retry_study, show_study_results, show_study_csv, show_study_spec;
+route_handler create_study, list_studies, show_study, remove_study, retry_study, show_study_results, show_study_csv,
+    show_study_spec;
 /* handlers_session.c */
 route_handler begin_session, end_session;
 /* handlers_query.c */

@@ -31,8 +31,8 @@ typedef struct http_exchange {
         EXCHANGE_ANSWERED /* the answer is made */
     } stage;
     char id[LOG_REQUEST_SIZE]; /* by which log and answer name it */
-    double arrived, worked; /* monotonic s when the request was whole; s spent on the answer */
-    double resume_at;       /* monotonic s, while parked */
+    double arrived, worked;    /* monotonic s when the request was whole; s spent on the answer */
+    double resume_at;          /* monotonic s, while parked */
     bool
         waits_no_more; /* parked or to be parked: it is answered as things are, since its client closed its end or the room is full */
     size_t body_held, answer_held; /* bytes that count in the server's sums */
