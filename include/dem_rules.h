@@ -89,6 +89,9 @@ double dem_impact_speed(double drum_diameter, double largest_diameter, double gr
  * shallow, on top of what the wall throws. */
 double dem_lifted_speed(double drum_diameter, double gravity, double fill_fraction, double rotation_rate);
 
+/* Of two spheres or more each. */
+bool dem_has_clusters(const dem_species *species, size_t count);
+
 /* Friction of the bed of spheres that is as steep: clusters interlock, whatever their friction. */
 double dem_bed_friction(double friction, const dem_species *species, size_t count);
 

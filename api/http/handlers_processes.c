@@ -122,9 +122,10 @@ static bool takes_long(const json_t *document)
 /* The disk, and what one POST may ask for. */
 static bool fits_service(api_service *service, const job_spec *spec, problem_list *problems)
 {
+    const bool is_timed = service->limits.estimate_seconds > 0.0; /* only then does it matter how fast the machine is */
     calibration machine;
-    store_read_calibration(service->store, &machine);
-    const job_estimate estimate = job_spec_estimate(spec, &machine);
+    if (is_timed) store_read_calibration(service->store, &machine);
+    const job_estimate estimate = job_spec_estimate(spec, is_timed ? &machine : NULL);
     job_check_limits(&service->limits, "/inputs", estimate.wall_seconds, estimate.particles, estimate.snapshot_bytes, spec->threads,
                      problems);
     job_check_disk(job_estimate_disk_bytes(&estimate), store_free_bytes(service->store), "/inputs/snapshots/interval", problems);

@@ -38,8 +38,7 @@ static uint64_t fingerprint_of(const http_request *request)
 static void respond_anew(const http_route *route, api_service *service, const http_request *request, http_response *response,
                          const char *made)
 {
-    const bool adds =
-        strcmp(route->pattern, "/studies") == 0 || strstr(route->pattern, "/execution") || strstr(route->pattern, "/continue");
+    const bool adds = strcmp(route->pattern, "/studies") == 0 || strstr(route->pattern, "/execution");
     job_record job;
     study_record study;
     if (*made && strstr(route->pattern, "/execution") && request->prefer) { /* it may wait for the results */

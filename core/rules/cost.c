@@ -6,17 +6,15 @@
 /* What the spheres that hold the particles come to. */
 typedef struct holding {
     double reach, volume; /* m, of the largest; m3, of one in the mean */
-    bool has_clusters;
 } holding;
 
 static holding holding_of(const dem_scene_definition *d)
 {
-    holding h = { 0.0, 0.0, false };
+    holding h = { 0.0, 0.0 };
     for (size_t s = 0; s < d->species_count; s++) {
         const double r = dem_species_reach(&d->species[s]);
         h.reach = fmax(h.reach, r);
         h.volume += d->species[s].share * 4.0 / 3.0 * DEM_PI * r * r * r;
-        h.has_clusters = h.has_clusters || d->species[s].cluster.sphere_count > 1;
     }
     return h;
 }
@@ -43,7 +41,7 @@ double dem_settling_time(const dem_scene_definition *d)
     const double across = width_across(d, &h), rows = rows_of(d, across);
     const double growing = 80.0 * (1.001 - start_scale) * h.reach / d->diameter;
     const double settling = (0.5 + 17.0 * across + 6.9 * exp(-rows / 0.33)) * (1.0 + 0.85 * exp(-d->contact.friction / 0.1));
-    return (h.has_clusters ? 0.7 : 1.0) * sqrt(d->diameter / d->gravity) * (growing + settling);
+    return (dem_has_clusters(d->species, d->species_count) ? 0.7 : 1.0) * sqrt(d->diameter / d->gravity) * (growing + settling);
 }
 
 dem_range dem_settling_range(const dem_scene_definition *d)

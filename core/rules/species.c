@@ -71,11 +71,16 @@ double dem_species_compactness(const dem_species *s)
     return c->volume / (4.0 / 3.0 * DEM_PI * sqrt(axes2 * pow(5.0 / c->volume, 3.0)));
 }
 
+bool dem_has_clusters(const dem_species *species, size_t count)
+{
+    bool has = false;
+    for (size_t s = 0; s < count; s++) has = has || species[s].cluster.sphere_count > 1;
+    return has;
+}
+
 double dem_bed_friction(double friction, const dem_species *species, size_t count)
 {
-    bool interlock = false;
-    for (size_t s = 0; s < count; s++) interlock = interlock || species[s].cluster.sphere_count > 1;
-    return interlock ? fmax(friction, 0.5) : friction;
+    return dem_has_clusters(species, count) ? fmax(friction, 0.5) : friction;
 }
 
 bool dem_has_rolling_friction(const dem_scene_definition *d)

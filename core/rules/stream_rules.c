@@ -20,9 +20,7 @@ double dem_stream_height(const dem_scene_definition *d, double particles, double
 
 double dem_stream_usual_fraction(const dem_scene_definition *d)
 {
-    bool has_clusters = false;
-    for (size_t s = 0; s < d->species_count; s++) has_clusters = has_clusters || d->species[s].cluster.sphere_count > 1;
-    return has_clusters ? 0.5 : DEM_BED_SOLID_FRACTION;
+    return dem_has_clusters(d->species, d->species_count) ? 0.5 : DEM_BED_SOLID_FRACTION;
 }
 
 double dem_stream_bed_fraction(const dem_scene_definition *d)

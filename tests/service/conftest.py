@@ -27,6 +27,14 @@ SPEC = {
 }
 
 
+def compiled_shim(name, folder):
+    """NAME.c of this folder as a library to be preloaded."""
+    library = folder / f"{name}.so"
+    source = Path(__file__).with_name(f"{name}.c")
+    subprocess.run(["cc", "-O1", "-fPIC", "-shared", "-fno-builtin", "-o", library, source, "-ldl"], check=True)
+    return library
+
+
 @pytest.fixture(scope="session", autouse=True)
 def cache(tmp_path_factory):
     """A user's cache that is the tests' own, one for all that run at once: the cache of whoever runs them stays as it is."""

@@ -4,10 +4,9 @@ import ctypes
 import errno
 import os
 import subprocess
-from pathlib import Path
 
 import pytest
-from conftest import SPEC, run_daemon
+from conftest import SPEC, compiled_shim, run_daemon
 from test_variants import HERE
 from worker_runs import REPOSE, WALL_CLOCK, result, write_spec
 
@@ -29,10 +28,7 @@ def landlock_version():
 
 @pytest.fixture(scope="module")
 def shim(tmp_path_factory):
-    library = tmp_path_factory.mktemp("shim") / "escape_attempts.so"
-    source = Path(__file__).with_name("escape_attempts.c")
-    subprocess.run(["cc", "-O1", "-fPIC", "-shared", "-o", library, source, "-ldl"], check=True)
-    return library
+    return compiled_shim("escape_attempts", tmp_path_factory.mktemp("shim"))
 
 
 def run(shim, folder, *options, spec=SHORT, name="job", **environment):

@@ -5,11 +5,10 @@ import random
 import shutil
 import subprocess
 import time
-from pathlib import Path
 
 import pytest
 import requests
-from conftest import BUILD, Daemon
+from conftest import BUILD, Daemon, compiled_shim
 from worker_runs import REPOSE, write_spec
 
 # Some hundredths of a second, and all parts of a run.
@@ -24,10 +23,7 @@ CALLS = [("malloc", errno.ENOMEM, 5000, 12000), ("open", errno.EMFILE, 60, 140),
 
 @pytest.fixture(scope="module")
 def shim(tmp_path_factory):
-    library = tmp_path_factory.mktemp("shim") / "failing_calls.so"
-    source = Path(__file__).with_name("failing_calls.c")
-    subprocess.run(["cc", "-O1", "-fPIC", "-shared", "-o", library, source, "-ldl"], check=True)
-    return library
+    return compiled_shim("failing_calls", tmp_path_factory.mktemp("shim"))
 
 
 def failing(shim, program, call, error, first, count):

@@ -1,12 +1,10 @@
 """Whichever allocation of a daemon fails: it answers 5xx, or leaves with a message, and nothing that it has acknowledged is lost."""
 import mmap
 import struct
-import subprocess
-from pathlib import Path
 
 import pytest
 import requests
-from conftest import FAKE_WORKER, Daemon
+from conftest import FAKE_WORKER, Daemon, compiled_shim
 
 NO_MEMORY = (500, 503)
 
@@ -33,10 +31,7 @@ class Memory:
 
 @pytest.fixture(scope="module")
 def shim(tmp_path_factory):
-    library = tmp_path_factory.mktemp("shim") / "failing_memory.so"
-    source = Path(__file__).with_name("failing_memory.c")
-    subprocess.run(["cc", "-O1", "-fPIC", "-shared", "-fno-builtin", "-o", library, source], check=True)
-    return library
+    return compiled_shim("failing_memory", tmp_path_factory.mktemp("shim"))
 
 
 @pytest.fixture

@@ -4,13 +4,11 @@ import math
 import socket
 import sqlite3
 import struct
-import subprocess
 import time
-from pathlib import Path
 
 import pytest
 import requests
-from conftest import FAKE_WORKER, SPEC, Daemon
+from conftest import FAKE_WORKER, SPEC, Daemon, compiled_shim
 
 
 def processor_seconds(daemon):
@@ -56,9 +54,7 @@ def test_a_study_of_more_jobs_costs_as_much_more(tmp_path):
 
 
 def test_a_post_waits_for_the_disk_once_and_parses_no_statement_that_it_knows(tmp_path, monkeypatch):
-    library, counts = tmp_path / "counted_calls.so", tmp_path / "counts"
-    source = Path(__file__).with_name("counted_calls.c")
-    subprocess.run(["cc", "-O1", "-fPIC", "-shared", "-o", library, source, "-ldl"], check=True)
+    library, counts = compiled_shim("counted_calls", tmp_path), tmp_path / "counts"
     monkeypatch.setenv("LD_PRELOAD", str(library))
     monkeypatch.setenv("COUNTED_CALLS", str(counts))
     daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "1"]).start()

@@ -16,5 +16,7 @@ void log_line(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void time_text(char *text);
 /* Seconds of a clock that never jumps. */
 double monotonic_seconds(void);
+/* Of the clock that people set, since 1970. */
+double unix_seconds(void);
 
 #endif

@@ -57,12 +57,11 @@ static store_status forget(job_store *store, double until, int64_t *forgotten)
 /* One look. Seconds until the next; 0: nothing is left. */
 static int look(folder_remover *remover)
 {
-    struct timespec now;
     int64_t rows, forgotten = 0;
-    clock_gettime(CLOCK_REALTIME, &now);
+    const double now = unix_seconds();
     if (!remove_folders(remover, &rows)) return SECONDS_UNTIL_AGAIN; /* a worker has not left yet, or a disk refuses */
     if (rows == 0) return 0;
-    if (forget(remover->store, (double)(now.tv_sec - SECONDS_KEPT), &forgotten) != STORE_OK) return SECONDS_KEPT;
+    if (forget(remover->store, now - SECONDS_KEPT, &forgotten) != STORE_OK) return SECONDS_KEPT;
     return forgotten < rows ? SECONDS_KEPT + 1 : 0;
 }
 

@@ -135,33 +135,43 @@ store_status store_check_queue(job_store *store, int64_t jobs)
     return status == STORE_OK && waiting + jobs > store->queue_limit ? STORE_QUEUE_FULL : status;
 }
 
+/* Who takes turns with others: "" where the label does not say. */
+static const char *client_of(const job_spec *spec)
+{
+    const char *client = json_string_value(json_object_get(spec->label, "client"));
+    return client ? client : "";
+}
+
 static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
-                               const char *label, const study_place *place, const job_estimate *estimate)
+                               const char *label, const char *wanted, const job_place *place, const job_estimate *estimate)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
-    const char *client = json_string_value(json_object_get(spec->label, "client"));
     return sql_run(
         writer, NULL,
         "INSERT INTO "
         "job(number,id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
-        "study,study_case,study_repeat,priority,client,turn) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted','waiting for a free "
-        "worker',?5,?6,?7,?8,?8,"
-        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11),?13,?14,iif(?9=0,0,?12))",
-        "ttttiddtiiiiit", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes,
-        now, place->study, place->index, place->repeat, number, (int64_t)spec->priority, client ? client : "");
+        "study,study_case,study_repeat,priority,client,turn,wanted) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted',"
+        "'waiting for a free worker',?5,?6,?7,?8,?8,"
+        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11),?13,?14,?15,?16)",
+        "ttttiddtiiiiitit", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes,
+        now, place->study, place->index, place->repeat, number, (int64_t)spec->priority, client_of(spec), place->turn, wanted);
 }
 
 store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,
-                              const char *text, const study_place *place, const calibration *machine)
+                              const char *text, const job_place *place, const calibration *machine)
 {
     char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
+    char *wanted = spec->wanted ? json_dumps(spec->wanted, JSON_COMPACT) : NULL;
     const job_estimate estimate = job_spec_estimate(spec, machine);
-    store_status status = label ? insert_row(writer, number, spec, id, text, label, place, &estimate) : STORE_FAILED;
+    store_status status = !label || (spec->wanted && !wanted)
+                              ? STORE_FAILED
+                              : insert_row(writer, number, spec, id, text, label, wanted, place, &estimate);
     if (number == 0) number = sqlite3_last_insert_rowid(writer);
     if (status == STORE_OK) status = field_tables_insert_inputs(fields, writer, number, spec);
     if (status == STORE_OK) status = store_insert_load(writer, number, &estimate, machine);
     free(label);
+    free(wanted);
     return status;
 }
 
@@ -190,16 +200,6 @@ store_status store_last_turn(job_store *store, const char *client, int64_t prior
     return row ? sql_finish(row, code) : STORE_FAILED;
 }
 
-/* Its place among the others', when it has no place in a study. */
-static store_status take_turn(job_store *store, int64_t number, const job_spec *spec)
-{
-    const char *client = json_string_value(json_object_get(spec->label, "client"));
-    int64_t last = 0;
-    const store_status status = store_last_turn(store, client ? client : "", spec->priority, &last);
-    return status == STORE_OK ? sql_run(store->writer, NULL, "UPDATE job SET turn=? WHERE number=?", "ii", last + 1, number)
-                              : status;
-}
-
 /* The largest that a job ever had. */
 static store_status last_number(job_store *store, int64_t *number)
 {
@@ -210,18 +210,9 @@ static store_status last_number(job_store *store, int64_t *number)
     return row ? sql_finish(row, code) : STORE_FAILED;
 }
 
-static store_status keep_wanted(sqlite3 *writer, int64_t number, const json_t *wanted)
-{
-    char *text = json_dumps(wanted, JSON_COMPACT);
-    const store_status status =
-        text ? sql_run(writer, NULL, "UPDATE job SET wanted=? WHERE number=?", "ti", text, number) : STORE_FAILED;
-    free(text);
-    return status;
-}
-
 static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
 {
-    static const study_place of_no_study = { 0, 0, 0 };
+    job_place place = { .study = 0 };
     uint32_t bits;
     if (data_folder_is_nearly_full(store->data)) return STORE_FULL;
     if (!text || !store_random_bits(&bits)) return STORE_FAILED;
@@ -239,13 +230,13 @@ static store_status add_with_text(job_store *store, const job_spec *spec, const 
     store_status status = store_begin(store);
     if (status == STORE_OK) {
         status = store_check_queue(store, 1);
-        int64_t last = 0;
+        int64_t last = 0, last_turn = 0;
         if (status == STORE_OK) status = last_number(store, &last);
+        if (status == STORE_OK) status = store_last_turn(store, client_of(spec), spec->priority, &last_turn);
+        place.turn = last_turn + 1;
         if (status == STORE_OK)
-            status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &of_no_study, &machine);
-        if (status == STORE_OK) status = take_turn(store, last + 1, spec);
+            status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &place, &machine);
         store_name_made(id);
-        if (status == STORE_OK && spec->wanted) status = keep_wanted(store->writer, last + 1, spec->wanted);
         status = store_end(store, status);
     }
     if (status != STORE_OK) job_folder_discard(store->data, id);

@@ -55,10 +55,10 @@ store_status store_try_write(job_store *store);
 /* An id of this second; bits tell it from others of the same second. */
 void store_write_id(char id[JOB_ID_SIZE], time_t second, uint32_t bits);
 bool store_random_bits(uint32_t *bits);
-/* Which job of which study; study 0: of none. */
-typedef struct study_place {
-    int64_t study, index, repeat;
-} study_place;
+/* Where a job stands: which of which study (0: of none), and its turn in the queue, which of a study counts from 1. */
+typedef struct job_place {
+    int64_t study, index, repeat, turn;
+} job_place;
 /* The bed of that job, into the folder of this one; snapshot NaN: its checkpoint. Safe on the disk after job_folder_sync
  * or data_folder_sync. False: errno says why. */
 bool store_bring_start(job_store *store, const char *from, double snapshot, const char *id);
@@ -66,7 +66,7 @@ bool store_bring_start(job_store *store, const char *from, double snapshot, cons
 const char *job_started_from(const job_spec *spec);
 /* Between begin and end: one job's rows. text: its canonical specification. number: 0 takes the next. */
 store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,
-                              const char *text, const study_place *place, const calibration *machine);
+                              const char *text, const job_place *place, const calibration *machine);
 /* study_parts.c: a text of the table with the long parts of its study in it; NULL: no memory, or a part is missing. */
 char *study_parts_expand(sqlite3 *database, int64_t study, const char *text);
 /* machine_speed.c, between begin and end: what its steps have to do, for when it has run. */

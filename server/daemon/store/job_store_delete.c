@@ -75,13 +75,6 @@ store_status store_retry_study(job_store *store, const char *id)
     return status == STORE_OK ? store_end(store, put_failed_into_queue(store, id)) : status;
 }
 
-static double unix_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Out of the way before the answer is sent; what is in them goes later (folder_remover.h). */
 static void put_folders_aside(job_store *store, double since)
 {

@@ -21,13 +21,6 @@ enum { LONGEST_DELAY = 3600 /* s; no job is put off for longer */ };
 /* s: no longer, so that a job goes on soon after the machine is sound again */
 #define LONGEST_DELAY_OF_SETBACKS 60.0
 
-static double unix_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
 {
     const int code = sqlite3_step(statement);

@@ -92,19 +92,13 @@ static store_status let_go(pruning *p, const char *id, bool is_study)
     if (!p->rules->only_tell) status = is_study ? store_delete_study(p->store, id) : store_delete_job(p->store, id);
     if (status == STORE_CONFLICT || status == STORE_NOT_FOUND) return STORE_OK; /* somebody was there before */
     if (status != STORE_OK) return status;
-    log_line("%s %s: deleted to make room, %.3g MB", is_study ? "study" : "job", id, 1e-6 * bytes);
+    log_line("%s %s: %sdeleted to make room, %.3g MB", is_study ? "study" : "job", id, p->rules->only_tell ? "would be " : "",
+             1e-6 * bytes);
     if (is_study) p->tally->studies++;
     else p->tally->jobs++;
     p->tally->bytes += bytes;
     p->bytes -= bytes;
     return STORE_OK;
-}
-
-static void remove_file(const data_folder *data, const char *id, const char *folder, const char *name)
-{
-    char path[200];
-    snprintf(path, sizeof path, "%s/%s%s%s", id, folder ? folder : "", folder ? "/" : "", name);
-    unlinkat(data->jobs, path, 0);
 }
 
 static void remove_snapshots(const data_folder *data, const char *id)
@@ -116,10 +110,9 @@ static void remove_snapshots(const data_folder *data, const char *id)
         if (entry->d_name[0] != '.') unlinkat(inner, entry->d_name, 0);
     if (list) closedir(list);
     else if (inner >= 0) close(inner);
+    static const char *const beside[] = { JOB_SERIES_FILE, JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE };
+    for (size_t f = 0; job >= 0 && f < sizeof beside / sizeof beside[0]; f++) unlinkat(job, beside[f], 0);
     if (job >= 0) close(job);
-    remove_file(data, id, NULL, JOB_SERIES_FILE);
-    remove_file(data, id, NULL, JOB_CHECKPOINT_FILE);
-    remove_file(data, id, NULL, JOB_EARLIER_CHECKPOINT_FILE);
 }
 
 /* The rows first: what is not told of any more is nowhere missing. Not of a job that has just been tried again. */
@@ -148,7 +141,8 @@ static store_status strip(pruning *p, const char *id)
     if (row) sql_finish(row, code);
     store_return_reader(store, reader);
     const double bytes = p->rules->only_tell ? of_rows : before - bytes_in(store->data->jobs, id, DEEPEST);
-    log_line("job %s: snapshots and checkpoints removed to make room, %.3g MB", id, 1e-6 * bytes);
+    log_line("job %s: snapshots and checkpoints %sremoved to make room, %.3g MB", id, p->rules->only_tell ? "would be " : "",
+             1e-6 * bytes);
     p->tally->stripped++;
     p->tally->bytes += bytes;
     p->bytes -= bytes;

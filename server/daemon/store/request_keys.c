@@ -23,13 +23,6 @@ void store_use_key(request_key *key)
 
 void store_name_made(const char *id) { snprintf(made, sizeof made, "%s", id); }
 
-static double unix_seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_REALTIME, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
 /* Those whose time is up, and the oldest of too many. */
 static store_status forget_old(job_store *store, double now)
 {

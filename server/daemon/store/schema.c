@@ -160,8 +160,7 @@ static const char request_keys[] = "CREATE TABLE request_key("
                                    "CREATE INDEX request_key_age ON request_key(since);";
 
 /* Jobs run by priority. Among those of one priority clients, who name themselves in the label, take turns: each job has a turn
- * behind the client's others that wait and behind those that have run (queue_turn). What waits shorter than two seconds has an
- * index of its own. */
+ * behind the client's others that wait and behind those that have run (queue_turn). */
 static const char turns_of_clients[] =
     "ALTER TABLE job ADD COLUMN priority INTEGER NOT NULL DEFAULT 0;"
     "ALTER TABLE job ADD COLUMN client TEXT NOT NULL DEFAULT '';"

@@ -158,7 +158,7 @@ static bool stage_job(void *context, const job_spec *spec, size_t index, int rep
 {
     study_stage *stage = context;
     const int64_t number = (int64_t)repeat * (int64_t)stage->study->cases + (int64_t)index + 1;
-    const study_place place = { 1, (int64_t)index, repeat };
+    const job_place place = { 1, (int64_t)index, repeat, number };
     char id[JOB_ID_SIZE];
     store_write_id(id, stage->second, stage->bits + (uint32_t)number);
     char *text = study_parts_write(&stage->parts, spec);
