@@ -83,6 +83,16 @@ bool file_write(const char *name, const char *text, size_t length)
     return false;
 }
 
+bool file_write_stream(const char *name, FILE *stream, char **text, const size_t *length)
+{
+    const bool made = stream && fclose(stream) == 0 && *text;
+    if (!made) worker_warn("can't write %s: out of memory", name);
+    const bool written = made && file_write(name, *text, *length);
+    free(*text);
+    *text = NULL;
+    return written;
+}
+
 char *file_read(const char *name, size_t most, size_t *length)
 {
     FILE *file = fopen(name, "rbe");

@@ -8,6 +8,7 @@
  */
 #include "snapshot_file.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -145,9 +146,10 @@ bool snapshot_file_write(const dem_scene *scene, bool is_mirrored, int64_t numbe
     free(integers);
     free(vertices);
     struct stat status;
-    if (!written || stat(name, &status) != 0) return false;
-    *bytes = status.st_size;
-    return true;
+    const bool is_there = written && stat(name, &status) == 0;
+    if (is_there) *bytes = status.st_size;
+    else if (written) file_log_write_failure(name, strerror(errno)); /* somebody took it away, or its folder */
+    return is_there;
 }
 
 bool snapshot_series_write(const schedule *plan, double time_step, int64_t count)
@@ -155,14 +157,11 @@ bool snapshot_series_write(const schedule *plan, double time_step, int64_t count
     char *text = NULL;
     size_t length = 0;
     FILE *stream = open_memstream(&text, &length);
-    if (!stream) return false;
+    if (!stream) return file_write_stream(JOB_SERIES_FILE, NULL, &text, &length);
     fputs("{\"file-series-version\":\"1.0\",\"files\":[", stream);
     for (int64_t number = 0; number < count; number++)
         fprintf(stream, "%s\n{\"name\":\"" JOB_SNAPSHOT_FOLDER "/" JOB_SNAPSHOT_FILE_FORMAT "\",\"time\":%.9g}", number ? "," : "",
                 (long long)number, (double)schedule_snapshot_step(plan, number) * time_step);
     fputs("\n]}\n", stream);
-    bool written = fclose(stream) == 0 && text;
-    written = written && file_write(JOB_SERIES_FILE, text, length);
-    free(text);
-    return written;
+    return file_write_stream(JOB_SERIES_FILE, stream, &text, &length);
 }

@@ -168,15 +168,10 @@ bool walls_file_write(const dem_scene *scene, const dem_scene_definition *defini
     char *text = NULL;
     size_t length = 0;
     FILE *stream = s ? open_memstream(&text, &length) : NULL;
-    bool written = false;
     if (stream) {
         add_walls(s, scene, definition);
         print(stream, s, dem_scene_time(scene), dem_scene_turned(scene), is_mirrored);
-        written = fclose(stream) == 0 && text && file_write(JOB_WALLS_FILE, text, length);
-    } else {
-        worker_warn("can't write " JOB_WALLS_FILE ": out of memory");
     }
-    free(text);
     free(s);
-    return written;
+    return file_write_stream(JOB_WALLS_FILE, stream, &text, &length);
 }
