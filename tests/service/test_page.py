@@ -60,6 +60,11 @@ def find_all(browser, selector):
     return browser.find_elements(By.CSS_SELECTOR, selector)
 
 
+def click(browser, selector):
+    """What the page may draw anew at any moment."""
+    until(browser, lambda b: find(b, selector).click() or True)
+
+
 def row_of(browser, job):
     return until(browser, lambda b: find(b, f"#job-{job}"))
 
@@ -250,7 +255,7 @@ def test_a_daemon_out_of_reach_is_said_and_its_return_is_noticed(fake, browser):
     assert row_of(browser, job).is_displayed()  # what was there stays
     assert find(browser, "#connection").text == "not live"
     fake.start()
-    find(browser, "#trouble button").click()
+    click(browser, "#trouble button")
     until(browser, lambda b: find(b, "#connection").text == "live")
     assert not find(browser, "#trouble").is_displayed()
 

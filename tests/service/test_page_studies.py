@@ -5,7 +5,7 @@ import subprocess
 import requests
 from conftest import SPEC
 from selenium.webdriver.common.keys import Keys
-from test_page import HOSTILE, browser, daemon_with_token, find, find_all, jobs_shown, scrolls_sideways, until, use_phone  # noqa: F401
+from test_page import HOSTILE, browser, click, daemon_with_token, find, find_all, jobs_shown, scrolls_sideways, until, use_phone  # noqa: F401
 
 
 def submit(daemon, **study):
@@ -29,7 +29,7 @@ def test_a_study_is_followed_to_its_table(fake, browser):
     browser.get(fake.url)
     study = submit(fake, name="followed", cases=cases, repeats=3)
     find(browser, ".places a[href$='studies.html']").click()
-    until(browser, lambda b: find(b, f"#study-{study} a")).click()
+    click(browser, f"#study-{study} a")
     until(browser, lambda b: find(b, "#head .badge").text == "failed")
     until(browser, lambda b: find_all(b, "#cases tbody tr")[0].text.count("3 of 3"))
     headings = [cell.text for cell in find_all(browser, "#cases thead th")]
@@ -57,12 +57,12 @@ def test_a_study_is_followed_to_its_table(fake, browser):
 def test_a_study_can_be_cancelled(fake, browser):
     study = submit(fake, name="long", base={"inputs": SPEC, "label": {"fake": "slow", "seconds": "60"}}, repeats=4)
     browser.get(f"{fake.url}/web/studies.html#{study}")
-    until(browser, lambda b: find(b, "#head .stop").click() or True)  # the head is drawn anew at each look
+    click(browser, "#head .stop")
     assert find(browser, "#confirm").is_displayed() and find(browser, "#confirm-what").text == "long"
     find(browser, "#confirm button[value=keep]").click()
     until(browser, lambda b: not find(b, "#confirm").is_displayed())
     assert fake.get(f"/studies/{study}").json()["counts"]["dismissed"] == 0
-    until(browser, lambda b: find(b, "#head .stop").click() or True)  # the head is drawn anew at each look
+    click(browser, "#head .stop")
     find(browser, "#confirm button[value=cancel]").click()
     until(browser, lambda b: find(b, "#head .badge").text == "dismissed")
     assert fake.get(f"/studies/{study}").json()["counts"]["dismissed"] == 4
