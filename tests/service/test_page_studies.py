@@ -5,7 +5,12 @@ import subprocess
 import requests
 from conftest import SPEC
 from selenium.webdriver.common.keys import Keys
-from test_page import HOSTILE, browser, click, daemon_with_token, find, find_all, jobs_shown, scrolls_sideways, until, use_phone  # noqa: F401
+from test_page import HOSTILE, browser, daemon_with_token, find, find_all, jobs_shown, scrolls_sideways, until, use_phone  # noqa: F401
+
+
+def click(browser, selector):
+    """What the page may draw anew at any moment."""
+    until(browser, lambda b: find(b, selector).click() or True)
 
 
 def submit(daemon, **study):
