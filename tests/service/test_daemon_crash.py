@@ -257,8 +257,8 @@ def test_a_link_that_takes_the_place_of_the_snapshots_during_a_run_is_not_follow
         (out / "snapshots").rename(out / "kept")
         (out / "snapshots").symlink_to(stranger)
         _, said = worker.communicate(timeout=60)
-    # "No such file" where a snapshot was being written at that very moment.
-    assert worker.returncode == 5 and ("no folder any more" in said or "No such file" in said), said
+    # The second message where a snapshot was being written at that very moment: what HDF5 says of it depends on how far it was.
+    assert worker.returncode == 5 and ("no folder any more" in said or "can't write snapshots/" in said), said
     assert list(stranger.iterdir()) == []
 
 
