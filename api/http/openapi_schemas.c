@@ -73,6 +73,40 @@ static json_t *results_schema(const process_type *process)
     return schema;
 }
 
+/* "unit of mass rate": "UnitOfMassRate" */
+static void write_unit_name(char *name, size_t size, const char *title)
+{
+    size_t length = 0;
+    bool begins = true;
+    for (; *title && length + 1 < size; title++) {
+        if (*title != ' ') name[length++] = begins ? (char)toupper((unsigned char)*title) : *title;
+        begins = *title == ' ';
+    }
+    name[length] = '\0';
+}
+
+/* The units of a dimension stand once in the document, however many inputs are of it; their order tells nothing. */
+static void share_units(json_t *schema, json_t *schemas)
+{
+    const char *key, *title;
+    json_t *member;
+    size_t i;
+    void *next;
+    json_object_foreach_safe(schema, next, key, member)
+    {
+        title = strcmp(key, "unit") == 0 ? json_string_value(json_object_get(member, "title")) : NULL;
+        if (title && strncmp(title, "unit of ", 8) == 0) {
+            char name[60];
+            write_unit_name(name, sizeof name, title);
+            if (!json_object_get(schemas, name)) json_object_set(schemas, name, member);
+            json_object_set_new(schema, key, json_pack("{s:o}", "$ref", json_sprintf("#/components/schemas/%s", name)));
+        } else {
+            share_units(member, schemas);
+        }
+    }
+    json_array_foreach(schema, i, member) share_units(member, schemas);
+}
+
 static json_t *inputs_schema(const process_type *process)
 {
     json_t *schema = process_inputs_schema(process);
@@ -144,7 +178,9 @@ json_t *openapi_schemas(void)
     for (size_t p = 0; !failed && process_types[p]; p++) {
         char name[60];
         write_name(name, sizeof name, process_types[p], "Inputs");
-        failed = json_object_set_new(schemas, name, inputs_schema(process_types[p]));
+        json_t *inputs = inputs_schema(process_types[p]);
+        share_units(inputs, schemas);
+        failed = json_object_set_new(schemas, name, inputs);
         write_name(name, sizeof name, process_types[p], "Results");
         failed = failed || json_object_set_new(schemas, name, results_schema(process_types[p]));
     }

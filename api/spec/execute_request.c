@@ -86,12 +86,12 @@ json_t *execute_request_wanted(const json_t *request)
 
 /* --- qualified values --- */
 
-/* Borrowed: what a qualified value holds, else the value itself. */
+/* Borrowed: what a qualified value holds, else the value itself; a number with its unit is one (unit_table.h). */
 static json_t *value_of(json_t *value, const char *pointer, problem_list *problems)
 {
     static const char *const known[] = { "value", "mediaType", "encoding", "schema", "format", NULL };
     json_t *inner = json_is_object(value) ? json_object_get(value, "value") : NULL;
-    if (!inner) return value;
+    if (!inner || json_object_get(value, "unit")) return value;
     refuse_unknown_members(value, pointer, known, problems);
     const json_t *media = json_object_get(value, "mediaType");
     if (!media) media = json_object_get(json_object_get(value, "format"), "mediaType");

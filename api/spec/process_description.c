@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "process_type.h"
+#include "unit_table.h"
 
 static json_t *group_schema(const spec_table *table, spec_group group);
 
@@ -11,16 +12,24 @@ static json_t *whole_or_real(double number)
                                                                                    : json_real(number);
 }
 
+/* A number in the field's unit, or an object that names another. Words of a schema that are about numbers say nothing of
+ * objects, and the other way round. */
 static json_t *number_schema(const spec_field *field)
 {
-    json_t *schema = json_pack("{s:s}", "type", field->kind == FIELD_INTEGER ? "integer" : "number");
+    json_t *schema = json_pack("{s:[s, s]}", "type", field->kind == FIELD_INTEGER ? "integer" : "number", "object");
     json_object_set_new(schema, field->minimum_open ? "exclusiveMinimum" : "minimum", whole_or_real(field->minimum));
     json_object_set_new(schema, "maximum", whole_or_real(field->maximum));
     if (field->least_size > 0.0)
         json_object_set_new(schema, "not",
-                            json_pack("{s:f, s:f}", "exclusiveMinimum", -field->least_size, "exclusiveMaximum", field->least_size));
+                            json_pack("{s:s, s:f, s:f}", "type", "number", "exclusiveMinimum", -field->least_size,
+                                      "exclusiveMaximum", field->least_size));
     if (!isnan(field->fallback)) json_object_set_new(schema, "default", whole_or_real(field->fallback));
     if (*field->unit) json_object_set_new(schema, "x-unit", json_string(field->unit));
+    json_t *unit = json_pack("{s:s, s:o}", "type", "string", "enum", unit_names(field));
+    if (field->kind != FIELD_INTEGER) json_object_set_new(unit, "title", json_sprintf("unit of %s", unit_dimension(field)));
+    json_object_set_new(schema, "properties", json_pack("{s:{s:s}, s:o}", "value", "type", "number", "unit", unit));
+    json_object_set_new(schema, "required", json_pack("[s, s]", "value", "unit"));
+    json_object_set_new(schema, "additionalProperties", json_false());
     return schema;
 }
 

@@ -13,6 +13,23 @@ const spec_field *spec_field_find(const spec_table *table, spec_group group, con
 
 enum { LONGEST_NAME = 40 };
 
+const spec_field *spec_field_at(const spec_table *table, const char *pointer)
+{
+    const spec_field *field = NULL;
+    spec_group group = SPEC_INPUTS;
+    for (const char *step = pointer; *step;) {
+        const size_t length = strcspn(step, "/");
+        char name[LONGEST_NAME + 1];
+        snprintf(name, sizeof name, "%.*s", (int)length, step);
+        const bool is_entry = field && field->kind >= FIELD_LIST && strspn(name, "0123456789") == strlen(name);
+        if (!is_entry) field = spec_field_find(table, group, name);
+        if (!field) return NULL;
+        group = field->child;
+        step += length + (step[length] == '/');
+    }
+    return field;
+}
+
 /* Levenshtein distance: letters inserted, left out or replaced between two names. */
 static size_t edit_distance(const char *a, const char *b)
 {

@@ -106,6 +106,9 @@ typedef struct spec_table {
 /* NULL when the group has no such member. */
 const spec_field *spec_field_find(const spec_table *table, spec_group group, const char *name);
 
+/* The field at a JSON pointer below the inputs, "particles/0/diameter"; NULL: there is none. */
+const spec_field *spec_field_at(const spec_table *table, const char *pointer);
+
 /* A member that `name`, unknown in `group`, was probably meant to be: NULL when nothing is near. It may belong to
  * another group. */
 const spec_field *spec_field_nearest(const spec_table *table, spec_group group, const char *name);

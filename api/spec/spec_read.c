@@ -6,11 +6,17 @@
 
 #include "spec_fields.h"
 #include "spec_text.h"
+#include "unit_table.h"
 
 enum { LONGEST_MEMBER_NAME = 64, LONGEST_VALUE = 60 };
 
 void json_value_text(const json_t *value, char *text, size_t size)
 {
+    const json_t *number = json_object_get(value, "value"), *unit = json_object_get(value, "unit");
+    if (json_is_number(number) && json_is_string(unit)) {
+        snprintf(text, size, "%.15g %.30s", json_number_value(number), json_string_value(unit));
+        return;
+    }
     if (json_is_object(value) || json_is_array(value)) {
         snprintf(text, size, json_is_object(value) ? "an object" : "a list");
         return;
@@ -49,37 +55,70 @@ static void range_text(const spec_field *field, char *text, size_t size)
     if (field->least_size > 0.0) snprintf(text + length, size - length, ", and at least %g in size", field->least_size);
 }
 
-/* Why it can't be used. */
-static void refuse_number(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
+/* Why it can't be used. value: as it was written, a number or a quantity, which comes to this number. */
+static void refuse_number(const spec_field *field, const json_t *value, double number, const char *pointer, problem_list *problems)
 {
     const bool integer = field->kind == FIELD_INTEGER;
-    const double number = json_number_value(value);
     const bool low = field->minimum_open ? number <= field->minimum : number < field->minimum;
-    char seen[LONGEST_VALUE], range[120];
-    json_value_text(value, seen, sizeof seen);
-    range_text(field, range, sizeof range);
     const char *space = *field->unit ? " " : "";
-    if (!json_is_number(value))
-        problem_list_add(problems, pointer, "is %s; must be %s in %s", seen, integer ? "a whole number" : "a number", range);
+    char written[LONGEST_VALUE], seen[2 * LONGEST_VALUE], range[120];
+    json_value_text(value, written, sizeof written);
+    if (json_is_object(value)) snprintf(seen, sizeof seen, "%s, which is %.15g%s%s", written, number, space, field->unit);
+    else snprintf(seen, sizeof seen, "%s%s%s", written, space, field->unit);
+    range_text(field, range, sizeof range);
+    if (!json_is_number(value) && !json_is_object(value))
+        problem_list_add(problems, pointer, "is %s; must be %s in %s", written, integer ? "a whole number" : "a number", range);
     else if (low || !(number <= field->maximum) || fabs(number) < field->least_size)
-        problem_list_add(problems, pointer, "is %s%s%s; must be in %s", seen, space, field->unit, range);
+        problem_list_add(problems, pointer, "is %s; must be in %s", seen, range);
     else if (integer && number != floor(number))
         problem_list_add(problems, pointer, "is %s; must be a whole number in %s", seen, range);
     else /* below the smallest normal double digits are already lost: such a number is a slip, not a wish */
-        problem_list_add(problems, pointer, "is %s%s%s; too close to 0 to be kept, must be in %s", seen, space, field->unit, range);
+        problem_list_add(problems, pointer, "is %s; too close to 0 to be kept, must be in %s", seen, range);
+}
+
+/* Of {"value": 15, "unit": "rpm"} what it comes to in the field's unit; false: that can't be told, and a problem says why. */
+static bool read_quantity(const spec_field *field, const json_t *quantity, const char *pointer, double *number,
+                          problem_list *problems)
+{
+    static const char *const known[] = { "value", "unit", NULL };
+    const json_t *value = json_object_get(quantity, "value"), *unit = json_object_get(quantity, "unit");
+    char seen[LONGEST_VALUE], allowed[UNITS_TEXT_SIZE], range[120];
+    unit_names_text(field, allowed);
+    range_text(field, range, sizeof range);
+    if (value || unit) refuse_unknown_members(quantity, pointer, known, problems);
+    if (!value && !unit) {
+        problem_list_add(problems, pointer, "is an object; must be %s in %s, or {\"value\": ..., \"unit\": ...}",
+                         field->kind == FIELD_INTEGER ? "a whole number" : "a number", range);
+    } else if (!json_is_number(value)) {
+        json_value_text(value, seen, sizeof seen);
+        problem_list_add(problems, pointer, "has %s%s; must be a number in %s", value ? "the value " : "no value",
+                         value ? seen : "", range);
+    } else if (!json_is_string(unit)) {
+        json_value_text(unit, seen, sizeof seen);
+        problem_list_add(problems, pointer, "has the value %.15g and %s%s; units allowed: %s", json_number_value(value),
+                         unit ? "the unit " : "no unit", unit ? seen : "", allowed);
+    } else if (unit_convert(field, json_string_value(unit), json_number_value(value), number)) {
+        return true;
+    } else {
+        json_value_text(unit, seen, sizeof seen);
+        problem_list_add(problems, pointer, "is %.15g with the unit %s; units allowed: %s", json_number_value(value), seen,
+                         allowed);
+    }
+    return false;
 }
 
 /* Nothing is written in words before something is wrong: a bed of ten thousand particles has ten times as many numbers. */
 static double read_number(const spec_field *field, const json_t *value, const char *pointer, problem_list *problems)
 {
-    const double number = json_number_value(value);
+    double number = json_number_value(value);
+    if (json_is_object(value) && !read_quantity(field, value, pointer, &number, problems)) return NAN;
     const bool high_enough = field->minimum_open ? number > field->minimum : number >= field->minimum;
     const bool whole_where_asked = field->kind != FIELD_INTEGER || number == floor(number);
     const bool kept = number == 0.0 || fabs(number) >= 2.2250738585072014e-308; /* the smallest normal double */
-    if (json_is_number(value) && high_enough && number <= field->maximum && fabs(number) >= field->least_size && whole_where_asked
-        && kept)
+    if ((json_is_number(value) || json_is_object(value)) && high_enough && number <= field->maximum
+        && fabs(number) >= field->least_size && whole_where_asked && kept)
         return number == 0.0 ? 0.0 : number; /* -0 would be another text for the same input */
-    refuse_number(field, value, pointer, problems);
+    refuse_number(field, value, number, pointer, problems);
     return NAN;
 }
 
@@ -268,6 +307,8 @@ static void read_place(const spec_field *field, const json_t *value, const char 
     char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
     for (size_t c = 0; c < numbers; c++) place[c] = field->required ? NAN : field->fallback;
     if (!value && !field->required) return;
+    const json_t *unit = is_quantity(value) ? json_object_get(value, "unit") : NULL; /* of all of them */
+    if (unit) value = json_object_get(value, "value");
     if (json_array_size(value) != numbers) {
         range_text(field, range, sizeof range);
         json_value_text(value, seen, sizeof seen);
@@ -278,7 +319,10 @@ static void read_place(const spec_field *field, const json_t *value, const char 
     }
     for (size_t c = 0; c < numbers; c++) {
         snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
-        place[c] = read_number(field, json_array_get(value, c), entry, problems);
+        json_t *number = json_array_get(value, c);
+        json_t *quantity = unit ? json_pack("{s:O, s:O}", "value", number, "unit", unit) : NULL;
+        place[c] = read_number(field, quantity ? quantity : number, entry, problems);
+        json_decref(quantity);
     }
 }
 

@@ -7,6 +7,7 @@
 #include "merge_patch.h"
 #include "process_type.h"
 #include "spec_text.h"
+#include "unit_table.h"
 
 enum { LONGEST_DESCRIPTION = 2000, MOST_COLUMNS = 200 };
 #define INPUTS "/inputs"
@@ -108,7 +109,7 @@ static void add_leaves(study_spec *study, const json_t *value, char pointer[JSON
     const char *name;
     json_t *member;
     size_t i;
-    if (json_is_object(value)) {
+    if (json_is_object(value) && !is_quantity(value)) {
         json_object_foreach((json_t *)value, name, member)
         {
             if (json_pointer_append(pointer, name)) add_leaves(study, member, pointer);
@@ -309,6 +310,15 @@ static void name_in_label(const study_spec *study, size_t index, json_t *request
     if (!json_object_get(label, "case")) json_object_set_new(label, "case", json_string(name));
 }
 
+/* A seed that is written as an object is counted up as any other. */
+static void plain_seed(json_t *inputs)
+{
+    static const spec_field counted = { .kind = FIELD_INTEGER, .unit = "" };
+    json_t *seed = json_object_get(inputs, "seed"), *number = quantity_to_json(&counted, seed);
+    if (!number && json_object_size(seed) == 1) number = json_incref(json_object_get(seed, "value"));
+    if (number) json_object_set_new(inputs, "seed", number);
+}
+
 json_t *study_job_request(const study_spec *study, size_t index, int repeat)
 {
     json_t *request = case_request(study, index);
@@ -316,6 +326,7 @@ json_t *study_job_request(const study_spec *study, size_t index, int repeat)
     name_in_label(study, index, request);
     json_object_set_new(request, "priority", json_integer(study->priority));
     json_t *inputs = own_member(request, "inputs");
+    plain_seed(inputs);
     const json_t *seed = json_object_get(inputs, "seed");
     /* A seed beyond its range stays as it is, to be refused. */
     if (repeat > 0 && json_is_integer(seed) && json_integer_value(seed) <= (json_int_t)LARGEST_WHOLE_NUMBER)
@@ -353,12 +364,15 @@ void study_case_name(const study_spec *study, size_t index, char name[STUDY_NAME
 json_t *study_case_inputs(const study_spec *study, size_t index)
 {
     json_t *request = case_request(study, index), *inputs = json_object();
+    const process_type *type = process_type_find(study->process);
     for (size_t c = 0; request && c < json_array_size(study->columns); c++) {
         const char *column = json_string_value(json_array_get(study->columns, c));
         char pointer[JSON_POINTER_SIZE + 8];
         snprintf(pointer, sizeof pointer, INPUTS "/%s", column);
         json_t *value = json_pointer_find(request, pointer);
-        json_object_set_new(inputs, column, value ? json_incref(value) : json_null());
+        const spec_field *field = type && is_quantity(value) ? spec_field_at(type->inputs, column) : NULL;
+        json_t *number = field && field->kind <= FIELD_INTEGER ? quantity_to_json(field, value) : NULL;
+        json_object_set_new(inputs, column, number ? number : value ? json_incref(value) : json_null());
     }
     json_decref(request);
     return inputs;

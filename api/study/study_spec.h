@@ -46,7 +46,8 @@ void study_spec_clear(study_spec *study);
  * nowhere in the base. */
 json_t *study_job_request(const study_spec *study, size_t index, int repeat);
 void study_case_name(const study_spec *study, size_t index, char name[STUDY_NAME_SIZE]);
-/* {column: value} of the case, as its request has them; null: not given. New reference. */
+/* {column: value} of the case, as its request has them, but for numbers with units: those in the column's own; null: not
+ * given. New reference. */
 json_t *study_case_inputs(const study_spec *study, size_t index);
 /* Where the value of this column stands in its list, for this case of all combinations. */
 size_t study_value_index(const study_spec *study, size_t index, size_t column);

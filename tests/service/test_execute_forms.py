@@ -177,3 +177,39 @@ def test_how_results_are_wanted_outlives_the_daemon_and_is_no_part_of_the_specif
     assert requests.get(address, timeout=30).json() == stored["packing"]
     assert requests.get(address.replace("results", "spec"), timeout=30).json().keys() == {"process", "inputs", "label"}
     daemon.stop()
+
+
+def test_numbers_with_units_are_kept_in_si_and_other_dimensions_are_refused_all_at_once(service):
+    mm = lambda value: {"value": value, "unit": "mm"}
+    inputs = {"drum": {"diameter": mm(50), "length": {"value": 2, "unit": "cm"}, "rotation_rate": {"value": 30, "unit": "rpm"}},
+              "particles": [{"diameter": mm(5), "density": {"value": 2.5, "unit": "g/cm3"}}], "seed": 1,
+              "duration": {"seconds": {"value": 50, "unit": "ms"}}}
+    posted = service.post(inputs, {"fake": "quick"})
+    assert posted.status_code == 201, posted.text
+    kept = service.get(f"/jobs/{posted.json()['jobID']}/spec").json()["inputs"]
+    assert kept["drum"]["diameter"] == 0.05 and kept["drum"]["length"] == 0.02 and kept["particles"][0]["diameter"] == 0.005
+    assert abs(kept["drum"]["rotation_rate"] - 3.141592653589793) < 1e-15 and kept["duration"] == {"seconds": 0.05}
+    assert kept["particles"][0]["density"] == 2500
+    inputs["drum"]["diameter"]["unit"], inputs["particles"][0]["density"]["unit"] = "kg", "mm"
+    errors = {error["pointer"]: error["detail"] for error in
+              service.post(inputs, {"fake": "quick"}).json()["errors"]}
+    assert errors.keys() == {"/inputs/drum/diameter", "/inputs/particles/0/density"}
+    assert errors["/inputs/drum/diameter"].startswith('is 50 with the unit "kg"; units allowed: m, cm, mm, ')
+    schema = service.get("/processes/drum").json()["inputs"]["drum"]["schema"]
+    check = jsonschema.Draft202012Validator(schema)
+    assert check.is_valid({"diameter": mm(50), "length": 0.02, "rotation_rate": {"value": 30, "unit": "rpm"}})
+    assert not check.is_valid({"diameter": mm(50), "length": 0.02, "rotation_rate": {"value": 30, "unit": "kg"}})
+    assert not check.is_valid({"diameter": {"value": 50}, "length": 0.02, "rotation_rate": 1})
+    assert not check.is_valid({"diameter": 50, "length": 0.02, "rotation_rate": 1})
+
+
+def test_a_study_with_units_tells_its_cases_in_si(service):
+    base = {"inputs": {"friction": 0.3, "radius": {"value": 63, "unit": "mm"}}, "process": "granule"}
+    posted = requests.post(f"{service.url}/studies", timeout=30, json={"base": base, "cases": [
+        {"name": "slow", "inputs": {"rotation_rate": {"value": 30, "unit": "rpm"}}}, {"name": "fast", "inputs": {"rotation_rate": 18}}]})
+    assert posted.status_code == 201, posted.text
+    address = f"/studies/{posted.json()['studyID']}"
+    service.get(f"{address}?wait=30")
+    # The table has 15 digits.
+    rates = [case["inputs"]["rotation_rate"] for case in service.get(f"{address}/results").json()["cases"]]
+    assert abs(rates[0] - 3.141592653589793) < 5e-14 and rates[1] == 18

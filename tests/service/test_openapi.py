@@ -277,11 +277,24 @@ def test_documented_processes_are_those_that_are_listed(daemon, contract):
     assert listed == contract.document["components"]["schemas"]["ProcessId"]["enum"] == [name for name, _ in PROCESSES]
 
 
+def with_units(schema, contract):
+    """The document has the units of a dimension once, in the order in which they come first."""
+    if isinstance(schema, list):
+        return [with_units(one, contract) for one in schema]
+    if not isinstance(schema, dict):
+        return schema
+    if schema.get("$ref", "").startswith("#/components/schemas/UnitOf"):
+        schema = contract.document["components"]["schemas"][schema["$ref"].rsplit("/", 1)[1]]
+    if schema.get("title", "").startswith("unit of "):
+        return schema | {"enum": sorted(schema["enum"])}
+    return {name: with_units(member, contract) for name, member in schema.items()}
+
+
 @pytest.mark.parametrize("process, schemas", PROCESSES)
 def test_documented_inputs_are_those_of_the_process_description(daemon, contract, process, schemas):
     description = requests.get(f"{daemon.url}/processes/{process}").json()["inputs"]
     documented = contract.document["components"]["schemas"][f"{schemas}Inputs"]
-    assert documented["properties"] == {name: given["schema"] for name, given in description.items()}
+    assert with_units(documented["properties"], contract) == with_units({name: given["schema"] for name, given in description.items()}, contract)
     assert set(documented["required"]) == {name for name, given in description.items() if given["minOccurs"] == 1}
 
 
@@ -345,7 +358,9 @@ def test_the_program_writes_the_schemas_of_inputs_and_results_into_the_document(
     assert subprocess.run([BUILD / "reposed", "openapi", tmp_path / "other.yaml"], stderr=subprocess.DEVNULL, check=False).returncode == 1
     assert (tmp_path / "other.yaml").read_text() == "openapi: 3.1.0\n"
     written = set(yaml.safe_load(textwrap.dedent(line.split("\n", 1)[1])))
-    assert {f"{name}{what}" for _, name in PROCESSES for what in ("Inputs", "Results")} | {"Summary", "ProcessId", "Results"} == written
+    units = {name for name in written if name.startswith("UnitOf")}
+    assert len(units) > 8 and {"UnitOfLength", "UnitOfRotation"} <= units
+    assert {f"{name}{what}" for _, name in PROCESSES for what in ("Inputs", "Results")} | {"Summary", "ProcessId", "Results"} | units == written
 
 
 def test_a_stale_document_is_served_with_the_schemas_of_the_program(tmp_path, contract):
