@@ -9,20 +9,25 @@
 #include "process_type.h"
 #include "spec_text.h"
 
-#define LONG_JOB 28800.0 /* s: it is not done after a night */
+#define LONG_JOB 3600.0 /* s: nobody waits for it */
 #define MANY_SNAPSHOT_BYTES 2e10
 
+/* In two units, of which the second is rounded; what is shorter than a minute in one. */
 void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE])
 {
     static const struct {
         double seconds;
         const char *unit;
-    } units[] = { { 86400.0, "days" }, { 3600.0, "hours" }, { 60.0, "minutes" }, { 1.0, "s" }, { 1e-3, "ms" } };
-    const size_t last = sizeof units / sizeof units[0] - 1;
-    size_t u = 0;
-    while (u < last && seconds < 1.995 * units[u].seconds) u++;
-    if (seconds < 1.0 && u < last) u = last;
-    snprintf(text, TIME_IN_WORDS_SIZE, "%.3g %s", seconds / units[u].seconds, units[u].unit);
+    } units[] = { { 86400.0, "days" }, { 3600.0, "h" }, { 60.0, "min" }, { 1.0, "s" } };
+    for (size_t u = 0; u + 1 < sizeof units / sizeof units[0]; u++) {
+        const double step = units[u + 1].seconds, rounded = step * round(seconds / step), whole = floor(rounded / units[u].seconds);
+        const double rest = (rounded - whole * units[u].seconds) / step;
+        if (!(rounded >= units[u].seconds)) continue;
+        const int length = snprintf(text, TIME_IN_WORDS_SIZE, "%.0f %s", whole, u == 0 && whole < 2.0 ? "day" : units[u].unit);
+        if (rest > 0.0) snprintf(text + length, TIME_IN_WORDS_SIZE - (size_t)length, " %.0f %s", rest, units[u + 1].unit);
+        return;
+    }
+    snprintf(text, TIME_IN_WORDS_SIZE, seconds < 1.0 ? "%.3g ms" : "%.3g s", seconds < 1.0 ? 1000.0 * seconds : seconds);
 }
 
 double rotation_of_rpm(double rpm) { return rpm * 2.0 * DEM_PI / 60.0; }

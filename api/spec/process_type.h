@@ -34,7 +34,7 @@ const process_type *process_type_find(const char *name); /* NULL: unknown */
 /* JSON Schema of all its inputs. New reference; process_description.c */
 json_t *process_inputs_schema(const process_type *process);
 
-/* "1.5 hours" */
+/* "10 days 2 h" */
 enum { TIME_IN_WORDS_SIZE = 40 };
 void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE]); /* job_warnings.c */
 

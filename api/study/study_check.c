@@ -9,6 +9,7 @@
 #include <time.h>
 
 #include "json_pointer.h"
+#include "process_type.h"
 #include "spec_memory.h"
 #include "study_spec.h"
 
@@ -230,7 +231,9 @@ bool study_check(const study_spec *study, const calibration *machine, const stud
 
 json_t *study_estimate_to_json(const study_estimate *estimate)
 {
-    return json_pack("{s:I, s:I, s:f, s:I, s:I}", "jobs", (json_int_t)estimate->jobs, "steps", (json_int_t)estimate->steps,
-                     "wall_seconds", estimate->wall_seconds, "memory_bytes", (json_int_t)estimate->memory_bytes, "snapshot_bytes",
-                     (json_int_t)estimate->snapshot_bytes);
+    char words[TIME_IN_WORDS_SIZE];
+    time_in_words(estimate->wall_seconds, words);
+    return json_pack("{s:I, s:I, s:f, s:s, s:I, s:I}", "jobs", (json_int_t)estimate->jobs, "steps", (json_int_t)estimate->steps,
+                     "wall_seconds", estimate->wall_seconds, "wall_time", words, "memory_bytes", (json_int_t)estimate->memory_bytes,
+                     "snapshot_bytes", (json_int_t)estimate->snapshot_bytes);
 }

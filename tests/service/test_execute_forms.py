@@ -3,12 +3,13 @@ by reference."""
 import email
 import json
 import sqlite3
+import subprocess
 import time
 
 import jsonschema
 import pytest
 import requests
-from conftest import ENDED, FAKE_WORKER, SPEC, Daemon
+from conftest import BUILD, ENDED, FAKE_WORKER, SPEC, Daemon
 
 EXECUTION = "/processes/drum/execution"
 PROFILE = "http://www.opengis.net/def/profile/OGC/0/ogc-results"
@@ -213,3 +214,28 @@ def test_a_study_with_units_tells_its_cases_in_si(service):
     # The table has 15 digits.
     rates = [case["inputs"]["rotation_rate"] for case in service.get(f"{address}/results").json()["cases"]]
     assert abs(rates[0] - 3.141592653589793) < 5e-14 and rates[1] == 18
+
+
+SLIPS = [  # what is given, where the warning is, and the reason in it
+    ({"particles": [{"diameter": 0.005, "density": 2.5}]}, "/inputs/particles/0/density", "if 2.5 g/cm3 were meant"),
+    ({"drum": {"diameter": 0.1, "length": 0.02, "rotation_rate": 15}}, "/inputs/drum/rotation_rate", "if 15 revolutions a minute were meant"),
+    ({"drum": {"diameter": 2.5, "length": 0.4, "rotation_rate": 0.5}, "particles": [{"diameter": 0.1}]}, "/inputs/drum/diameter", "usual is 0.005 to 2 m"),
+    ({"particles": [{"diameter": 0.006}]}, "/inputs/drum/diameter", "fewer than 10 across"),
+    ({"duration": {"revolutions": 0.8}}, "/inputs/duration", "less than one"),
+    ({"duration": {"seconds": 9000}, "drum": {"diameter": 0.1, "length": 0.1, "rotation_rate": 1}, "snapshots": {"interval": 0}}, "/inputs/duration", "on this machine"),
+    ({"threads": 256}, "/inputs/threads", "more threads bring no speed"),
+]
+
+
+def test_every_slip_is_told_in_the_201_and_by_check_with_its_reason(service, tmp_path):
+    sound = {"drum": {"diameter": 0.05, "length": 0.02, "rotation_rate": 3}, "particles": [{"diameter": 0.005}], "seed": 1,
+             "duration": {"revolutions": 1.5}}
+    for given, field, reason in SLIPS:
+        (tmp_path / "spec.json").write_text(json.dumps({"inputs": sound | given}))
+        checked = subprocess.run([BUILD / "repose", "check", tmp_path / "spec.json"], capture_output=True, text=True, check=True)
+        posted = service.post(sound | given, {"fake": "quick"})
+        assert posted.status_code == 201, posted.text
+        for told in (json.loads(checked.stdout), posted.json()):
+            texts = [warning["text"] for warning in told["warnings"] if warning["field"] == field]
+            assert any(reason in text for text in texts), (given, told["warnings"])
+            assert told["understood"].keys() >= {"rotation_rate_rpm", "froude_number", "diameter_ratio", "expected_overlap", "duration", "wall_time"}

@@ -40,6 +40,9 @@ static void warn_of_what_cannot_be_told(const job_spec *spec, problem_list *warn
         problem_list_add(warnings, "/inputs/duration",
                          "is %.3g revolutions: too short to tell whether the angle is steady, which takes %g at least", revolutions,
                          DEM_LEAST_REVOLUTIONS);
+    else if (revolutions < 1.0 - 1e-9)
+        problem_list_add(warnings, "/inputs/duration",
+                         "is %.3g revolutions, less than one: the angle still shows how the bed was made", revolutions);
     if ((double)drum->particle_count < DEM_LEAST_PARTICLES || layers < DEM_LEAST_LAYERS)
         problem_list_add(warnings, "/inputs/particles",
                          "are %zu, in %.3g layers: too few to tell whether the angle is steady, which takes %d, in %d layers, "
@@ -54,7 +57,7 @@ void drum_warn(const job_spec *spec, problem_list *warnings)
 {
     warn_of_rate(spec, warnings);
     warn_of_what_cannot_be_told(spec, warnings);
-    scene_warn(spec, warnings);
+    scene_warn(spec, "drum", warnings);
 }
 
 void drum_understand(const job_spec *spec, json_t *words)

@@ -81,7 +81,7 @@ void fill_warn(const job_spec *spec, problem_list *warnings)
                          "is %g m, above which the bed may end: particles of these shapes with much friction fill %.2g of so "
                          "narrow a cylinder, and need %.3g m",
                          spec->inputs.fill.cylinder_height, solid, needed);
-    scene_warn(spec, warnings);
+    scene_warn(spec, "cylinder", warnings);
 }
 
 static void derive_cylinder(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)

@@ -132,7 +132,7 @@ void heap_warn(const job_spec *spec, problem_list *warnings)
             warnings, "/inputs/tube/lift_speed",
             "is %.4g m/s, at which the bed falls rather than flows out; the heap is that of a slow lift up to %.3g m/s here",
             spec->scene.lift.speed, fast);
-    scene_warn(spec, warnings);
+    scene_warn(spec, "tube", warnings);
 }
 
 void heap_understand(const job_spec *spec, json_t *words)

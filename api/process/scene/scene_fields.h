@@ -44,7 +44,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
                  "cluster has its own" }, \
     { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), \
-      USUAL(30.0, 23000.0), SLIP("g/cm3", 1000.0), \
+      USUAL(100.0, 23000.0), SLIP("g/cm3", 1000.0), \
       COLUMN("density", REAL, scene.species[0].density), LISTED, IN_VIEW(210), \
       .meaning = "density of the particle itself, not of the bed" }, \
     { SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share), \

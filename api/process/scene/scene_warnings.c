@@ -1,11 +1,14 @@
 #include "scene_warnings.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "dem_rules.h"
 #include "scene_rules.h"
 
 #define SOFT_OVERLAP 0.05 /* of the smallest diameter: the most that maximum_overlap can ask for */
+
+#define LEAST_ACROSS 10.0
 
 double froude_number(double rotation_rate, double radius, double gravity)
 {
@@ -20,14 +23,29 @@ void rotation_understand(double rotation_rate, double froude, json_t *words)
     json_object_set_new(words, "froude_number", json_real(froude));
 }
 
-void scene_understand(const job_spec *spec, json_t *words)
+static double diameter_ratio(const job_spec *spec)
 {
-    json_object_set_new(words, "diameter_ratio",
-                        json_real(spec->scene.diameter / scene_of_species(&spec->scene, scene_species_width, true)));
+    return spec->scene.diameter / scene_of_species(&spec->scene, scene_species_width, true);
 }
 
-void scene_warn(const job_spec *spec, problem_list *warnings)
+void scene_understand(const job_spec *spec, json_t *words)
 {
+    json_object_set_new(words, "diameter_ratio", json_real(diameter_ratio(spec)));
+    json_object_set_new(words, "expected_overlap", json_real(spec->expected_overlap));
+}
+
+void scene_warn(const job_spec *spec, const char *container, problem_list *warnings)
+{
+    char pointer[60];
+    const double ratio = diameter_ratio(spec);
+    if (ratio < LEAST_ACROSS * (1.0 - 1e-9)) {
+        snprintf(pointer, sizeof pointer, "/inputs/%s/diameter", container);
+        problem_list_add(
+            warnings, pointer,
+            "is %.3g of the largest particle's diameters: with fewer than %g across, the wall and the places of single "
+            "particles decide the angle",
+            ratio, LEAST_ACROSS);
+    }
     const scene_inputs *inputs = &spec->inputs;
     const double overlap = spec->expected_overlap;
     if (isnan(inputs->maximum_overlap) && overlap > SOFT_OVERLAP)

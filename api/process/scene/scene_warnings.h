@@ -4,9 +4,10 @@
 
 #include "job_spec.h"
 
-/* Contacts so soft that overlaps change what is measured. */
-void scene_warn(const job_spec *spec, problem_list *warnings);
-/* Of a container so wide: how many of the largest particle diameters that is. */
+/* Contacts so soft that overlaps change what is measured, and containers so narrow that single particles do. container: the
+ * input that has its diameter. */
+void scene_warn(const job_spec *spec, const char *container, problem_list *warnings);
+/* How many of the largest particle diameters the container is wide, and the overlap to be expected. */
 void scene_understand(const job_spec *spec, json_t *words);
 
 /* omega^2 R/g, of either sense of rotation. */

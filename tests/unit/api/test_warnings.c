@@ -13,6 +13,7 @@
 #include <string.h>
 
 #include "job_spec.h"
+#include "process_type.h"
 #include "result_warnings.h"
 #include "study_spec.h"
 
@@ -106,8 +107,17 @@ static void every_slip_is_told_with_its_field(void **state)
           "particles/0/shape/spheres/0/diameter", "give 0.0009 m" },
         { DRUM, "{\"threads\": 64}", "threads", "has 2 cores" },
         { DRUM, "{\"threads\": 3}", "threads", "has 2 cores" },
-        { DRUM, "{\"drum\": {\"length\": 0.3}, \"duration\": {\"revolutions\": 500}}", "duration", "days on this machine" },
-        { DRUM, "{\"drum\": {\"length\": 0.3}, \"duration\": {\"revolutions\": 100}}", "duration", "hours on this machine" },
+        { DRUM, "{\"drum\": {\"length\": 0.3}, \"duration\": {\"revolutions\": 500}}", "duration", " days " },
+        { DRUM, "{\"drum\": {\"length\": 0.3}, \"duration\": {\"revolutions\": 100}}", "duration", " min on this machine" },
+        { DRUM, "{\"duration\": {\"seconds\": 3000}}", "duration", " h" },
+        { DRUM, "{\"duration\": {\"revolutions\": 0.9}}", "duration", "is 0.9 revolutions, less than one" },
+        { DRUM, "{\"duration\": {\"revolutions\": 0.4}}", "duration", "too short" },
+        { DRUM, "{\"drum\": {\"diameter\": 2.1, \"length\": 0.2}, \"particles\": [{\"diameter\": 0.05}]}", "drum/diameter",
+          "usual is 0.005 to 2 m" },
+        { DRUM, "{\"drum\": {\"diameter\": 0.036}}", "drum/diameter", "9.52 of the largest particle" },
+        { FILL, "{\"cylinder\": {\"diameter\": 0.027}}", "cylinder/diameter", "is 9 of the largest particle" },
+        { HEAP, "{\"tube\": {\"diameter\": 0.027}}", "tube/diameter", "is 9 of the largest particle" },
+        { DRUM, "{\"particles\": [{\"diameter\": 0.00378, \"density\": 99}]}", "particles/0/density", "usual is 100 to 23000" },
         { DRUM, "{\"gravity\": 981}", "gravity", "give 9.81 m/s2" },
         { DRUM, "{\"contact\": {\"friction\": 3}}", "contact/friction", "usual is 0 to 1.5" },
         { DRUM, "{\"contact\": {\"stiffness\": 100}}", "contact/stiffness", "so soft" },
@@ -144,7 +154,7 @@ static void what_is_usual_is_not_warned_of(void **state)
     static const char *const usual[] = {
         "{\"drum\": {\"rotation_rate\": 4}, \"threads\": 2, \"contact\": {\"maximum_overlap\": 0.05}}",
         "{\"drum\": {\"rotation_rate\": 0.1}, \"contact\": {\"friction\": 1.0}, \"gravity\": 1.62, \"fill_fraction\": 0.9}",
-        "{\"particles\": [{\"diameter\": 0.006, \"density\": 50}], \"drum\": {\"diameter\": 1.5, \"length\": 0.05}}",
+        "{\"particles\": [{\"diameter\": 0.006, \"density\": 101}], \"drum\": {\"diameter\": 0.5, \"length\": 0.02}}",
     };
     for (size_t i = 0; i < sizeof usual / sizeof usual[0]; i++) {
         json_t *warnings = warnings_of(DRUM, usual[i]);
@@ -168,11 +178,40 @@ static void a_drum_is_understood_in_other_words(void **state)
     assert_true(fabs(json_number_value(json_object_get(words, "froude_number")) - 1.5708 * 1.5708 * 0.063 / 9.81) < 1e-12);
     assert_true(fabs(json_number_value(json_object_get(words, "diameter_ratio")) - 0.126 / 0.00378) < 1e-9);
     assert_string_equal(json_string_value(json_object_get(words, "duration")), "1.25 revolutions, 5 s of rotation");
-    assert_non_null(json_object_get(words, "wall_time"));
+    assert_true(fabs(json_number_value(json_object_get(words, "expected_overlap")) / 0.01 - 1.0)
+                < 1e-9); /* what is asked for by default */
+    assert_memory_equal(json_string_value(json_object_get(words, "wall_time")), "about ", 6);
     json_decref(words);
     job_spec_clear(&spec);
     problem_list_clear(&problems);
     json_decref(request);
+}
+
+static void times_are_told_in_two_units(void **state)
+{
+    (void)state;
+    static const struct {
+        double seconds;
+        const char *words;
+    } times[] = {
+        { 0.0123, "12.3 ms" },
+        { 1.0, "1 s" },
+        { 12.34, "12.3 s" },
+        { 59.9, "1 min" },
+        { 300.0, "5 min" },
+        { 301.0, "5 min 1 s" },
+        { 3599.7, "1 h" },
+        { 5400.0, "1 h 30 min" },
+        { 86399.0, "1 day" },
+        { 90000.0, "1 day 1 h" },
+        { 10 * 86400.0 + 2 * 3600.0, "10 days 2 h" },
+        { 1e9, "11574 days 2 h" },
+    };
+    for (size_t i = 0; i < sizeof times / sizeof times[0]; i++) {
+        char words[TIME_IN_WORDS_SIZE];
+        time_in_words(times[i].seconds, words);
+        assert_string_equal(words, times[i].words);
+    }
 }
 
 static void a_study_tells_a_warning_once_and_where_it_comes_from(void **state)
@@ -241,6 +280,7 @@ int main(void)
         cmocka_unit_test(every_slip_is_told_with_its_field),
         cmocka_unit_test(what_is_usual_is_not_warned_of),
         cmocka_unit_test(a_drum_is_understood_in_other_words),
+        cmocka_unit_test(times_are_told_in_two_units),
         cmocka_unit_test(a_study_tells_a_warning_once_and_where_it_comes_from),
         cmocka_unit_test(an_overlap_above_what_was_asked_for_by_half_is_told),
     };
