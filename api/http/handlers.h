@@ -39,15 +39,16 @@ bool find_job(api_service *service, const http_request *request, http_response *
 
 /* Shared between handlers of lists: the address of this list with the filters it was asked with; cursor 0: as it was
  * asked. And of tables: is CSV asked for? */
-json_t *list_link(const http_request *request, const char *rel, int64_t cursor);
+json_t *list_link(const http_request *request, const char *rel, const char *cursor);
 bool wants_csv(const http_request *request);
 /* The page shows it: true, and the answer leads there, where f=html asks for that. printf-like. */
 bool leads_to_page(const http_request *request, http_response *response, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* The file name under which the answer may be kept, which begins with the id of the job or study; see http_response. */
 void name_file(http_response *response, const char *id, const char *end, bool is_attachment);
-/* The query of GET /jobs (job_filter.c). False: *problem says what is wrong with it. */
-bool read_job_filter(const http_request *request, job_filter *filter, char *problem, size_t size);
+/* The query of GET /jobs (job_filter.c); what is wrong with it goes into the list. */
+void read_job_filter(const http_request *request, job_filter *filter, problem_list *problems);
+void respond_bad_parameters(http_response *response, const problem_list *problems);
 /* Shared between handlers that take a document. parse_body: NULL, and the response says why. */
 json_t *parse_body(const http_request *request, http_response *response);
 uint64_t choose_seed(void);

@@ -180,7 +180,8 @@ void unpin_job(api_service *service, const http_request *request, http_response 
 
 typedef struct job_page {
     json_t *jobs;
-    int64_t limit, last; /* number of the last job on the page */
+    int64_t limit;
+    char last[JOB_CURSOR_SIZE]; /* of the last job on the page */
     bool more;
 } job_page;
 
@@ -191,7 +192,7 @@ static bool add_job_to_page(void *context, const job_record *job)
         page->more = true;
         return false;
     }
-    page->last = job->number;
+    snprintf(page->last, sizeof page->last, "%s", job->cursor);
     return json_array_append_new(page->jobs, status_info(job)) == 0;
 }
 
@@ -241,7 +242,7 @@ static bool leads_to_list(const http_request *request, http_response *response)
     return leads;
 }
 
-json_t *list_link(const http_request *request, const char *rel, int64_t cursor)
+json_t *list_link(const http_request *request, const char *rel, const char *cursor)
 {
     text_buffer href;
     text_buffer_init(&href, 4096);
@@ -253,42 +254,51 @@ json_t *list_link(const http_request *request, const char *rel, int64_t cursor)
         add_escaped(&href, request->parameter[i].value);
         between = '&';
     }
-    if (cursor) text_buffer_print(&href, "%ccursor=%lld", between, (long long)cursor);
+    if (cursor) {
+        text_buffer_print(&href, "%ccursor=", between);
+        add_escaped(&href, cursor);
+    }
     json_t *link = link_to(rel, "application/json", href.text ? href.text : "");
     text_buffer_clear(&href);
     return link;
 }
 
-static json_t *counts_of_jobs(api_service *service, const job_filter *filter)
+static json_t *counts_to_json(const int64_t counts[JOB_STATUSES])
 {
-    int64_t counts[JOB_STATUSES];
-    if (store_count_listed(service->store, filter, counts) != STORE_OK) return NULL;
     json_t *object = json_object();
     for (int i = 0; i < JOB_STATUSES; i++) json_object_set_new(object, job_status_name((job_status)i), json_integer(counts[i]));
     return object;
 }
 
-void list_jobs(api_service *service, const http_request *request, http_response *response)
+static void respond_list(api_service *service, const http_request *request, http_response *response, job_filter *filter)
 {
-    char problem[240];
-    job_filter filter = { 0 };
-    if (!read_job_filter(request, &filter, problem, sizeof problem)) {
-        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
-        return;
-    }
-    if (leads_to_list(request, response)) return;
-    response->wants_lane = filter.label_name && !request->in_lane; /* each label is read */
-    if (response->wants_lane) return;
-    job_page page = { .jobs = json_array(), .limit = filter.limit };
-    filter.limit++; /* one more than asked for says whether there is a next page */
-    const store_status status = store_list_jobs(service->store, &filter, add_job_to_page, &page);
-    json_t *counts = status == STORE_OK ? counts_of_jobs(service, &filter) : NULL;
-    if (!counts) {
+    int64_t counts[JOB_STATUSES] = { 0 };
+    job_page page = { .jobs = json_array(), .limit = filter->limit };
+    filter->limit++; /* one more than asked for says whether there is a next page */
+    if (store_list_jobs(service->store, filter, counts, add_job_to_page, &page) != STORE_OK) {
         json_decref(page.jobs);
         respond_store_failure(response, STORE_FAILED, "list the jobs");
         return;
     }
-    json_t *links = json_pack("[o]", list_link(request, "self", 0));
+    json_t *links = json_pack("[o]", list_link(request, "self", NULL));
     if (page.more) json_array_append_new(links, list_link(request, "next", page.last));
-    http_respond_json(response, 200, json_pack("{s:o, s:o, s:o}", "jobs", page.jobs, "links", links, "counts", counts));
+    http_respond_json(response, 200,
+                      json_pack("{s:o, s:o, s:o}", "jobs", page.jobs, "links", links, "counts", counts_to_json(counts)));
+}
+
+void list_jobs(api_service *service, const http_request *request, http_response *response)
+{
+    job_filter filter;
+    problem_list problems;
+    if (!problem_list_init(&problems)) {
+        respond_store_failure(response, STORE_FAILED, "list the jobs");
+        return;
+    }
+    read_job_filter(request, &filter, &problems);
+    if (!problem_list_is_empty(&problems)) respond_bad_parameters(response, &problems);
+    else if (leads_to_list(request, response)) /* at once */
+        ;
+    else if (!request->in_lane && !store_lists_quickly(service->store, &filter)) response->wants_lane = true;
+    else respond_list(service, request, response, &filter);
+    problem_list_clear(&problems);
 }

@@ -36,13 +36,15 @@ void list_processes(api_service *service, const http_request *request, http_resp
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
         return;
     }
-    json_t *all = process_summaries(), *page = json_array(), *links = json_pack("[o]", list_link(request, "self", 0));
+    json_t *all = process_summaries(), *page = json_array(), *links = json_pack("[o]", list_link(request, "self", NULL));
     const int64_t rest = (int64_t)json_array_size(all) - after;
     for (int64_t p = 0; p < rest && p < limit; p++) {
         add_links(json_array_get(all, (size_t)(after + p)));
         json_array_append(page, json_array_get(all, (size_t)(after + p)));
     }
-    if (limit < rest) json_array_append_new(links, list_link(request, "next", after + limit));
+    char next[24];
+    snprintf(next, sizeof next, "%lld", (long long)(after + limit));
+    if (limit < rest) json_array_append_new(links, list_link(request, "next", next));
     json_decref(all);
     http_respond_json(response, 200, json_pack("{s:o, s:o}", "processes", page, "links", links));
 }

@@ -162,8 +162,10 @@ void list_studies(api_service *service, const http_request *request, http_respon
         respond_store_failure(response, status, "list the studies");
         return;
     }
-    json_t *links = json_pack("[o]", list_link(request, "self", 0));
-    if (page.more) json_array_append_new(links, list_link(request, "next", page.last));
+    json_t *links = json_pack("[o]", list_link(request, "self", NULL));
+    char next[24];
+    snprintf(next, sizeof next, "%lld", (long long)page.last);
+    if (page.more) json_array_append_new(links, list_link(request, "next", next));
     http_respond_json(response, 200, json_pack("{s:o, s:o}", "studies", page.studies, "links", links));
 }
 

@@ -8,14 +8,14 @@
 #include <time.h>
 
 #include "handlers.h"
-#include "process_type.h"
+#include "list_columns.h"
 
 enum { JOBS_DEFAULT_LIMIT = 50, JOBS_HIGHEST_LIMIT = 500, LONGEST_TEXT = 100 };
 
 typedef struct filter_reading {
+    const http_request *request;
     job_filter *filter;
-    char *problem;
-    size_t size;
+    problem_list *problems;
 } filter_reading;
 
 static bool take_status(void *context, const char *value, size_t length)
@@ -26,10 +26,10 @@ static bool take_status(void *context, const char *value, size_t length)
         reading->filter->statuses |= 1U << status;
         return true;
     }
-    snprintf(reading->problem, reading->size,
-             "parameter status is \"%.*s\"; must be accepted, running, successful, failed or dismissed, or several of them",
-             (int)(length < 40 ? length : 40), value);
-    return false;
+    problem_list_add(reading->problems, "/status",
+                     "parameter status is \"%.*s\"; must be accepted, running, successful, failed or dismissed, or several of them",
+                     (int)(length < 40 ? length : 40), value);
+    return true;
 }
 
 /* A process that there is not has no jobs. */
@@ -161,19 +161,32 @@ static bool read_datetime(const char *text, job_filter *filter)
     return true;
 }
 
-static bool read_duration(const http_request *request, const char *name, double *seconds, char *problem, size_t size)
+static void read_duration(const filter_reading *reading, const char *name, const char *pointer, double *seconds)
 {
-    const char *text = http_request_parameter(request, name);
+    const char *text = http_request_parameter(reading->request, name);
     char *end;
     *seconds = NAN;
-    if (!text) return true;
+    if (!text) return;
     if (isdigit((unsigned char)*text) && strspn(text, "0123456789.eE+-") == strlen(text)) {
         *seconds = strtod(text, &end);
-        if (!*end && isfinite(*seconds)) return true;
+        if (!*end && isfinite(*seconds)) return;
     }
-    snprintf(problem, size, "parameter %s is \"%.40s\"; must be a number of seconds, 0 or more", name, text);
-    return false;
+    problem_list_add(reading->problems, pointer, "parameter %s is \"%.40s\"; must be a number of seconds, 0 or more", name, text);
 }
+
+static void read_times(const filter_reading *reading)
+{
+    const char *datetime = http_request_parameter(reading->request, "datetime");
+    if (!read_datetime(datetime, reading->filter))
+        problem_list_add(reading->problems, "/datetime",
+                         "parameter datetime is \"%.70s\"; must be a time as 2026-11-22T01:44:55Z, or two with / between, the "
+                         "earlier first, either of which may be ..",
+                         datetime);
+    read_duration(reading, "minDuration", "/minDuration", &reading->filter->least_seconds);
+    read_duration(reading, "maxDuration", "/maxDuration", &reading->filter->most_seconds);
+}
+
+/* --- texts --- */
 
 /* Of UTF-8: bytes that do not go on with a character. */
 static size_t characters_of(const char *text)
@@ -183,53 +196,178 @@ static size_t characters_of(const char *text)
     return count;
 }
 
-/* label.project=axial: the one that is given. */
-static bool read_label(const http_request *request, job_filter *filter, char *problem, size_t size)
+static void read_text(const filter_reading *reading)
 {
-    static const char beginning[] = "label.";
-    for (size_t p = 0; p < request->parameter_count; p++) {
-        const http_parameter *one = &request->parameter[p];
-        if (strncmp(one->name, beginning, strlen(beginning)) != 0) continue;
-        if (filter->label_name) {
-            snprintf(problem, size, "parameter %.40s is given beside label.%.40s; give one member of the label", one->name,
-                     filter->label_name);
-            return false;
-        }
-        filter->label_name = one->name + strlen(beginning);
-        filter->label_value = one->value;
-        if (*filter->label_name) continue;
-        snprintf(problem, size, "parameter label. names no member of the label; for example label.project=axial");
-        return false;
-    }
-    return true;
+    const char *text = http_request_parameter(reading->request, "q");
+    reading->filter->text = text;
+    if (text && characters_of(text) > LONGEST_TEXT)
+        problem_list_add(reading->problems, "/q", "parameter q has %zu characters; must have at most %d", characters_of(text),
+                         LONGEST_TEXT);
 }
 
-bool read_job_filter(const http_request *request, job_filter *filter, char *problem, size_t size)
+/* What a parameter's name has behind its beginning; NULL: it begins otherwise. */
+static const char *name_behind(const http_parameter *one, const char *beginning)
 {
-    filter_reading reading = { filter, problem, size };
-    filter->text = http_request_parameter(request, "q");
-    filter->study = http_request_parameter(request, "study");
-    if (filter->text && characters_of(filter->text) > LONGEST_TEXT) {
-        snprintf(problem, size, "parameter q has %zu characters; must have at most %d", characters_of(filter->text), LONGEST_TEXT);
-        return false;
+    const size_t length = strlen(beginning);
+    return strncmp(one->name, beginning, length) == 0 ? one->name + length : NULL;
+}
+
+/* label.project=axial: the one that is given. */
+static void read_label(const filter_reading *reading, const http_parameter *one)
+{
+    job_filter *filter = reading->filter;
+    const char *name = name_behind(one, "label.");
+    if (!name) return;
+    if (filter->label_name)
+        problem_list_add(reading->problems, "/label.", "parameter %.40s is given beside label.%.40s; give one member of the label",
+                         one->name, filter->label_name);
+    else if (!*name)
+        problem_list_add(reading->problems, "/label.",
+                         "parameter label. names no member of the label; for example label.project=axial");
+    filter->label_name = name;
+    filter->label_value = one->value;
+}
+
+/* --- columns --- */
+
+/* Gathered when the first parameter asks for them. */
+static bool find_column(const filter_reading *reading, field_columns *columns, const char *parameter, const char *name,
+                        list_column *found)
+{
+    if (!columns->column && !field_columns_gather(columns)) return false;
+    if (list_column_find(columns, name, found)) return true;
+    const char *nearest = list_column_nearest(columns, name);
+    problem_list_add(reading->problems, parameter, "parameter %s: no column is named \"%.60s\"%s%s; GET /query lists all columns",
+                     parameter + 1, name, nearest ? "; perhaps it is " : "", nearest ? nearest : "");
+    return false;
+}
+
+static bool read_number(const char *text, size_t length, double missing, double *number)
+{
+    char copy[64], *end;
+    *number = missing;
+    if (length == 0) return true;
+    if (length >= sizeof copy || strspn(text, "0123456789.eE+-") < length) return false;
+    snprintf(copy, sizeof copy, "%.*s", (int)length, text);
+    *number = strtod(copy, &end);
+    return *end == '\0' && end != copy && isfinite(*number);
+}
+
+/* "30..40", "30..", "..40" or "35". */
+static bool read_range(const char *text, value_range *range)
+{
+    const char *dots = strstr(text, "..");
+    if (!dots) {
+        if (!*text || !read_number(text, strlen(text), 0.0, &range->low)) return false;
+        range->high = range->low;
+        return true;
     }
-    const char *datetime = http_request_parameter(request, "datetime");
-    if (!read_datetime(datetime, filter)) {
-        snprintf(problem, size,
-                 "parameter datetime is \"%.70s\"; must be a time as 2026-11-22T01:44:55Z, or two with / between, the earlier "
-                 "first, either of which may be ..",
-                 datetime);
-        return false;
+    return strlen(text) > 2 && read_number(text, (size_t)(dots - text), -INFINITY, &range->low)
+           && read_number(dots + 2, strlen(dots + 2), INFINITY, &range->high) && range->low <= range->high;
+}
+
+static bool read_truth(const char *text, value_range *range)
+{
+    const bool is_true = strcmp(text, "true") == 0;
+    range->low = range->high = is_true;
+    return is_true || strcmp(text, "false") == 0;
+}
+
+/* value.angle_deg=30..40, value.shape=sphere,tetrahedron, value.steady=true */
+static void read_value(const filter_reading *reading, field_columns *columns, const http_parameter *one)
+{
+    static const char *const kinds[] = { [LIST_NUMBER] =
+                                             "a number, or two with .. between, the lower first, either of which may be missing",
+                                         [LIST_TIME] = "",
+                                         [LIST_WORD] = "a word, or several with commas between them",
+                                         [LIST_TRUTH] = "true or false" };
+    job_filter *filter = reading->filter;
+    const char *name = name_behind(one, "value.");
+    char pointer[64];
+    list_column column;
+    if (!name) return;
+    snprintf(pointer, sizeof pointer, "/%.60s", one->name);
+    if (!find_column(reading, columns, pointer, name, &column)) return;
+    value_range range = { .name = name, .words = column.kind == LIST_WORD ? one->value : NULL };
+    if (column.kind == LIST_TIME)
+        problem_list_add(reading->problems, pointer,
+                         "parameter %.60s: of times datetime, minDuration and maxDuration are asked for", one->name);
+    else if (filter->range_count == MOST_RANGES)
+        problem_list_add(reading->problems, pointer, "parameter %.60s: at most %d parameters value. may be given", one->name,
+                         MOST_RANGES);
+    else if (column.kind == LIST_WORD    ? *one->value == '\0'
+             : column.kind == LIST_TRUTH ? !read_truth(one->value, &range)
+                                         : !read_range(one->value, &range))
+        problem_list_add(reading->problems, pointer, "parameter %.60s is \"%.60s\"; must be %s%s%s", one->name, one->value,
+                         kinds[column.kind], *column.unit ? ", in " : "", column.unit);
+    else filter->range[filter->range_count++] = range;
+}
+
+/* sort=-angle_deg: the largest first. */
+static void read_sort(const filter_reading *reading, field_columns *columns)
+{
+    const char *sort = http_request_parameter(reading->request, "sort");
+    list_column column;
+    if (!sort) return;
+    reading->filter->sort_falls = *sort == '-';
+    reading->filter->sort = sort + (*sort == '-');
+    if (find_column(reading, columns, "/sort", reading->filter->sort, &column))
+        reading->filter->sort_is_words = column.kind == LIST_WORD;
+}
+
+/* "123", and in a sorted list "123:35.25", or "123:" where that job lacks what is sorted by. */
+static void read_cursor(const filter_reading *reading)
+{
+    const char *cursor = http_request_parameter(reading->request, "cursor");
+    job_filter *filter = reading->filter;
+    double number;
+    char *end;
+    if (!cursor) return;
+    const long long after = isdigit((unsigned char)*cursor) ? strtoll(cursor, &end, 10) : 0;
+    const bool has_value = after > 0 && *end == ':';
+    if (has_value && end[1]) filter->after_value = end + 1;
+    filter->after = after;
+    if (after > 0 && after < INT64_MAX && (has_value || !*end) && has_value == (filter->sort != NULL)
+        && (!filter->after_value || filter->sort_is_words
+            || read_number(filter->after_value, strlen(filter->after_value), 0.0, &number)))
+        return;
+    problem_list_add(reading->problems, "/cursor",
+                     "parameter cursor is \"%.60s\"; must be what the link next of the last answer has, with the same sort",
+                     cursor);
+}
+
+void read_job_filter(const http_request *request, job_filter *filter, problem_list *problems)
+{
+    filter_reading reading = { request, filter, problems };
+    field_columns columns = { .column = NULL };
+    char problem[160];
+    *filter = (job_filter){ .study = http_request_parameter(request, "study") };
+    read_text(&reading);
+    read_times(&reading);
+    for (size_t p = 0; p < request->parameter_count; p++) {
+        read_label(&reading, &request->parameter[p]);
+        read_value(&reading, &columns, &request->parameter[p]);
     }
-    if (!read_label(request, filter, problem, size) || !http_request_values(request, "status", take_status, &reading)
-        || !http_request_values(request, "processID", take_process, &reading)
-        || !http_request_values(request, "type", take_type, &reading)
-        || !read_duration(request, "minDuration", &filter->least_seconds, problem, size)
-        || !read_duration(request, "maxDuration", &filter->most_seconds, problem, size)
-        || !http_request_integer(request, "limit", 1, INT64_MAX, JOBS_DEFAULT_LIMIT, &filter->limit, problem, size)
-        || !http_request_integer(request, "cursor", 1, INT64_MAX, 0, &filter->before, problem, size))
-        return false;
+    read_sort(&reading, &columns);
+    read_cursor(&reading);
+    field_columns_clear(&columns);
+    http_request_values(request, "status", take_status, &reading);
+    http_request_values(request, "processID", take_process, &reading);
+    http_request_values(request, "type", take_type, &reading);
+    if (!http_request_integer(request, "limit", 1, INT64_MAX, JOBS_DEFAULT_LIMIT, &filter->limit, problem, sizeof problem))
+        problem_list_add(problems, "/limit", "%s", problem);
     /* More than are sent at once is no mistake: the next page has the rest. */
     if (filter->limit > JOBS_HIGHEST_LIMIT) filter->limit = JOBS_HIGHEST_LIMIT;
-    return true;
+}
+
+void respond_bad_parameters(http_response *response, const problem_list *problems)
+{
+    text_buffer detail;
+    text_buffer_init(&detail, 65536);
+    size_t i;
+    json_t *error;
+    json_array_foreach(problems->errors, i, error)
+        text_buffer_print(&detail, "%s%s", i ? "; " : "", json_string_value(json_object_get(error, "detail")));
+    http_respond_problems(response, 400, "Bad parameter", detail.text && !detail.failed ? detail.text : "see errors", problems);
+    text_buffer_clear(&detail);
 }

@@ -30,8 +30,7 @@ const spec_field *spec_field_at(const spec_table *table, const char *pointer)
     return field;
 }
 
-/* Levenshtein distance: letters inserted, left out or replaced between two names. */
-static size_t edit_distance(const char *a, const char *b)
+size_t name_distance(const char *a, const char *b)
 {
     const size_t length_a = strlen(a), length_b = strlen(b);
     if (length_a > LONGEST_NAME || length_b > LONGEST_NAME) return LONGEST_NAME;
@@ -58,7 +57,7 @@ const spec_field *spec_field_nearest(const spec_table *table, spec_group group, 
     size_t least = strlen(name) / 3 + 1; /* a third of the letters wrong is another word */
     for (size_t f = 0; f < table->count; f++) {
         if (table->field[f].group != group) continue;
-        const size_t distance = edit_distance(name, table->field[f].name);
+        const size_t distance = name_distance(name, table->field[f].name);
         if (distance < least) {
             least = distance;
             nearest = &table->field[f];

@@ -113,6 +113,9 @@ const spec_field *spec_field_at(const spec_table *table, const char *pointer);
  * another group. */
 const spec_field *spec_field_nearest(const spec_table *table, spec_group group, const char *name);
 
+/* Levenshtein distance: letters inserted, left out or replaced between two names. */
+size_t name_distance(const char *a, const char *b);
+
 /* Path of a field below the inputs, as "contact/friction". */
 void spec_field_path(const spec_table *table, const spec_field *field, char *path, size_t size);
 

@@ -26,7 +26,7 @@ typedef enum store_status {
 
 typedef enum job_status { JOB_ACCEPTED, JOB_RUNNING, JOB_SUCCESSFUL, JOB_FAILED, JOB_DISMISSED, JOB_STATUSES } job_status;
 
-enum { JOB_TIME_SIZE = 28 };
+enum { JOB_TIME_SIZE = 28, JOB_CURSOR_SIZE = 100 };
 
 const char *job_status_name(job_status status);
 bool job_status_parse(const char *name, size_t length, job_status *status);
@@ -40,15 +40,25 @@ typedef struct job_record {
     double progress, eta_seconds; /* percent; s, NaN: unknown */
     char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], finished[JOB_TIME_SIZE], updated[JOB_TIME_SIZE];
     char message[1024];
-    bool is_pinned;  /* no rule removes it */
-    json_t *label;   /* owned */
-    json_t *summary; /* owned: main inputs, and main results once there are any */
+    bool is_pinned;               /* no rule removes it */
+    json_t *label;                /* owned */
+    json_t *summary;              /* owned: main inputs, and main results once there are any */
+    char cursor[JOB_CURSOR_SIZE]; /* of a list: what comes after this job begins with this filter->after */
 } job_record;
 
 void job_record_clear(job_record *job);
 
 /* False stops the walk. The record, row or text is only lent. */
 typedef bool job_visitor(void *context, const job_record *job);
+
+enum { MOST_RANGES = 8 };
+
+/* Of a column as list_columns.h names them. */
+typedef struct value_range {
+    const char *name;
+    double low, high;  /* both belong to it; infinite: open */
+    const char *words; /* of a column of words: these, with commas between them; NULL: numbers */
+} value_range;
 
 typedef struct job_filter {
     unsigned statuses;                                               /* bit 1 << job_status; 0: all */
@@ -60,7 +70,14 @@ typedef struct job_filter {
     const char *label_name, *label_value;                            /* a member of the label, and what it is as text; NULL: all */
     char created_from[JOB_TIME_SIZE], created_before[JOB_TIME_SIZE]; /* "": since ever, for ever */
     double least_seconds, most_seconds; /* that a job has run, up to now or its end; NaN: whether it has or not */
-    int64_t before;                     /* only jobs with a smaller number; 0: all */
+    value_range range[MOST_RANGES];
+    size_t range_count;
+    const char *sort; /* a column as list_columns.h names them; NULL: newest first. Jobs that lack it come last */
+    bool sort_falls, sort_is_words;
+    /* Where the page begins: after the job of this number, 0: at the beginning. Of a sorted list with what it is sorted by, as
+     * text; NULL: that job lacks it. */
+    int64_t after;
+    const char *after_value;
     int64_t limit;
 } job_filter;
 
@@ -86,10 +103,13 @@ typedef struct queue_place {
     char expected_start[JOB_TIME_SIZE];
 } queue_place;
 store_status store_find_place(job_store *store, const char *id, queue_place *place);
-store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context); /* newest first */
+/* Those that the filter lets through, at most limit of them; and how many it lets through of each status, whatever it says of
+ * statuses and of the page. */
+store_status store_list_jobs(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES], job_visitor *visit,
+                             void *context);
+/* Whether that takes some milliseconds. */
+bool store_lists_quickly(job_store *store, const job_filter *filter);
 store_status store_count_jobs(job_store *store, int64_t counts[JOB_STATUSES]);
-/* Of those that the filter lets through, whatever their status: what it says of statuses does not count here, nor does the page. */
-store_status store_count_listed(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES]);
 
 typedef struct study_record {
     int64_t number; /* order of submission */

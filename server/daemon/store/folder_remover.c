@@ -114,6 +114,7 @@ bool prune_once(const char *path, const prune_rules *rules)
 static void *remove_what_leaves(void *context)
 {
     folder_remover *remover = context;
+    store_warm(remover->store);
     while (!remover->stopping) {
         const int until_prune = prune(remover), until_look = look(remover);
         const int seconds = until_look == 0 || (until_prune > 0 && until_prune < until_look) ? until_prune : until_look;

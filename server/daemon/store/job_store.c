@@ -29,6 +29,7 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
     bool good = field_tables_init(&store->fields);
     if (!good) log_line("database: out of memory for the tables of fields");
     good = good && (store->writer = database_open_writer(path)) != NULL;
+    if (good) good = (store->index = job_index_create(&store->fields.columns, store->writer)) != NULL;
     for (; good && store->readers_free < STORE_READERS; store->readers_free++)
         good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
     if (good) good = (store->query = database_open_reader(path)) != NULL && query_connection_restrict(store);
@@ -49,6 +50,7 @@ void store_close(job_store *store)
     pthread_mutex_destroy(&store->readers_lock);
     pthread_mutex_destroy(&store->write_lock);
     free(store->query_tables);
+    job_index_free(store->index);
     field_tables_clear(&store->fields);
     free(store);
 }
@@ -96,6 +98,7 @@ store_status store_end(job_store *store, store_status status)
     if (status == STORE_OK) status = sql_run(store->writer, NULL, "COMMIT", "");
     /* A full disk may have rolled back by itself already. */
     if (status != STORE_OK && !sqlite3_get_autocommit(store->writer)) sql_run(store->writer, NULL, "ROLLBACK", "");
+    job_index_note_end(store->index, status == STORE_OK);
     pthread_mutex_unlock(&store->write_lock);
     return status;
 }

@@ -9,6 +9,7 @@
 #include "data_folder.h"
 #include "event_tail.h"
 #include "field_tables.h"
+#include "job_index.h"
 #include "query_functions.h"
 #include "store.h"
 
@@ -18,6 +19,7 @@ enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
 struct job_store {
     data_folder *data;
     field_tables fields;
+    job_index *index;
     int64_t queue_limit;        /* jobs that may wait */
     int places;                 /* jobs that may run at once */
     pthread_mutex_t write_lock; /* held for each transaction of the one writer */
@@ -44,6 +46,9 @@ store_status store_walk(job_store *store, sqlite3 *reader, sqlite3_stmt *stateme
  * returns what became of it. */
 store_status store_begin(job_store *store);
 store_status store_end(job_store *store, store_status status);
+
+/* Reads what jobs are listed by into memory, before somebody has to wait for it. */
+void store_warm(job_store *store);
 
 /* request_keys.c, between begin and end: keeps the key of this thread's request, if it has one, and the id of what it is about. */
 store_status store_keep_key(job_store *store);

@@ -1,9 +1,12 @@
 /* Walks over jobs, samples and snapshots. */
 #include <assert.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "database.h"
+#include "job_index.h"
 #include "job_store.h"
 #include "process_type.h"
 #include "text_buffer.h"
@@ -131,131 +134,122 @@ store_status store_find_place(job_store *store, const char *id, queue_place *pla
 
 /* --- lists --- */
 
-/* "a,b" of what is in the set, each with quotes; false: the set is empty. */
-static bool write_set(text_buffer *sql, unsigned set, int count, const char *(*name)(int))
-{
-    bool any = false;
-    for (int i = 0; i < count; i++) {
-        if (!(set & (1U << i))) continue;
-        text_buffer_print(sql, "%s'%s'", any ? "," : "", name(i));
-        any = true;
-    }
-    return any;
-}
-
-static const char *name_of_status(int status) { return job_status_name((job_status)status); }
-static const char *name_of_process(int process) { return process_types[process]->name; }
-
-static int count_processes(void)
-{
-    int count = 0;
-    while (process_types[count]) count++;
-    return count;
-}
-
-/* s that a job has run. */
-#define SECONDS_RUN                                                                                                                \
-    "CASE WHEN job.status<>'accepted' THEN"                                                                                        \
-    " round(86400.0*(julianday(coalesce(job.finished,'now'))-julianday(job.started)),3) END"
-
-/* All but the statuses. Only fixed pieces go into the SQL; what the user gave is bound, by bind_filter. */
-static void write_condition(const job_filter *filter, text_buffer *sql)
-{
-    text_buffer_print(sql,
-                      " WHERE job.number<?1 AND (?2 IS NULL OR instr(lower(job.label), lower(?2)) OR instr(job.id, ?2)) AND %s",
-                      filter->study ? "job.study=(SELECT number FROM study WHERE id=?3)" : "?3 IS NULL");
-    if (filter->created_from[0] || filter->created_before[0])
-        text_buffer_print(sql, " AND job.created>=?4 AND (?5='' OR job.created<?5)");
-    else text_buffer_print(sql, " AND ?4=?5");
-    if (isnan(filter->least_seconds) && isnan(filter->most_seconds)) text_buffer_print(sql, " AND ?6 IS ?7");
-    else text_buffer_print(sql, " AND " SECONDS_RUN ">=coalesce(?6,0) AND " SECONDS_RUN "<=coalesce(?7,1e300)");
-    text_buffer_print(sql, filter->label_name
-                               ? " AND EXISTS(SELECT 1 FROM json_each(job.label) WHERE key=?9 AND CAST(value AS TEXT)=?10)"
-                               : " AND ?9 IS ?10");
-    if (filter->by_type && !filter->type_is_process) text_buffer_print(sql, " AND 0");
-    if (!filter->by_process) return;
-    text_buffer_print(sql, " AND job.process IN (");
-    write_set(sql, filter->processes, count_processes(), name_of_process);
-    text_buffer_print(sql, ")");
-}
-
-static sqlite3_stmt *prepare_filtered(sqlite3 *reader, const text_buffer *sql, const job_filter *filter, int64_t before)
-{
-    if (sql->failed) return NULL;
-    return sql_prepare(reader, sql->text, "ittttdditt", before, filter->text, filter->study, filter->created_from,
-                       filter->created_before, filter->least_seconds, filter->most_seconds, filter->limit, filter->label_name,
-                       filter->label_value);
-}
-
-/* One status walks its index in order; for several the + keeps the walk on the jobs themselves, newest first, where an
- * index would need a sort of all it finds. */
-static void write_list_sql(const field_tables *fields, const job_filter *filter, text_buffer *sql)
+/* Newest first, of one status or of all: what the database lists by an index, and has counted. */
+static bool is_plain(const job_filter *filter)
 {
     const bool single = (filter->statuses & (filter->statuses - 1U)) == 0U;
-    write_select(fields, sql);
-    write_condition(filter, sql);
-    if (filter->statuses) {
-        text_buffer_print(sql, single ? " AND job.status IN (" : " AND +job.status IN (");
-        write_set(sql, filter->statuses, JOB_STATUSES, name_of_status);
-        text_buffer_print(sql, ")");
-    }
-    text_buffer_print(sql, " ORDER BY job.number DESC LIMIT ?8");
+    return single && !filter->label_name && !filter->by_process && !filter->by_type && !filter->text && !filter->study
+           && !filter->created_from[0] && !filter->created_before[0] && isnan(filter->least_seconds) && isnan(filter->most_seconds)
+           && filter->range_count == 0 && !filter->sort;
 }
 
-store_status store_list_jobs(job_store *store, const job_filter *filter, job_visitor *visit, void *context)
+bool store_lists_quickly(job_store *store, const job_filter *filter)
 {
+    return is_plain(filter) || job_index_is_ready(store->index, filter);
+}
+
+static const char *only_status(const job_filter *filter)
+{
+    for (int s = 0; s < JOB_STATUSES; s++)
+        if (filter->statuses == 1U << s) return job_status_name((job_status)s);
+    return NULL;
+}
+
+static store_status list_plainly(job_store *store, const job_filter *filter, job_visitor *visit, void *context)
+{
+    const char *status = only_status(filter);
     text_buffer sql;
     text_buffer_init(&sql, LONGEST_SELECT);
-    write_list_sql(&store->fields, filter, &sql);
+    write_select(&store->fields, &sql);
+    text_buffer_print(&sql, " WHERE job.number<?1 AND %s ORDER BY job.number DESC LIMIT ?3",
+                      status ? "job.status=?2" : "?2 IS NULL");
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = prepare_filtered(reader, &sql, filter, filter->before ? filter->before : INT64_MAX);
-    store_status status = STORE_FAILED;
+    sqlite3_stmt *statement =
+        sql.failed ? NULL : sql_prepare(reader, sql.text, "iti", filter->after ? filter->after : INT64_MAX, status, filter->limit);
+    store_status result = STORE_FAILED;
     if (statement) {
         int code;
         bool more = true;
         while (more && (code = sqlite3_step(statement)) == SQLITE_ROW) {
             job_record job;
             fill_record(&store->fields, statement, &job);
+            snprintf(job.cursor, sizeof job.cursor, "%lld", (long long)job.number);
             more = visit(context, &job);
             job_record_clear(&job);
         }
-        status = sql_finish(statement, code);
+        result = sql_finish(statement, code);
     }
     store_return_reader(store, reader);
     text_buffer_clear(&sql);
-    return status;
+    return result;
 }
 
-static bool lets_all_through(const job_filter *filter)
+/* One that has changed since it was found, and does not fit any more, is passed over. */
+static store_status visit_found(job_store *store, sqlite3 *reader, const job_filter *filter, const found_job *found, size_t count,
+                                job_visitor *visit, void *context)
 {
-    return !filter->label_name && !filter->by_process && !filter->by_type && !filter->text && !filter->study
-           && !filter->created_from[0] && !filter->created_before[0] && isnan(filter->least_seconds) && isnan(filter->most_seconds);
-}
-
-store_status store_count_listed(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES])
-{
-    if (lets_all_through(filter)) return store_count_jobs(store, counts);
     text_buffer sql;
-    text_buffer_init(&sql, 8192);
-    text_buffer_print(&sql, "SELECT job.status, count(*) FROM job");
-    write_condition(filter, &sql);
-    text_buffer_print(&sql, " GROUP BY job.status LIMIT max(?8, 5)");
-    sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = prepare_filtered(reader, &sql, filter, INT64_MAX);
-    store_status status = STORE_FAILED;
-    memset(counts, 0, JOB_STATUSES * sizeof *counts);
-    if (statement) {
-        int code;
-        while ((code = sqlite3_step(statement)) == SQLITE_ROW) {
-            const char *name = (const char *)sqlite3_column_text(statement, 0);
-            job_status of;
-            if (job_status_parse(name, strlen(name), &of)) counts[of] = sqlite3_column_int64(statement, 1);
+    text_buffer_init(&sql, LONGEST_SELECT);
+    write_select(&store->fields, &sql);
+    text_buffer_print(&sql, " WHERE job.number=?");
+    store_status status = sql.failed ? STORE_FAILED : STORE_OK;
+    bool more = true;
+    for (size_t k = 0; status == STORE_OK && more && k < count; k++) {
+        sqlite3_stmt *statement = sql_prepare(reader, sql.text, "i", found[k].number);
+        const int code = statement ? sqlite3_step(statement) : SQLITE_ERROR;
+        if (code == SQLITE_ROW) {
+            job_record job;
+            fill_record(&store->fields, statement, &job);
+            memcpy(job.cursor, found[k].cursor, sizeof job.cursor);
+            if (!filter->statuses || (filter->statuses & (1U << job.status))) more = visit(context, &job);
+            job_record_clear(&job);
         }
-        status = sql_finish(statement, code);
+        status = statement ? sql_finish(statement, code) : STORE_FAILED;
     }
-    store_return_reader(store, reader);
     text_buffer_clear(&sql);
     return status;
+}
+
+/* 0: any study will do; -1: there is none of that id. */
+static store_status find_study_number(sqlite3 *reader, const char *id, int64_t *number)
+{
+    *number = 0;
+    if (!id) return STORE_OK;
+    sqlite3_stmt *row = sql_prepare(reader, "SELECT number FROM study WHERE id=?", "t", id);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    *number = code == SQLITE_ROW ? sqlite3_column_int64(row, 0) : -1;
+    return row ? sql_finish(row, code) : STORE_FAILED;
+}
+
+static store_status list_found(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES], job_visitor *visit,
+                               void *context)
+{
+    found_job *found = malloc((size_t)filter->limit * sizeof *found);
+    if (!found) return STORE_FAILED;
+    int64_t study;
+    size_t count = 0;
+    sqlite3 *reader = store_borrow_reader(store);
+    store_status status = find_study_number(reader, filter->study, &study);
+    if (status == STORE_OK) status = job_index_find(store->index, reader, filter, study, counts, found, &count);
+    if (status == STORE_OK) status = visit_found(store, reader, filter, found, count, visit, context);
+    store_return_reader(store, reader);
+    free(found);
+    return status;
+}
+
+store_status store_list_jobs(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES], job_visitor *visit,
+                             void *context)
+{
+    if (!is_plain(filter)) return list_found(store, filter, counts, visit, context);
+    const store_status status = store_count_jobs(store, counts);
+    return status == STORE_OK ? list_plainly(store, filter, visit, context) : status;
+}
+
+void store_warm(job_store *store)
+{
+    sqlite3 *reader = store_borrow_reader(store);
+    job_index_warm(store->index, reader);
+    store_return_reader(store, reader);
 }
 
 /* A walk over rows of one job that begin with number, step and time. */
