@@ -30,6 +30,8 @@ route_handler begin_session, end_session;
 route_handler run_query;
 
 /* For the store's refusals, so that each handler says only what it wanted: "read the job". */
+/* The same of something that was to be added: on a full disk it tells what would make room, and how much. */
+void respond_not_kept(api_service *service, http_response *response, store_status status, const char *wanted);
 void respond_store_failure(http_response *response, store_status status, const char *wanted);
 void respond_no_such_job(http_response *response, const char *id);
 /* The results of an ended job as its request and this one want them; failed: the status that tells of a failed job. */

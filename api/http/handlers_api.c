@@ -87,8 +87,9 @@ static void respond_document(const api_service *service, const http_request *req
     text_buffer_init(&whole, LONGEST_DOCUMENT);
     const bool differs = openapi_read(file, &read) && read.text && openapi_write(read.text, read.length, &whole)
                          && (whole.length != read.length || memcmp(whole.text, read.text, read.length) != 0);
-    if (format->is_json || format->is_old || service->public_url) {
-        respond_made(response, differs ? &whole : &read, format, format->is_old ? response->base : service->public_url);
+    const char *url = service->public_url;
+    if (format->is_json || format->is_old || url) {
+        respond_made(response, differs ? &whole : &read, format, format->is_old ? response->base : url);
     } else if (differs) {
         http_respond_text(response, 200, media_type(format), whole.text, whole.length);
         whole.text = NULL;

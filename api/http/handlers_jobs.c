@@ -28,6 +28,23 @@ void respond_store_failure(http_response *response, store_status status, const c
     response->retry_after = 5;
 }
 
+void respond_not_kept(api_service *service, http_response *response, store_status status, const char *wanted)
+{
+    room_to_free room;
+    if (status != STORE_FULL || store_look_for_room(service->store, &room) != STORE_OK) {
+        respond_store_failure(response, status, wanted);
+        return;
+    }
+    http_respond_problem(
+        response, 507, NULL, "No room on the disk",
+        "could not %s: the data folder's disk is full, or nearly so: it has %.3g MB and %.0f inodes free, of which "
+        "%.3g MB and %.0f inodes are for jobs that run. The snapshots of %lld jobs that have ended take %s%.3g MB; "
+        "the option --keep-bytes removes the oldest by itself, `reposed prune` once. DELETE of the %lld jobs that "
+        "have ended frees these and the rest of their folders",
+        wanted, 1e-6 * room.free_bytes, room.free_inodes, 1e-6 * room.kept_bytes, room.kept_inodes, (long long)room.jobs,
+        room.is_more ? "more than " : "", 1e-6 * room.snapshot_bytes, (long long)room.ended);
+}
+
 void respond_no_such_job(http_response *response, const char *id)
 {
     http_respond_problem(response, 404, NULL, "No such job", "there is no job \"%s\"; /jobs lists them", id);
@@ -141,7 +158,7 @@ void retry_job(api_service *service, const http_request *request, http_response 
     const store_status status = job_id_is_valid(id) ? store_retry_job(service->store, id) : STORE_NOT_FOUND;
     job_record job;
     if (status != STORE_OK && status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
-        respond_store_failure(response, status, "put the job into the queue");
+        respond_not_kept(service, response, status, "put the job into the queue");
         return;
     }
     if (!find_job(service, request, response, &job)) return;

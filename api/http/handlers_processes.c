@@ -124,12 +124,14 @@ static bool takes_long(const json_t *document)
 /* The disk, and what one POST may ask for. */
 static bool fits_service(api_service *service, const job_spec *spec, problem_list *problems)
 {
-    const bool is_timed = service->limits.estimate_seconds > 0.0; /* only then does it matter how fast the machine is */
+    const post_limits *limits = service->limits;
+    const bool is_timed = limits && limits->estimate_seconds > 0.0; /* only then does it matter how fast the machine is */
     calibration machine;
     if (is_timed) store_read_calibration(service->store, &machine);
     const job_estimate estimate = job_spec_estimate(spec, is_timed ? &machine : NULL);
-    job_check_limits(&service->limits, "/inputs", estimate.wall_seconds, estimate.particles, estimate.snapshot_bytes, spec->threads,
-                     problems);
+    if (limits)
+        job_check_limits(limits, "/inputs", estimate.wall_seconds, estimate.particles, estimate.snapshot_bytes, spec->threads,
+                         problems);
     job_check_disk(job_estimate_disk_bytes(&estimate), store_free_bytes(service->store), "/inputs/snapshots/interval", problems);
     return problem_list_is_empty(problems);
 }
@@ -283,7 +285,7 @@ void execute_process(api_service *service, const http_request *request, http_res
         else respond_created(service, request, response, &spec, id); /* first, so that it shows the job as accepted */
         service->jobs_changed(service->daemon);
     } else {
-        respond_store_failure(response, status, "keep the job");
+        respond_not_kept(service, response, status, "keep the job");
     }
     job_spec_clear(&spec);
 }

@@ -45,7 +45,7 @@ static void add_study(api_service *service, http_response *response, study_stage
     char id[JOB_ID_SIZE];
     const store_status status = store_add_study(service->store, stage, study, estimate, id);
     if (status != STORE_OK) {
-        respond_store_failure(response, status, "keep the study");
+        respond_not_kept(service, response, status, "keep the study");
         return;
     }
     service->jobs_changed(service->daemon);
@@ -68,16 +68,18 @@ static void check_and_add(api_service *service, const http_request *request, htt
     }
     study_taker taker = store_stage_taker(stage);
     taker.client = &request->client;
-    taker.limits = &service->limits;
+    taker.limits = service->limits;
     if (study_check(study, &machine, &taker, &estimate, problems, &warnings)) {
-        job_check_limits(&service->limits, "/base/inputs", estimate.wall_seconds, NAN, estimate.snapshot_bytes, NAN, problems);
+        if (taker.limits)
+            job_check_limits(taker.limits, "/base/inputs", estimate.wall_seconds, NAN, estimate.snapshot_bytes, NAN, problems);
         job_check_disk(estimate.disk_bytes, store_free_bytes(service->store), "/base/inputs/snapshots/interval", problems);
     }
     if (store_stage_status(stage) == STORE_OK && problem_list_is_empty(problems))
         add_study(service, response, stage, study, &estimate, &warnings);
     else if (problem_list_is_empty(problems) && store_stage_status(stage) == STORE_OK)
         http_respond_problem(response, 503, NULL, "Nobody waits", "the client has left, and nothing of the study was added");
-    else if (store_stage_status(stage) != STORE_OK) respond_store_failure(response, store_stage_status(stage), "keep the study");
+    else if (store_stage_status(stage) != STORE_OK)
+        respond_not_kept(service, response, store_stage_status(stage), "keep the study");
     else
         http_respond_problems(response, 400, "The study can't be run, and none of its jobs was added",
                               "each entry of errors names a place in the study, what is there and what may be", problems);
@@ -229,7 +231,7 @@ void retry_study(api_service *service, const http_request *request, http_respons
     const store_status status = job_id_is_valid(id) ? store_retry_study(service->store, id) : STORE_NOT_FOUND;
     study_record study;
     if (status != STORE_OK && status != STORE_NOT_FOUND && status != STORE_CONFLICT) {
-        respond_store_failure(response, status, "put the study's failed jobs into the queue");
+        respond_not_kept(service, response, status, "put the study's failed jobs into the queue");
         return;
     }
     if (!find_study(service, request, response, &study)) return;

@@ -96,13 +96,14 @@ static bool parameters_are_good(const http_route *route, const http_request *req
 
 void route_set_base(const api_service *service, const http_request *request, http_response *response)
 {
-    if (service->public_url) snprintf(response->base, sizeof response->base, "%.310s", service->public_url);
+    const char *url = service->public_url;
+    if (url) snprintf(response->base, sizeof response->base, "%.310s", url);
     else if (request->host) snprintf(response->base, sizeof response->base, "http://%.300s", request->host);
 }
 
 void route_strip_prefix(const api_service *service, http_request *request)
 {
-    const char *host = service->public_url ? strstr(service->public_url, "://") : NULL;
+    const char *url = service->public_url, *host = url ? strstr(url, "://") : NULL;
     const char *prefix = host ? strchr(host + 3, '/') : NULL;
     const size_t length = prefix ? strlen(prefix) : 0;
     if (length == 0 || strncmp(request->path, prefix, length) != 0) return;

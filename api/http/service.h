@@ -15,11 +15,12 @@ typedef enum access_level { ACCESS_NONE, ACCESS_READ, ACCESS_WRITE } access_leve
 
 typedef struct api_service {
     job_store *store;
-    int web_folder;                     /* descriptor of the page's folder; -1: none */
-    const char *api_file;               /* the OpenAPI document, YAML */
-    const char *public_url;             /* what addresses begin with, without / at the end; NULL: with the host that was asked */
-    int default_threads;                /* of a job that does not ask */
-    post_limits limits;                 /* what one POST may ask for */
+    int web_folder;       /* descriptor of the page's folder; -1: none */
+    const char *api_file; /* the OpenAPI document, YAML */
+    /* These three may change at any time; what was read of them stays valid. */
+    const char *_Atomic public_url;     /* what addresses begin with, without / at the end; NULL: with the host that was asked */
+    _Atomic int default_threads;        /* of a job that does not ask */
+    const post_limits *_Atomic limits;  /* what one POST may ask for */
     void *daemon;                       /* first argument of the functions below */
     void (*jobs_changed)(void *daemon); /* a job was added, dismissed or put into the queue again */
     void (*jobs_deleted)(void *daemon); /* their folders are to be removed */

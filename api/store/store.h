@@ -95,6 +95,15 @@ store_status store_pin_job(job_store *store, const char *id, bool pinned);
 store_status store_retry_job(job_store *store, const char *id);
 /* Of the disk that the folders of jobs are on; NaN: not known. */
 double store_free_bytes(const job_store *store);
+/* Of a disk that is full, or so nearly that nothing more is taken. */
+typedef struct room_to_free {
+    double free_bytes, free_inodes, kept_bytes, kept_inodes; /* NaN: not known; kept: for jobs that run */
+    int64_t jobs;                                            /* that have ended and are not pinned, and have snapshots: */
+    double snapshot_bytes;                                   /* of those */
+    bool is_more;                                            /* there are more than were counted */
+    int64_t ended;                                           /* jobs */
+} room_to_free;
+store_status store_look_for_room(job_store *store, room_to_free *room);
 
 store_status store_find_job(job_store *store, const char *id, job_record *job);
 /* Of a job that waits: its place among those that do, from 1, and when it is expected to start. STORE_NOT_FOUND: it does not. */

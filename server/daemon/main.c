@@ -5,6 +5,7 @@
 #include <malloc.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -24,7 +25,9 @@
 #define SECONDS_TO_END 25.0 /* after the signal, whatever hangs */
 
 typedef struct parts {
-    config settings;
+    config settings;       /* as they were at the start */
+    const config *running; /* and as they are */
+    post_limits limits;    /* of the settings */
     data_folder data;
     job_store *store;
     worker_executor executor;
@@ -83,17 +86,72 @@ static void end_session_of(void *context, const http_request *request, http_resp
     http_guard_end_session(&all->server.guard, request, response);
 }
 
-static void read_tokens_again(void *context)
-{
-    parts *all = context;
-    access_read_again(&all->server.guard.access);
-}
-
 static void leave(void *context)
 {
     parts *all = context;
     http_server_leave(&all->server);
 }
+
+/* --- options --- */
+
+static prune_rules rules_of(const config *settings)
+{
+    return (prune_rules){ settings->keep_days, settings->keep_bytes, settings->dry_run };
+}
+
+static post_limits limits_of(const config *settings)
+{
+    return (post_limits){ .estimate_seconds = settings->max_estimate_seconds,
+                          .particles = settings->max_particles,
+                          .snapshot_bytes = settings->max_snapshot_bytes,
+                          .threads = settings->max_threads };
+}
+
+static int default_threads_of(const config *settings)
+{
+    return settings->max_threads && settings->max_threads < settings->threads ? settings->max_threads : settings->threads;
+}
+
+typedef struct later_options {
+    config settings;
+    post_limits limits;
+} later_options;
+
+static void take_options(parts *all, const later_options *later)
+{
+    const prune_rules rules = rules_of(&later->settings);
+    log_as_json(later->settings.log_json);
+    all->running = &later->settings;
+    all->service.limits = &later->limits;
+    all->service.default_threads = default_threads_of(&later->settings);
+    all->service.public_url = later->settings.public_url;
+    all->store->queue_limit = later->settings.queue_limit;
+    dispatcher_set_threads(&all->dispatcher, later->settings.threads);
+    http_guard_set_options(&all->server.guard, &later->settings);
+    folder_remover_set_rules(&all->remover, &rules);
+}
+
+/* On SIGHUP, in the thread of signals. Requests may still use what the options were before, so those that were taken over are
+ * never freed: that is the size of a file for each time that they have changed. */
+static void read_options_again(void *context)
+{
+    parts *all = context;
+    later_options *later = calloc(1, sizeof *later);
+    const bool good =
+        later && config_read_again(&later->settings, all->running) && http_guard_read_tokens(&all->server.guard, &later->settings);
+    if (!good) log_line("the options stay as they were");
+    if (good && config_compare(&later->settings, all->running) > 0) {
+        later->limits = limits_of(&later->settings);
+        take_options(all, later);
+        return;
+    }
+    if (good) log_line("options read again: none has changed that can without a restart");
+    if (later) config_clear(&later->settings);
+    free(later);
+}
+
+/* Where there is something to read again. */
+static bool takes_hangup(const config *settings) { return settings->token_file || settings->file || settings->is_installed; }
 
 /* --- start --- */
 
@@ -110,7 +168,7 @@ static bool arrange_signals(parts *all)
 {
     sigset_t ends;
     dispatcher_end_signals(&ends);
-    if (all->settings.token_file) sigaddset(&ends, SIGHUP); /* also under nohup: it ends nothing then */
+    if (takes_hangup(&all->settings)) sigaddset(&ends, SIGHUP); /* also under nohup: it ends nothing then */
     pthread_sigmask(SIG_BLOCK, &ends, NULL);
     signal(SIGPIPE, SIG_IGN);
     signal(SIGXFSZ, SIG_IGN);
@@ -140,16 +198,13 @@ static void announce(const parts *all)
     if (all->settings.port_file) write_port_file(all->settings.port_file, all->server.port);
 }
 
-static prune_rules rules_of(const config *settings)
-{
-    return (prune_rules){ settings->keep_days, settings->keep_bytes, settings->dry_run };
-}
-
 static bool open_parts(parts *all)
 {
     if (!data_folder_open(&all->data, all->settings.data)) return false;
     all->store = store_open(&all->data, all->settings.queue_limit);
     if (!all->store) return false;
+    all->running = &all->settings;
+    all->limits = limits_of(&all->settings);
     executor_local_init(&all->executor, all->settings.worker, all->settings.confine);
     all->store->places = all->settings.workers;
     if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.workers, all->settings.threads, all->signals))
@@ -164,13 +219,8 @@ static bool open_parts(parts *all)
                                   .web_folder = open(all->settings.web, O_RDONLY | O_DIRECTORY | O_CLOEXEC),
                                   .api_file = all->settings.api_file,
                                   .public_url = all->settings.public_url,
-                                  .default_threads = all->settings.max_threads && all->settings.max_threads < all->settings.threads
-                                                         ? all->settings.max_threads
-                                                         : all->settings.threads,
-                                  .limits = { .estimate_seconds = all->settings.max_estimate_seconds,
-                                              .particles = all->settings.max_particles,
-                                              .snapshot_bytes = all->settings.max_snapshot_bytes,
-                                              .threads = all->settings.max_threads },
+                                  .default_threads = default_threads_of(&all->settings),
+                                  .limits = &all->limits,
                                   .daemon = all,
                                   .jobs_changed = jobs_changed_by_request,
                                   .jobs_deleted = jobs_deleted,
@@ -208,14 +258,14 @@ int main(int argc, char **argv)
     keep_memory_small();
     json_text_watch_memory();
     umask(077);
-    if (all.settings.log_json) log_as_json();
+    log_as_json(all.settings.log_json);
     if (strcmp(all.settings.command, "serve") != 0) return run_command(&all.settings);
     /* Nothing to undo on failure: the lock goes with the process, and the store is made for sudden ends. */
     if (!arrange_signals(&all) || !open_parts(&all)) {
         log_line("the daemon can't start; data folder %s", all.settings.data);
         return 1;
     }
-    if (all.settings.token_file) end_signals_on_hangup(read_tokens_again, &all);
+    if (takes_hangup(&all.settings)) end_signals_on_hangup(read_options_again, &all);
     announce(&all);
     calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);

@@ -1,5 +1,6 @@
 """A full disk: refused with 507, and nothing that was accepted is lost."""
 import os
+import re
 import subprocess
 
 import pytest
@@ -35,11 +36,16 @@ def fill(daemon):
 
 
 def test_a_job_that_finds_no_room_is_refused_and_leaves_nothing(small_disk):
-    kept = small_disk.submit(fake="fault")
+    kept = small_disk.submit(fake="quick")
     small_disk.ended(kept)
     ballast = fill(small_disk)
     answer = small_disk.post()
     assert answer.status_code == 507 and "disk is full" in answer.json()["detail"]
+    said = re.search(r"has (\S+) MB and \d+ inodes free, of which (\S+) MB .* snapshots of (\d+) jobs .* take (\S+) MB.* DELETE of the (\d+) jobs",
+                     answer.json()["detail"])
+    sizes = [snapshot["bytes"] for snapshot in small_disk.get(f"/jobs/{kept}/snapshots").json()["snapshots"]]
+    assert sizes and said.group(1, 3, 5) == ("0", "1", "1") and abs(float(said[4]) - sum(sizes) / 1e6) <= 0.01 * sum(sizes) / 1e6
+    assert abs(float(said[2]) - 0.084) < 0.001  # 2 % of 4 MiB
     assert small_disk.get("/readyz").status_code == 503
     assert [info["jobID"] for info in small_disk.get("/jobs").json()["jobs"]] == [kept]
     ballast.unlink()

@@ -285,3 +285,30 @@ void config_clear(config *settings)
     free(settings->file_text);
     settings->file_text = NULL;
 }
+
+/* Options that take a restart are kept in one place each. */
+static void keep_running(const config_option *option, config *fresh, const config *running)
+{
+    const size_t size = option->kind == OPTION_WHOLE  ? sizeof(int)
+                        : option->kind == OPTION_TEXT ? sizeof(char *)
+                                                      : sizeof(bool); /* confine */
+    memcpy((char *)fresh + option->offset, (const char *)running + option->offset, size);
+}
+
+int config_compare(config *fresh, const config *running)
+{
+    int changes = 0;
+    for (size_t o = 0; o < config_option_count; o++) {
+        const config_option *option = &config_options[o];
+        char now[300], before[300];
+        if (strcmp(option->name, "config") == 0 || config_option_is_same(option, fresh, running)) continue;
+        config_option_text(option, fresh, now, sizeof now);
+        config_option_text(option, running, before, sizeof before);
+        if (option->is_live)
+            log_line("%s is now %s%s%s", option->name, now, option->take ? "" : ", was ", option->take ? "" : before);
+        else log_line("%s stays %s; that it is to be %s takes a restart", option->name, option->take ? "as it is" : before, now);
+        if (option->is_live) changes++;
+        else keep_running(option, fresh, running);
+    }
+    return changes;
+}

@@ -47,5 +47,8 @@ enum config_outcome config_read(config *settings, int argc, char **argv);
  * of no use. Either way it is to be cleared when nobody uses its strings any more. */
 bool config_read_again(config *fresh, const config *running);
 void config_clear(config *settings);
+/* Logs in what the two differ. What takes a restart is set in `fresh` as it is in `running`. The number of differences that do not
+ * take one. */
+int config_compare(config *fresh, const config *running);
 
 #endif

@@ -61,6 +61,30 @@ static bool take_log_format(config *settings, const char *value, char problem[OP
     return settings->log_json || strcmp(value, "text") == 0;
 }
 
+static bool is_same_text(const char *one, const char *other) { return one && other ? strcmp(one, other) == 0 : one == other; }
+
+static bool has_same_url(const config *one, const config *other) { return is_same_text(one->public_url, other->public_url); }
+static bool confines_alike(const config *one, const config *other) { return one->confine == other->confine; }
+static bool logs_alike(const config *one, const config *other) { return one->log_json == other->log_json; }
+
+static bool is_same_list(const char *const *one, int count, const char *const *other, int others)
+{
+    bool same = count == others;
+    for (int i = 0; same && i < count; i++) same = strcmp(one[i], other[i]) == 0;
+    return same;
+}
+
+static bool allows_same_hosts(const config *one, const config *other)
+{
+    return is_same_list(one->allowed_host, one->allowed_hosts, other->allowed_host, other->allowed_hosts);
+}
+
+static bool allows_same_origins(const config *one, const config *other)
+{
+    return is_same_list(one->allowed_origin, one->allowed_origins, other->allowed_origin, other->allowed_origins);
+}
+
+#define LIVE .is_live = true
 #define AT(member) .offset = offsetof(config, member)
 #define WHOLE(member, least, most) .kind = OPTION_WHOLE, AT(member), .low = least, .high = most
 #define AMOUNT(member, least, most) .kind = OPTION_AMOUNT, AT(member), .low = least, .high = most
@@ -74,34 +98,36 @@ const config_option config_options[] = {
     { "port", "NUMBER", "0 to 65535 (8080); 0 takes any free port and prints it", WHOLE(port, 0, 65535) },
     { "data", "DIR", "database and job folders, made when missing (./data)", TEXT(data) },
     { "workers", "N", "jobs at once, 1 to 256 (one for each core)", WHOLE(workers, 1, CONFIG_MOST_WORKERS) },
-    { "threads", "N", "threads of a job that does not ask, 1 to 256 (1)", WHOLE(threads, 1, 256) },
+    { "threads", "N", "threads of a job that does not ask, 1 to 256 (1)", WHOLE(threads, 1, 256), LIVE },
     { "queue-limit", "N", "jobs that may wait, 1 to 1000000 (10000); a study that makes more is refused",
-      WHOLE(queue_limit, 1, 1000000) },
-    { "keep-days", "N", "delete jobs so long after their end, 1 to 100000 (never); pinned ones stay", WHOLE(keep_days, 1, 100000) },
+      WHOLE(queue_limit, 1, 1000000), LIVE },
+    { "keep-days", "N", "delete jobs so long after their end, 1 to 100000 (never); pinned ones stay", WHOLE(keep_days, 1, 100000),
+      LIVE },
     { "keep-bytes", "SIZE", "what the folders of jobs may take, as 500G (anything): the oldest snapshots go first,\nresults last",
-      AMOUNT(keep_bytes, 1e6, 1e18) },
+      AMOUNT(keep_bytes, 1e6, 1e18), LIVE },
     { "max-estimate-seconds", "S", "what one POST may take by its estimate, at least 1 (anything)",
-      AMOUNT(max_estimate_seconds, 1.0, 1e12) },
-    { "max-particles", "N", "particles of one job, at least 1 (anything)", AMOUNT(max_particles, 1.0, 1e9) },
+      AMOUNT(max_estimate_seconds, 1.0, 1e12), LIVE },
+    { "max-particles", "N", "particles of one job, at least 1 (anything)", AMOUNT(max_particles, 1.0, 1e9), LIVE },
     { "max-snapshot-bytes", "SIZE", "what the snapshots of one POST may take, as 20G (anything)",
-      AMOUNT(max_snapshot_bytes, 1.0, 1e18) },
-    { "max-threads", "N", "threads of one job, 1 to 256 (256)", WHOLE(max_threads, 1, 256) },
-    { "log", "FORMAT", "text or json: lines of the log (text)", .kind = OPTION_TAKEN, .take = take_log_format },
+      AMOUNT(max_snapshot_bytes, 1.0, 1e18), LIVE },
+    { "max-threads", "N", "threads of one job, 1 to 256 (256)", WHOLE(max_threads, 1, 256), LIVE },
+    { "log", "FORMAT", "text or json: lines of the log (text)", .kind = OPTION_TAKEN, .take = take_log_format,
+      .is_same = logs_alike, LIVE },
     { "token-file", "FILE",
       "clients must send \"Authorization: Bearer\" with a token of it, a line each: NAME read|write TOKEN;\nmode 0600; read again "
       "on SIGHUP",
-      TEXT(token_file) },
-    { "address-rate", "N", "requests a second of one address, 1 to 1000000 (2000)", WHOLE(address_rate, 1, 1000000) },
+      TEXT(token_file), LIVE },
+    { "address-rate", "N", "requests a second of one address, 1 to 1000000 (2000)", WHOLE(address_rate, 1, 1000000), LIVE },
     { "allow-host", "NAME", "accept this name in the Host header; may be given 8 times", .kind = OPTION_TAKEN, .may_repeat = true,
-      .take = take_host_name },
+      .take = take_host_name, .is_same = allows_same_hosts, LIVE },
     { "allow-origin", "ORIGIN", "let pages of https://host:port use the service; may be given 8 times", .kind = OPTION_TAKEN,
-      .may_repeat = true, .take = take_origin },
+      .may_repeat = true, .take = take_origin, .is_same = allows_same_origins, LIVE },
     { "public-url", "URL", "what addresses begin with for clients, as https://host/prefix behind a proxy", .kind = OPTION_TAKEN,
-      .take = take_public_url },
+      .take = take_public_url, .is_same = has_same_url, LIVE },
     { "port-file", "FILE", "write the port there once it is open", TEXT(port_file) },
     { "worker", "PATH", "the worker program (repose, beside this one)", TEXT(worker) },
     { "confine", "yes|no", "let a worker use its job folder alone, no network and no programs (yes)", .kind = OPTION_TAKEN,
-      .take = take_confine },
+      AT(confine), .take = take_confine, .is_same = confines_alike },
     { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
     { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
     { "wait", NULL, "of submit: until it has ended; 0 only where it is successful", FLAG(wait) },
@@ -157,4 +183,29 @@ bool config_option_take(const config_option *option, config *settings, const cha
     *(const char **)place = value;
     snprintf(problem, OPTION_PROBLEM_SIZE, "given");
     return *value != '\0';
+}
+
+bool config_option_is_same(const config_option *option, const config *one, const config *other)
+{
+    const void *a = (const char *)one + option->offset, *b = (const char *)other + option->offset;
+    switch (option->kind) {
+    case OPTION_WHOLE: return *(const int *)a == *(const int *)b;
+    case OPTION_AMOUNT: return *(const double *)a == *(const double *)b;
+    case OPTION_TEXT: return is_same_text(*(const char *const *)a, *(const char *const *)b);
+    case OPTION_TAKEN: return option->is_same(one, other);
+    case OPTION_FLAG: break;
+    }
+    return true;
+}
+
+void config_option_text(const config_option *option, const config *settings, char *text, size_t size)
+{
+    const void *place = (const char *)settings + option->offset;
+    const int whole = option->kind == OPTION_WHOLE ? *(const int *)place : 0;
+    const double amount = option->kind == OPTION_AMOUNT ? *(const double *)place : whole;
+    const char *given = option->kind == OPTION_TEXT ? *(const char *const *)place : option->kind == OPTION_TAKEN ? "another" : NULL;
+    /* 0 below the least that may be given: it was not. */
+    if (given) snprintf(text, size, "%s", given);
+    else if (option->kind == OPTION_TEXT || amount < option->low) snprintf(text, size, "none");
+    else snprintf(text, size, "%.15g", amount);
 }

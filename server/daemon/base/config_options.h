@@ -13,8 +13,10 @@ typedef struct config_option {
     size_t offset;    /* in the config: of an int, a double, a const char * or a bool */
     double low, high; /* of a number; an amount may end in k, M, G or T */
     bool may_repeat;
+    bool is_live; /* a running service takes another value when it reads its options again */
     /* OPTION_TAKEN: false, and what the value must be, as in `must be ...`. */
     bool (*take)(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE]);
+    bool (*is_same)(const config *one, const config *other);
 } config_option;
 
 extern const config_option config_options[];
@@ -24,5 +26,9 @@ extern const size_t config_option_count;
 const config_option *config_option_named(const char *name);
 /* The value, a string that lives as long as the settings. False: problem says what it must be. */
 bool config_option_take(const config_option *option, config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE]);
+/* Whether both have the same value of it. */
+bool config_option_is_same(const config_option *option, const config *one, const config *other);
+/* Its value for people: "8080", "none". */
+void config_option_text(const config_option *option, const config *settings, char *text, size_t size);
 
 #endif

@@ -31,10 +31,10 @@ double unix_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static bool as_json;
+static _Atomic bool as_json;
 static _Thread_local char request[LOG_REQUEST_SIZE];
 
-void log_as_json(void) { as_json = true; }
+void log_as_json(bool json) { as_json = json; }
 
 void log_set_request(const char *id) { snprintf(request, sizeof request, "%s", id); }
 

@@ -2,10 +2,11 @@
 #ifndef LOG_H
 #define LOG_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
-/* From now on lines are JSON objects: time, message, and the id of the request that this thread answers, where it does. */
-void log_as_json(void);
+/* Whether lines are JSON objects from now on: time, message, and the id of the request that this thread answers, where it does. */
+void log_as_json(bool json);
 /* The request that the calling thread answers from now on; "": none. The id is copied. */
 enum { LOG_REQUEST_SIZE = 65 };
 void log_set_request(const char *id);

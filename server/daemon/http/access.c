@@ -147,26 +147,28 @@ bool access_open(access_list *list, const char *file)
     return !file || read_tokens(list);
 }
 
-bool access_read_again(access_list *list)
+static void take_over(access_list *list, access_list *fresh)
 {
-    if (!list->file) return true;
+    pthread_mutex_lock(&list->lock);
+    for (int f = 0; f < fresh->count; f++)
+        for (int k = 0; k < list->count; k++)
+            if (strcmp(fresh->token[f].text, list->token[k].text) == 0)
+                memcpy(fresh->token[f].session, list->token[k].session, sizeof list->token[k].session);
+    memcpy(list->token, fresh->token, sizeof list->token);
+    list->count = fresh->count;
+    pthread_mutex_unlock(&list->lock);
+    list->file = fresh->file;
+}
+
+bool access_read_again(access_list *list, const char *file)
+{
     access_list *fresh = calloc(1, sizeof *fresh);
     if (!fresh) return false;
-    fresh->file = list->file;
-    const bool good = read_tokens(fresh);
-    if (good) {
-        pthread_mutex_lock(&list->lock);
-        for (int f = 0; f < fresh->count; f++)
-            for (int k = 0; k < list->count; k++)
-                if (strcmp(fresh->token[f].text, list->token[k].text) == 0)
-                    memcpy(fresh->token[f].session, list->token[k].session, sizeof list->token[k].session);
-        memcpy(list->token, fresh->token, sizeof list->token);
-        list->count = fresh->count;
-        pthread_mutex_unlock(&list->lock);
-        log_line("token file %s read again: %d tokens", list->file, fresh->count);
-    } else {
-        log_line("the tokens stay as they were");
-    }
+    fresh->file = file;
+    const bool good = !file || read_tokens(fresh);
+    if (good) take_over(list, fresh);
+    if (good && file) log_line("token file %s read again: %d tokens", file, fresh->count);
+    if (!good) log_line("the tokens stay as they were");
     explicit_bzero(fresh, sizeof *fresh);
     free(fresh);
     return good;

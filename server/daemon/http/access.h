@@ -29,7 +29,7 @@ typedef struct access_token {
 } access_token;
 
 typedef struct access {
-    const char *file; /* NULL: nobody is asked */
+    const char *_Atomic file; /* NULL: nobody is asked */
     pthread_mutex_t lock;
     access_token token[ACCESS_TOKENS];
     int count;
@@ -37,9 +37,9 @@ typedef struct access {
 
 /* file: NULL: none. False: all that is wrong with it is logged. */
 bool access_open(access_list *list, const char *file);
-/* The file as it is now. What is wrong with it is logged, and leaves all as it was. Sessions go on where their token is there
- * still. */
-bool access_read_again(access_list *list);
+/* This file, as it is now; NULL: none any more. What is wrong with it is logged, and leaves all as it was. Sessions go on where
+ * their token is there still. */
+bool access_read_again(access_list *list, const char *file);
 
 /* The time tells nothing about how a wrong token differs from a right one. */
 access_level access_of_token(access_list *list, const char *token);

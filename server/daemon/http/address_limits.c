@@ -17,6 +17,13 @@ void address_limits_init(address_limits *limits, double rate)
     if (getrandom(&limits->secret, sizeof limits->secret, 0) != (ssize_t)sizeof limits->secret) limits->secret = 1;
 }
 
+void address_limits_set_rate(address_limits *limits, double rate)
+{
+    pthread_mutex_lock(&limits->lock);
+    limits->rate = rate;
+    pthread_mutex_unlock(&limits->lock);
+}
+
 static size_t set_of(const address_limits *limits, const uint8_t *address)
 {
     uint64_t mixed = limits->secret;

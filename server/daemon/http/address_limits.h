@@ -25,6 +25,7 @@ typedef struct address_limits {
 } address_limits;
 
 void address_limits_init(address_limits *limits, double rate);
+void address_limits_set_rate(address_limits *limits, double rate);
 /* Counts a request. 0: it may come in; else the seconds after which the next one may. */
 double address_limits_ask(address_limits *limits, const uint8_t *address);
 /* Whether a token is looked at: 0, or the seconds to wait. */

@@ -25,14 +25,32 @@ static bool is_loopback(const char *host)
     return strcmp(host, "localhost") == 0;
 }
 
+static bool has_token_where_needed(const char *host, const char *token_file)
+{
+    if (token_file || is_loopback(host)) return true;
+    log_line("--host %s is reachable from outside; this needs --token-file", host);
+    return false;
+}
+
 bool http_guard_init(http_guard *guard, const config *settings)
 {
     guard->settings = settings;
     address_limits_init(&guard->limits, settings->address_rate);
-    if (!access_open(&guard->access, settings->token_file)) return false;
-    if (settings->token_file || is_loopback(settings->host)) return true;
-    log_line("--host %s is reachable from outside; this needs --token-file", settings->host);
-    return false;
+    return access_open(&guard->access, settings->token_file) && has_token_where_needed(settings->host, settings->token_file);
+}
+
+bool http_guard_read_tokens(http_guard *guard, const config *fresh)
+{
+    const config *settings = guard->settings; /* the host stays as it is */
+    const char *before = settings->token_file, *now = fresh->token_file;
+    if (before && now && strcmp(before, now) == 0) now = before; /* `fresh` need not last where it brings nothing new */
+    return has_token_where_needed(settings->host, now) && access_read_again(&guard->access, now);
+}
+
+void http_guard_set_options(http_guard *guard, const config *settings)
+{
+    address_limits_set_rate(&guard->limits, settings->address_rate);
+    guard->settings = settings;
 }
 
 /* --- headers --- */
@@ -216,7 +234,8 @@ static const char *prefix_of(const char *url)
 void http_guard_begin_session(http_guard *guard, const http_request *request, const char *token, http_response *response)
 {
     char id[ACCESS_SESSION_SIZE], name[ACCESS_NAME_SIZE] = "";
-    const char *url = guard->settings->public_url;
+    const config *settings = guard->settings;
+    const char *url = settings->public_url;
     if (!guard->access.file) {
         http_respond_json(response, 200, json_pack("{s:n, s:s}", "name", "access", "write"));
         return;
@@ -235,9 +254,10 @@ void http_guard_begin_session(http_guard *guard, const http_request *request, co
 
 void http_guard_end_session(http_guard *guard, const http_request *request, http_response *response)
 {
+    const config *settings = guard->settings;
     access_end_session(&guard->access, request->cookie);
     snprintf(response->set_cookie, sizeof response->set_cookie, ACCESS_COOKIE "=; Path=%s/; Max-Age=0; HttpOnly; SameSite=Strict",
-             prefix_of(guard->settings->public_url));
+             prefix_of(settings->public_url));
     http_respond_json(response, 200, json_pack("{s:n, s:s}", "name", "access", guard->access.file ? "none" : "write"));
 }
 

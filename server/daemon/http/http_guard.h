@@ -11,7 +11,7 @@
 enum { HTTP_BODY_LIMIT = 1 << 20 };
 
 typedef struct http_guard {
-    const config *settings;
+    const config *_Atomic settings;
     access_list access;
     address_limits limits;
 } http_guard;
@@ -25,6 +25,10 @@ typedef struct http_headers {
 
 /* False: the problem is logged. A host beyond loopback needs a token. */
 bool http_guard_init(http_guard *guard, const config *settings);
+/* The token file of the options as they are now. False: it is logged, and all stays as it was. */
+bool http_guard_read_tokens(http_guard *guard, const config *fresh);
+/* From now on these, which outlive the guard. */
+void http_guard_set_options(http_guard *guard, const config *settings);
 void http_headers_take(http_headers *headers, http_request *request, const char *name, const char *value);
 /* False: the response says why not. *body_length: to be expected. */
 bool http_guard_admits(http_guard *guard, const http_headers *headers, const http_request *request, const http_route *route,

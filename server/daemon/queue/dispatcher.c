@@ -48,6 +48,12 @@ bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_execut
     return dispatcher->slot && dispatcher->wake >= 0;
 }
 
+void dispatcher_set_threads(job_dispatcher *dispatcher, int threads_per_job)
+{
+    dispatcher->threads = dispatcher->workers * threads_per_job;
+    dispatcher_wake(dispatcher);
+}
+
 void dispatcher_clear(job_dispatcher *dispatcher)
 {
     close(dispatcher->wake);

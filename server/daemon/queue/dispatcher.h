@@ -37,9 +37,10 @@ typedef struct worker_slot {
 typedef struct job_dispatcher {
     job_store *store;
     worker_executor *executor;
-    int workers, threads; /* slots; threads of all workers together */
-    worker_slot *slot;    /* (workers) */
-    int wake, signals;    /* eventfds */
+    int workers;         /* slots */
+    _Atomic int threads; /* of all workers together */
+    worker_slot *slot;   /* (workers) */
+    int wake, signals;   /* eventfds */
     queue_pause pause;
     _Atomic bool recovered; /* jobs that an earlier daemon left running are put back */
     bool stopping;
@@ -57,6 +58,8 @@ void dispatcher_end_signals(sigset_t *ends);
 /* signals: becomes readable when one of them has come (end_signals.h); the caller's. */
 bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job,
                      int signals);
+/* From any thread: those of a job that does not ask, which make those of all. */
+void dispatcher_set_threads(job_dispatcher *dispatcher, int threads_per_job);
 void dispatcher_clear(job_dispatcher *dispatcher);
 /* Returns after one of the end signals, when every worker has left and its job is back in the queue, or can't be put there
  * now: then the next start does it. leaving is called once, when the workers know. */

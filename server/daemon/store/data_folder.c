@@ -336,13 +336,21 @@ disk_room data_folder_room(const data_folder *data)
     return (disk_room){ block * (double)disk.f_blocks, block * (double)disk.f_bavail, (double)disk.f_favail };
 }
 
-bool data_folder_is_nearly_full(const data_folder *data)
+void data_folder_kept_room(const data_folder *data, double *bytes, double *inodes)
 {
     struct statvfs disk;
-    if (fstatvfs(data->jobs, &disk) != 0) return false;
-    const double block = (double)disk.f_frsize, kept = fmin(KEPT_BYTES, KEPT_SHARE * block * (double)disk.f_blocks);
-    const double inodes = (double)disk.f_files; /* 0: of a file system that has no limit */
-    return block * (double)disk.f_bavail < kept || (double)disk.f_favail < fmin(KEPT_INODES, KEPT_SHARE * inodes);
+    *bytes = *inodes = NAN;
+    if (fstatvfs(data->jobs, &disk) != 0) return;
+    *bytes = fmin(KEPT_BYTES, KEPT_SHARE * (double)disk.f_frsize * (double)disk.f_blocks);
+    *inodes = fmin(KEPT_INODES, KEPT_SHARE * (double)disk.f_files); /* 0: of a file system that has no limit */
+}
+
+bool data_folder_is_nearly_full(const data_folder *data)
+{
+    double kept_bytes, kept_inodes;
+    const disk_room room = data_folder_room(data);
+    data_folder_kept_room(data, &kept_bytes, &kept_inodes);
+    return room.free_bytes < kept_bytes || room.free_inodes < kept_inodes;
 }
 
 bool data_folder_sync(const data_folder *data) { return syncfs(data->jobs) == 0; }

@@ -52,6 +52,8 @@ typedef struct disk_room {
 } disk_room;
 disk_room data_folder_room(const data_folder *data);
 /* What is left, of bytes or of inodes, is for jobs that run already and for the database: none is to be added. */
+/* What has to stay free, for jobs that run. */
+void data_folder_kept_room(const data_folder *data, double *bytes, double *inodes);
 bool data_folder_is_nearly_full(const data_folder *data);
 double data_folder_free_bytes(const data_folder *data); /* NaN: not known */
 

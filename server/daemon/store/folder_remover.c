@@ -69,20 +69,23 @@ static int look(folder_remover *remover)
 static int prune(folder_remover *remover)
 {
     const double start = monotonic_seconds();
-    if (remover->rules.keep_days == 0 && !(remover->rules.keep_bytes > 0.0)) return 0;
-    if (start >= remover->prune_next) {
-        prune_tally tally = { .jobs = 0 };
-        store_prune(remover->store, &remover->rules, &remover->stopping, &tally);
-        const double end = monotonic_seconds();
-        remover->prune_next = end + fmax(BETWEEN_PRUNINGS, SHARE_OF_PRUNING * (end - start));
-        pthread_mutex_lock(&remover->lock);
-        remover->pruned.jobs += tally.jobs;
-        remover->pruned.studies += tally.studies;
-        remover->pruned.stripped += tally.stripped;
-        remover->pruned.bytes += tally.bytes;
-        pthread_mutex_unlock(&remover->lock);
-    }
-    return 1 + (int)fmin(1e6, fmax(0.0, remover->prune_next - monotonic_seconds()));
+    pthread_mutex_lock(&remover->lock);
+    const prune_rules rules = remover->rules;
+    const double next = remover->prune_next;
+    pthread_mutex_unlock(&remover->lock);
+    if (rules.keep_days == 0 && !(rules.keep_bytes > 0.0)) return 0;
+    if (start < next) return 1 + (int)fmin(1e6, next - start);
+    prune_tally tally = { .jobs = 0 };
+    store_prune(remover->store, &rules, &remover->stopping, &tally);
+    const double end = monotonic_seconds(), pause = fmax(BETWEEN_PRUNINGS, SHARE_OF_PRUNING * (end - start));
+    pthread_mutex_lock(&remover->lock);
+    if (remover->prune_next <= next) remover->prune_next = end + pause; /* else other rules came meanwhile */
+    remover->pruned.jobs += tally.jobs;
+    remover->pruned.studies += tally.studies;
+    remover->pruned.stripped += tally.stripped;
+    remover->pruned.bytes += tally.bytes;
+    pthread_mutex_unlock(&remover->lock);
+    return 1 + (int)fmin(1e6, pause);
 }
 
 prune_tally folder_remover_pruned(folder_remover *remover)
@@ -144,6 +147,16 @@ bool folder_remover_start(folder_remover *remover, job_store *store, const prune
     if (pthread_create(&remover->thread, NULL, remove_what_leaves, remover) == 0) return true;
     log_line("no thread is to be had for removing folders");
     return false;
+}
+
+void folder_remover_set_rules(folder_remover *remover, const prune_rules *rules)
+{
+    pthread_mutex_lock(&remover->lock);
+    remover->rules = *rules;
+    remover->prune_next = monotonic_seconds();
+    remover->is_due = true;
+    pthread_cond_signal(&remover->wakes);
+    pthread_mutex_unlock(&remover->lock);
 }
 
 void folder_remover_wake(folder_remover *remover)

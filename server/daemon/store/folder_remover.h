@@ -15,8 +15,8 @@
 
 typedef struct folder_remover {
     job_store *store;
-    prune_rules rules;  /* what is not to be kept; looked at now and then */
-    prune_tally pruned; /* since the start; under the lock */
+    prune_rules rules;  /* what is not to be kept; looked at now and then. Under the lock, as are the next two */
+    prune_tally pruned; /* since the start */
     double prune_next;  /* monotonic s */
     pthread_t thread;
     pthread_mutex_t lock;
@@ -31,6 +31,8 @@ bool folder_remover_start(folder_remover *remover, job_store *store, const prune
 prune_tally folder_remover_pruned(folder_remover *remover);
 /* `reposed prune`, while no daemon is at work: once, folders included. False: logged. */
 bool prune_once(const char *data, const prune_rules *rules);
+/* From any thread: other rules hold, and are looked at now. */
+void folder_remover_set_rules(folder_remover *remover, const prune_rules *rules);
 /* From any thread: something was deleted. */
 void folder_remover_wake(folder_remover *remover);
 /* Ends within the removal of one file. */

@@ -20,9 +20,9 @@ struct job_store {
     data_folder *data;
     field_tables fields;
     job_index *index;
-    int64_t queue_limit;        /* jobs that may wait */
-    int places;                 /* jobs that may run at once */
-    pthread_mutex_t write_lock; /* held for each transaction of the one writer */
+    _Atomic int64_t queue_limit; /* jobs that may wait */
+    int places;                  /* jobs that may run at once */
+    pthread_mutex_t write_lock;  /* held for each transaction of the one writer */
     sqlite3 *writer;
     pthread_mutex_t readers_lock;
     pthread_cond_t reader_is_free;

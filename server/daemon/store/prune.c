@@ -217,3 +217,31 @@ store_status store_prune(job_store *store, const prune_rules *rules, const atomi
     tally->left = p.bytes;
     return status;
 }
+
+/* --- what could be freed --- */
+
+enum { MOST_COUNTED = 20000 }; /* snapshots: some 10 ms */
+
+store_status store_look_for_room(job_store *store, room_to_free *room)
+{
+    const disk_room disk = data_folder_room(store->data);
+    *room = (room_to_free){ .free_bytes = disk.free_bytes, .free_inodes = disk.free_inodes };
+    data_folder_kept_room(store->data, &room->kept_bytes, &room->kept_inodes);
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *row =
+        sql_prepare(reader,
+                    "SELECT count(DISTINCT job), total(bytes), count(*), (SELECT total(jobs) FROM job_count WHERE status IN"
+                    " ('successful','failed','dismissed')) FROM (SELECT snapshot.job AS job, bytes FROM snapshot JOIN job ON"
+                    " job.number=snapshot.job WHERE " HAS_ENDED " AND NOT " IS_PINNED " ORDER BY snapshot.job LIMIT ?)",
+                    "i", (int64_t)MOST_COUNTED);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    if (code == SQLITE_ROW) {
+        room->jobs = sqlite3_column_int64(row, 0);
+        room->snapshot_bytes = sqlite3_column_double(row, 1);
+        room->is_more = sqlite3_column_int64(row, 2) == MOST_COUNTED;
+        room->ended = sqlite3_column_int64(row, 3);
+    }
+    const store_status status = row ? sql_finish(row, code) : STORE_FAILED;
+    store_return_reader(store, reader);
+    return status;
+}
