@@ -190,7 +190,7 @@ $(BUILD)/libworker.a: $(filter-out $(BUILD)/server/worker/main.o,$(WORKER))
 $(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD)/libapi.a $(BUILD)/core/single-plain/libdem.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) -Itests/unit $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
 	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -ljansson -lseccomp -lm -o $@
 $(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD)/libapi.a $(RULES)
 	@mkdir -p $(@D)

@@ -28,6 +28,11 @@ struct process_type {
     const result_table *results;
 };
 
+/* Its members where its parts have the names that all processes give theirs (X_fields, X_rules_apply, ...). */
+#define PROCESS_PARTS(process)                                                                                                     \
+    .inputs = &process##_fields, .apply_rules = process##_rules_apply, .estimate = process##_estimate, .warn = process##_warn,     \
+    .understand = process##_understand, .results = &process##_result_fields
+
 extern const process_type *const process_types[];        /* ends with NULL */
 const process_type *process_type_find(const char *name); /* NULL: unknown */
 

@@ -20,9 +20,8 @@ int LLVMFuzzerInitialize(int *count, char ***arguments)
     char id[JOB_ID_SIZE];
     (void)count;
     (void)arguments;
-    store = store_with_a_job(&data, id);
+    store = store_with_a_claim(&data, id, &claim);
     service = service_of(store);
-    CLAIM(store_claim_job(store, false, 1, 1, &claim) == STORE_OK);
     file = open("events.ndjson", O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
     CLAIM(file >= 0);
     return 0;

@@ -17,9 +17,8 @@ int LLVMFuzzerInitialize(int *count, char ***arguments)
     char id[JOB_ID_SIZE];
     (void)count;
     (void)arguments;
-    store = store_with_a_job(&data, id);
+    store = store_with_a_claim(&data, id, &claim);
     service = service_of(store);
-    CLAIM(store_claim_job(store, false, 1, 1, &claim) == STORE_OK);
     CLAIM(job_folder_create(&data, id, claim.spec));
     snprintf(result, sizeof result, "data/jobs/%s/" JOB_RESULT_FILE, id);
     snprintf(seal, sizeof seal, "data/jobs/%s/" JOB_RESULT_SUM_FILE, id);

@@ -27,4 +27,12 @@ static inline job_store *store_with_a_job(data_folder *data, char id[JOB_ID_SIZE
     return store;
 }
 
+/* The same, and that job claimed by a worker. */
+static inline job_store *store_with_a_claim(data_folder *data, char id[JOB_ID_SIZE], job_claim *claim)
+{
+    job_store *store = store_with_a_job(data, id);
+    CLAIM(store_claim_job(store, false, 1, 1, claim) == STORE_OK);
+    return store;
+}
+
 #endif

@@ -1,4 +1,4 @@
-/* What unit tests start from: cmocka, and checks that say what they saw. */
+/* What unit tests start from: cmocka, checks that say what they saw, and the main program. */
 #ifndef CLAIMS_H
 #define CLAIMS_H
 
@@ -17,6 +17,27 @@
 
 #define CHECK_BETWEEN(value, low, high) check_between(#value, value, low, high, __FILE__, __LINE__)
 #define CHECK_NEAR(value, expected, tolerance) check_near(#value, value, expected, tolerance, __FILE__, __LINE__)
+
+/* The main program of the tests that are named. */
+#define UNIT_TESTS(...)                                                                                                            \
+    int main(void) { return RUN_UNIT_TESTS(NULL, NULL, __VA_ARGS__); }
+/* How many of them fail, with what is done before the first of them and after the last, or NULL. */
+#define RUN_UNIT_TESTS(before, after, ...)                                                                                         \
+    run_unit_tests((const CMUnitTestFunction[]){ __VA_ARGS__ }, (char[]){ #__VA_ARGS__ }, before, after)
+
+#define MOST_UNIT_TESTS 100
+
+/* names: of the tests, in their order, with commas between them. */
+static inline int run_unit_tests(const CMUnitTestFunction tests[], char *names, CMFixtureFunction before, CMFixtureFunction after)
+{
+    struct CMUnitTest named[MOST_UNIT_TESTS] = { { NULL } };
+    size_t count = 0;
+    for (char *name = strtok(names, ", "); name; name = strtok(NULL, ", "), count++) {
+        assert_true(count < MOST_UNIT_TESTS);
+        named[count] = (struct CMUnitTest){ .name = name, .test_func = tests[count] };
+    }
+    return _cmocka_run_group_tests("tests", named, count, before, after);
+}
 
 /* Written so that a NaN fails. */
 static inline void check_between(const char *what, double value, double low, double high, const char *file, int line)

@@ -6,11 +6,6 @@ const process_type drum_process = {
     .title = "Rotating drum",
     .description = "A horizontal drum, part full of particles, turns about its axis: dynamic angle of repose, flow "
                    "regime, segregation and packing of the bed. SI units; angles in degrees.",
-    .inputs = &drum_fields,
     .inputs_at = offsetof(job_spec, inputs),
-    .apply_rules = drum_rules_apply,
-    .estimate = drum_estimate,
-    .warn = drum_warn,
-    .understand = drum_understand,
-    .results = &drum_result_fields,
+    PROCESS_PARTS(drum),
 };

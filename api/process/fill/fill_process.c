@@ -6,11 +6,6 @@ const process_type fill_process = {
     .title = "Filling a cylinder",
     .description = "A stream of particles falls into a standing cylinder at a given speed: the mound that it leaves, while it "
                    "runs and at rest, the surface, and the packing of the bed. SI units; angles in degrees.",
-    .inputs = &fill_fields,
     .inputs_at = offsetof(job_spec, inputs),
-    .apply_rules = fill_rules_apply,
-    .estimate = fill_estimate,
-    .warn = fill_warn,
-    .understand = fill_understand,
-    .results = &fill_result_fields,
+    PROCESS_PARTS(fill),
 };

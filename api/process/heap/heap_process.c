@@ -6,11 +6,6 @@ const process_type heap_process = {
     .title = "Heap below a raised tube",
     .description = "A tube full of particles, standing on a plate, is raised slowly: the angle of the heap that forms, under four "
                    "definitions and over 16 azimuths, its shape, and what the plate loses. SI units; angles in degrees.",
-    .inputs = &heap_fields,
     .inputs_at = offsetof(job_spec, inputs),
-    .apply_rules = heap_rules_apply,
-    .estimate = heap_estimate,
-    .warn = heap_warn,
-    .understand = heap_understand,
-    .results = &heap_result_fields,
+    PROCESS_PARTS(heap),
 };

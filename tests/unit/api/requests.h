@@ -2,18 +2,7 @@
 #ifndef REQUESTS_H
 #define REQUESTS_H
 
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "claims.h"
 #include "job_spec.h"
 
 static const char minimal[] = "{\"inputs\": {\"drum\": {\"diameter\": 0.05, \"length\": 0.02, \"rotation_rate\": 3},"

@@ -1,15 +1,6 @@
 /* Claims about the cost of a step: products of what was measured, by hand. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
-
 #include "calibration.h"
+#include "claims.h"
 
 static calibration fake(void)
 {
@@ -127,15 +118,6 @@ static void what_is_no_calibration_is_not_used(void **state)
     json_decref(document);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_step_costs_its_spheres_by_law_and_kind),
-        cmocka_unit_test(between_measured_sizes_cost_follows_the_logarithm),
-        cmocka_unit_test(only_cores_that_exist_count_as_threads),
-        cmocka_unit_test(finished_runs_correct_what_is_said),
-        cmocka_unit_test(a_file_is_read_as_it_was_written),
-        cmocka_unit_test(what_is_no_calibration_is_not_used),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_step_costs_its_spheres_by_law_and_kind, between_measured_sizes_cost_follows_the_logarithm,
+           only_cores_that_exist_count_as_threads, finished_runs_correct_what_is_said, a_file_is_read_as_it_was_written,
+           what_is_no_calibration_is_not_used)

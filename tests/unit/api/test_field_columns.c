@@ -1,14 +1,5 @@
 /* Claims about what the rows of inputs and results say of the columns of SQL. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <stdlib.h>
-#include <string.h>
-
+#include "claims.h"
 #include "field_columns.h"
 
 static int gather(void **state)
@@ -103,12 +94,7 @@ static void a_list_is_in_the_order_of_its_places(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(each_column_stands_once_in_its_table),
-        cmocka_unit_test(each_place_in_the_view_and_in_studies_has_one_name),
-        cmocka_unit_test(what_a_runs_error_is_named_by_is_a_column),
-        cmocka_unit_test(rows_of_one_name_are_of_one_kind_in_all_processes),
-        cmocka_unit_test(a_list_is_in_the_order_of_its_places),
-    };
-    return cmocka_run_group_tests(tests, gather, clear);
+    return RUN_UNIT_TESTS(gather, clear, each_column_stands_once_in_its_table, each_place_in_the_view_and_in_studies_has_one_name,
+                          what_a_runs_error_is_named_by_is_a_column, rows_of_one_name_are_of_one_kind_in_all_processes,
+                          a_list_is_in_the_order_of_its_places);
 }

@@ -1,11 +1,5 @@
 /* The Range header: which bytes of a file are sent. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-
-#include <cmocka.h>
-
+#include "claims.h"
 #include "http_range.h"
 
 static void expect(const char *header, uint64_t size, http_range_kind kind, uint64_t offset, uint64_t length)
@@ -53,13 +47,4 @@ static void huge_numbers_do_not_wrap_around(void **state)
     expect("bytes=-18446744073709551621", 100, HTTP_RANGE_PART, 0, 100);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(one_part_is_understood),
-        cmocka_unit_test(parts_outside_the_file_are_told),
-        cmocka_unit_test(anything_else_means_the_whole),
-        cmocka_unit_test(huge_numbers_do_not_wrap_around),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(one_part_is_understood, parts_outside_the_file_are_told, anything_else_means_the_whole, huge_numbers_do_not_wrap_around)

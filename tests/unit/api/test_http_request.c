@@ -1,13 +1,5 @@
 /* Targets, parameters, Accept and routes: what a request is taken to mean. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
-
-#include <cmocka.h>
-
+#include "claims.h"
 #include "http_accept.h"
 #include "routes.h"
 #include "text_buffer.h"
@@ -269,18 +261,6 @@ static void ids_have_one_shape(void **state)
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) assert_false(job_id_is_valid(bad[i]));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parameters_are_decoded_once),
-        cmocka_unit_test(strange_targets_are_refused),
-        cmocka_unit_test(whole_numbers_have_bounds),
-        cmocka_unit_test(accept_chooses_by_quality_and_exactness),
-        cmocka_unit_test(routes_fill_in_segments),
-        cmocka_unit_test(a_buffer_keeps_its_cap),
-        cmocka_unit_test(ids_have_one_shape),
-        cmocka_unit_test(a_text_is_no_formula_in_a_spreadsheet),
-        cmocka_unit_test(a_problem_is_told_whatever_bytes_it_quotes),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(parameters_are_decoded_once, strange_targets_are_refused, whole_numbers_have_bounds,
+           accept_chooses_by_quality_and_exactness, routes_fill_in_segments, a_buffer_keeps_its_cap, ids_have_one_shape,
+           a_text_is_no_formula_in_a_spreadsheet, a_problem_is_told_whatever_bytes_it_quotes)

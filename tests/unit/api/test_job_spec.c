@@ -507,32 +507,14 @@ static void the_description_has_every_default_and_range_that_the_parser_has(void
     json_decref(description);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_minimal_request_gets_every_default),
-        cmocka_unit_test(a_canonical_spec_is_read_and_written_with_the_same_bytes),
-        cmocka_unit_test(a_number_out_of_range_is_named_with_value_unit_and_range),
-        cmocka_unit_test(the_ends_of_a_range_are_inside_or_not_as_written),
-        cmocka_unit_test(a_number_that_has_lost_its_digits_is_refused),
-        cmocka_unit_test(whole_numbers_are_asked_for_where_they_are_needed),
-        cmocka_unit_test(unknown_members_are_refused_with_the_nearest_name),
-        cmocka_unit_test(what_is_not_available_yet_is_refused_with_what_is),
-        cmocka_unit_test(a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own),
-        cmocka_unit_test(a_cluster_of_named_or_given_spheres_is_one_particle),
-        cmocka_unit_test(a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault),
-        cmocka_unit_test(a_run_may_be_asked_for_its_answer),
-        cmocka_unit_test(each_law_takes_its_own_elasticity),
-        cmocka_unit_test(one_of_two_alternatives_is_enough_and_both_are_too_much),
-        cmocka_unit_test(all_problems_are_listed_at_once),
-        cmocka_unit_test(combinations_that_make_no_sense_are_refused),
-        cmocka_unit_test(labels_are_short_texts_and_numbers),
-        cmocka_unit_test(a_long_message_is_cut_between_characters),
-        cmocka_unit_test(the_estimate_is_near_what_runs_of_few_and_of_many_took),
-        cmocka_unit_test(the_estimate_of_settling_follows_how_few_grains_there_are),
-        cmocka_unit_test(the_estimate_is_near_what_heaps_and_fills_took),
-        cmocka_unit_test(the_estimate_grows_with_what_is_asked),
-        cmocka_unit_test(the_description_has_every_default_and_range_that_the_parser_has),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_minimal_request_gets_every_default, a_canonical_spec_is_read_and_written_with_the_same_bytes,
+           a_number_out_of_range_is_named_with_value_unit_and_range, the_ends_of_a_range_are_inside_or_not_as_written,
+           a_number_that_has_lost_its_digits_is_refused, whole_numbers_are_asked_for_where_they_are_needed,
+           unknown_members_are_refused_with_the_nearest_name, what_is_not_available_yet_is_refused_with_what_is,
+           a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own, a_cluster_of_named_or_given_spheres_is_one_particle,
+           a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault, a_run_may_be_asked_for_its_answer,
+           each_law_takes_its_own_elasticity, one_of_two_alternatives_is_enough_and_both_are_too_much,
+           all_problems_are_listed_at_once, combinations_that_make_no_sense_are_refused, labels_are_short_texts_and_numbers,
+           a_long_message_is_cut_between_characters, the_estimate_is_near_what_runs_of_few_and_of_many_took,
+           the_estimate_of_settling_follows_how_few_grains_there_are, the_estimate_is_near_what_heaps_and_fills_took,
+           the_estimate_grows_with_what_is_asked, the_description_has_every_default_and_range_that_the_parser_has)

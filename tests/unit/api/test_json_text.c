@@ -1,17 +1,8 @@
 /* Claims about JSON text: what is refused on the way in, and how numbers look on the way out. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include "claims.h"
 #include "job_spec.h"
 #include "json_text.h"
 
@@ -138,14 +129,5 @@ static void numbers_are_written_in_the_fewest_digits_that_read_back_the_same(voi
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_number_that_would_turn_into_0_is_refused),
-        cmocka_unit_test(a_message_holds_no_byte_that_was_not_sent),
-        cmocka_unit_test(bodies_are_read_by_their_length),
-        cmocka_unit_test(digits_inside_a_text_are_no_numbers),
-        cmocka_unit_test(numbers_are_written_in_the_fewest_digits_that_read_back_the_same),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_number_that_would_turn_into_0_is_refused, a_message_holds_no_byte_that_was_not_sent, bodies_are_read_by_their_length,
+           digits_inside_a_text_are_no_numbers, numbers_are_written_in_the_fewest_digits_that_read_back_the_same)

@@ -1,7 +1,6 @@
 /* Claims about the mean of several runs and its error. */
-#include "mean_of_runs.h"
-
 #include "claims.h"
+#include "mean_of_runs.h"
 
 static json_t *mean_of(const double (*runs)[2], size_t count)
 {
@@ -105,15 +104,6 @@ static void digits_follow_the_error(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(two_runs_that_agree_by_chance_keep_their_own_errors),
-        cmocka_unit_test(scatter_beyond_the_own_errors_counts),
-        cmocka_unit_test(one_run_has_its_own_error_or_none),
-        cmocka_unit_test(few_runs_are_widened_as_students_distribution_asks),
-        cmocka_unit_test(means_lie_within_their_error_as_often_as_claimed),
-        cmocka_unit_test(digits_follow_the_error),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(two_runs_that_agree_by_chance_keep_their_own_errors, scatter_beyond_the_own_errors_counts,
+           one_run_has_its_own_error_or_none, few_runs_are_widened_as_students_distribution_asks,
+           means_lie_within_their_error_as_often_as_claimed, digits_follow_the_error)

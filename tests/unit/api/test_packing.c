@@ -1,16 +1,6 @@
 /* Claims about what particles of a shape can be packed to: what was seen to fail is refused, what was grown is accepted, and who
  * gives a tube or cylinder too low for a loose bed is told so. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "claims.h"
 #include "job_spec.h"
 
 #define SPHERE "{\"diameter\": 0.002}"
@@ -136,13 +126,5 @@ static void a_tube_is_high_enough_for_a_loose_bed(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(named_shapes_are_refused_only_where_they_failed),
-        cmocka_unit_test(blocks_are_refused_only_where_they_failed),
-        cmocka_unit_test(a_loose_bed_that_may_stand_over_the_top_is_told),
-        cmocka_unit_test(a_tube_is_high_enough_for_a_loose_bed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(named_shapes_are_refused_only_where_they_failed, blocks_are_refused_only_where_they_failed,
+           a_loose_bed_that_may_stand_over_the_top_is_told, a_tube_is_high_enough_for_a_loose_bed)

@@ -1,15 +1,5 @@
 /* Claims about the table of processes, and about the specification of a granule. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "claims.h"
 #include "granule_process.h"
 
 static void every_field_has_its_own_name_and_a_meaning(void **state)
@@ -101,13 +91,5 @@ static void an_unknown_process_is_told_which_there_are(void **state)
     free(problems);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_field_has_its_own_name_and_a_meaning),
-        cmocka_unit_test(a_granule_needs_its_friction_alone),
-        cmocka_unit_test(a_canonical_granule_is_read_and_written_with_the_same_bytes),
-        cmocka_unit_test(an_unknown_process_is_told_which_there_are),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(every_field_has_its_own_name_and_a_meaning, a_granule_needs_its_friction_alone,
+           a_canonical_granule_is_read_and_written_with_the_same_bytes, an_unknown_process_is_told_which_there_are)

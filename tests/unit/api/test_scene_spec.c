@@ -354,23 +354,11 @@ static void a_start_within_a_bar_or_the_lining_is_refused(void **state)
                          "particles/1/position: coincides with particle 0");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shares_by_volume_and_mass_become_shares_by_number),
-        cmocka_unit_test(variable_unloading_takes_its_slope_from_the_restitution_or_the_other_way_round),
-        cmocka_unit_test(the_step_is_short_enough_for_the_speeds_of_a_start),
-        cmocka_unit_test(contacts_resist_rolling_where_asked_for),
-        cmocka_unit_test(corrector_passes_are_one_unless_asked_for),
-        cmocka_unit_test(a_list_of_particles_says_how_many_there_are_of_each),
-        cmocka_unit_test(particles_outside_the_drum_or_within_each_other_are_all_told),
-        cmocka_unit_test(a_start_is_one_thing_and_leaves_nothing_unsaid),
-        cmocka_unit_test(what_a_run_starts_from_must_be_of_the_same_drum_and_particles),
-        cmocka_unit_test(clusters_are_not_looked_into_for_a_client_that_has_left),
-        cmocka_unit_test(a_rate_may_be_given_in_revolutions_a_minute),
-        cmocka_unit_test(shares_of_four_digits_sum_to_one),
-        cmocka_unit_test(what_can_not_be_packed_is_refused),
-        cmocka_unit_test(a_start_within_a_bar_or_the_lining_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(shares_by_volume_and_mass_become_shares_by_number,
+           variable_unloading_takes_its_slope_from_the_restitution_or_the_other_way_round,
+           the_step_is_short_enough_for_the_speeds_of_a_start, contacts_resist_rolling_where_asked_for,
+           corrector_passes_are_one_unless_asked_for, a_list_of_particles_says_how_many_there_are_of_each,
+           particles_outside_the_drum_or_within_each_other_are_all_told, a_start_is_one_thing_and_leaves_nothing_unsaid,
+           what_a_run_starts_from_must_be_of_the_same_drum_and_particles, clusters_are_not_looked_into_for_a_client_that_has_left,
+           a_rate_may_be_given_in_revolutions_a_minute, shares_of_four_digits_sum_to_one, what_can_not_be_packed_is_refused,
+           a_start_within_a_bar_or_the_lining_is_refused)

@@ -1,10 +1,9 @@
 /* Claims about the search for overlaps among particles that are placed one by one: it finds what comparing each with each
  * finds, and takes no longer for beds that were made to be slow. */
-#include "start_overlap.h"
-
 #include <time.h>
 
 #include "claims.h"
+#include "start_overlap.h"
 
 static const double MOST = 0.05;
 
@@ -111,11 +110,4 @@ static void a_bed_that_was_made_to_be_slow_is_not(void **unused)
     assert_int_equal(found, 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_pairs_are_those_of_comparing_each_with_each),
-        cmocka_unit_test(a_bed_that_was_made_to_be_slow_is_not),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(the_pairs_are_those_of_comparing_each_with_each, a_bed_that_was_made_to_be_slow_is_not)

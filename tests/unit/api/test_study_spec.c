@@ -1,15 +1,5 @@
 /* Claims about studies: merge patches, pointers, combinations, and where problems are said to be. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "claims.h"
 #include "json_pointer.h"
 #include "merge_patch.h"
 #include "study_spec.h"
@@ -334,21 +324,10 @@ static void test_the_largest_seed_leaves_no_room_for_repeats(void **state)
                     "/base/inputs/seed: is 9007199254740992; must be in [0, 9007199254740991]\n");
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_merge_patch_follows_the_table_of_its_rfc),
-        cmocka_unit_test(test_pointers_follow_the_table_of_their_rfc),
-        cmocka_unit_test(test_setting_makes_objects_on_the_way_and_no_entries_of_lists),
-        cmocka_unit_test(test_all_combinations_come_once_and_the_last_varies_fastest),
-        cmocka_unit_test(test_cases_are_patches_and_show_what_any_of_them_changes),
-        cmocka_unit_test(test_repeats_differ_in_the_seed_alone),
-        cmocka_unit_test(test_a_seed_that_is_missing_is_chosen_once_and_kept),
-        cmocka_unit_test(test_a_study_costs_what_its_jobs_cost),
-        cmocka_unit_test(test_problems_point_into_the_study),
-        cmocka_unit_test(test_bad_shapes_and_bad_jobs_are_told_together),
-        cmocka_unit_test(test_no_study_is_larger_than_the_queue),
-        cmocka_unit_test(test_the_largest_seed_leaves_no_room_for_repeats),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(test_merge_patch_follows_the_table_of_its_rfc, test_pointers_follow_the_table_of_their_rfc,
+           test_setting_makes_objects_on_the_way_and_no_entries_of_lists,
+           test_all_combinations_come_once_and_the_last_varies_fastest, test_cases_are_patches_and_show_what_any_of_them_changes,
+           test_repeats_differ_in_the_seed_alone, test_a_seed_that_is_missing_is_chosen_once_and_kept,
+           test_a_study_costs_what_its_jobs_cost, test_problems_point_into_the_study,
+           test_bad_shapes_and_bad_jobs_are_told_together, test_no_study_is_larger_than_the_queue,
+           test_the_largest_seed_leaves_no_room_for_repeats)

@@ -1,17 +1,6 @@
 /* Claims about warnings: slips that can be run are told with the field that they are in, and good specifications are not
  * grumbled at. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
-
+#include "claims.h"
 #include "job_spec.h"
 #include "process_type.h"
 #include "result_warnings.h"
@@ -274,15 +263,6 @@ static void an_overlap_above_what_was_asked_for_by_half_is_told(void **unused)
     assert_int_equal(warnings_of_overlap("\"stiffness\": 4e5", 0.02), 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_slip_is_told_with_its_field),
-        cmocka_unit_test(what_is_usual_is_not_warned_of),
-        cmocka_unit_test(a_drum_is_understood_in_other_words),
-        cmocka_unit_test(times_are_told_in_two_units),
-        cmocka_unit_test(a_study_tells_a_warning_once_and_where_it_comes_from),
-        cmocka_unit_test(an_overlap_above_what_was_asked_for_by_half_is_told),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(every_slip_is_told_with_its_field, what_is_usual_is_not_warned_of, a_drum_is_understood_in_other_words,
+           times_are_told_in_two_units, a_study_tells_a_warning_once_and_where_it_comes_from,
+           an_overlap_above_what_was_asked_for_by_half_is_told)

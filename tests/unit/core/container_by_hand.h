@@ -3,34 +3,20 @@
 #ifndef CONTAINER_BY_HAND_H
 #define CONTAINER_BY_HAND_H
 
-#include "core_claims.h"
-#include "dem.h"
-#include "dem_rules.h"
+#include "equal_spheres.h"
 #include "scene.h"
 
 /* 4 mm spheres in 0.1 m: a drum, to be closed, set up or given bars by the test. */
 static inline dem_scene_definition container_definition(dem_container_kind kind, size_t n)
 {
-    return (dem_scene_definition){
-        .container = kind,
-        .diameter = 0.1,
-        .length = 0.06,
-        .ends = { .friction = 0.3 },
-        .plate = { .diameter = 0.2, .friction = 0.3 },
-        .gravity = 9.81,
-        .fill_fraction = 0.5,
-        .particle_count = n,
-        .species_count = 1,
-        .species = { { .diameter = 0.004, .density = 2500, .share = 1 } },
-        .contact = { .stiffness = 4000,
-                     .restitution = 0.8,
-                     .friction = 0.3,
-                     .wall_friction = 0.3,
-                     .tangential_stiffness_ratio = 0.8 },
-        .time_step = 1e-5,
-        .seed = 1,
-        .threads = 1,
-    };
+    dem_scene_definition d = equal_spheres(n);
+    d.container = kind;
+    d.diameter = 0.1;
+    d.length = 0.06;
+    d.ends.friction = 0.3;
+    d.plate = (dem_plate){ .diameter = 0.2, .friction = 0.3 };
+    d.contact.wall_friction = 0.3;
+    return d;
 }
 
 static inline dem_scene *container_scene(const dem_scene_definition *d)

@@ -3,9 +3,7 @@
 #ifndef SCENE_BY_HAND_H
 #define SCENE_BY_HAND_H
 
-#include "core_claims.h"
-#include "dem.h"
-#include "dem_rules.h"
+#include "equal_spheres.h"
 #include "scene.h"
 
 /* Spheres that every such scene has beside the test's own, parked on the axis: filling does not place one or two
@@ -15,23 +13,10 @@ enum { PARKED = 10 };
 /* n equal spheres of 4 mm in a wide drum that stands still: room to collide far from the wall. */
 static inline dem_scene_definition hand_definition(size_t n)
 {
-    return (dem_scene_definition){
-        .diameter = 0.2,
-        .length = 0.1,
-        .gravity = 9.81,
-        .fill_fraction = 0.5,
-        .particle_count = n,
-        .species_count = 1,
-        .species = { { .diameter = 0.004, .density = 2500, .share = 1 } },
-        .contact = { .stiffness = 4000,
-                     .restitution = 0.8,
-                     .friction = 0.3,
-                     .wall_friction = 0.5,
-                     .tangential_stiffness_ratio = 0.8 },
-        .time_step = 1e-5,
-        .seed = 1,
-        .threads = 1,
-    };
+    dem_scene_definition d = equal_spheres(n);
+    d.diameter = 0.2;
+    d.length = 0.1;
+    return d;
 }
 
 /* Two species: the first sphere is of the first, all others of the second. */

@@ -167,12 +167,4 @@ static void a_cylinder_says_that_memory_is_missing(void **state)
     whichever_allocation_fails(DEM_CYLINDER);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_drum_says_that_memory_is_missing),
-        cmocka_unit_test(a_heap_says_that_memory_is_missing),
-        cmocka_unit_test(a_cylinder_says_that_memory_is_missing),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_drum_says_that_memory_is_missing, a_heap_says_that_memory_is_missing, a_cylinder_says_that_memory_is_missing)

@@ -245,15 +245,6 @@ static void a_place_outside_or_not_a_number_gets_a_cell_of_the_grid(void **unuse
     discard(&grid, &s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_pair_within_the_skin_is_found_once),
-        cmocka_unit_test(with_too_little_room_the_count_is_still_right),
-        cmocka_unit_test(every_sphere_is_in_its_cell_once_and_in_order),
-        cmocka_unit_test(cells_are_no_more_than_some_for_each_sphere),
-        cmocka_unit_test(a_crowd_in_a_wide_box_has_cells_of_its_size_and_all_its_pairs),
-        cmocka_unit_test(a_place_outside_or_not_a_number_gets_a_cell_of_the_grid),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(every_pair_within_the_skin_is_found_once, with_too_little_room_the_count_is_still_right,
+           every_sphere_is_in_its_cell_once_and_in_order, cells_are_no_more_than_some_for_each_sphere,
+           a_crowd_in_a_wide_box_has_cells_of_its_size_and_all_its_pairs, a_place_outside_or_not_a_number_gets_a_cell_of_the_grid)

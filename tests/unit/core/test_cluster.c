@@ -345,18 +345,7 @@ static void a_heavy_top_moves_as_by_another_integration(void **unused)
     CHECK_BETWEEN(coarse / fine, 3.8, 4.2);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(touching_spheres_have_the_sums_of_their_moments),
-        cmocka_unit_test(nothing_is_counted_twice_where_spheres_overlap),
-        cmocka_unit_test(many_spheres_in_one_place_have_the_volume_of_their_union),
-        cmocka_unit_test(two_overlapping_spheres_are_the_body_of_revolution),
-        cmocka_unit_test(the_frame_is_the_principal_one),
-        cmocka_unit_test(what_is_no_body_is_told),
-        cmocka_unit_test(a_free_top_keeps_energy_and_angular_momentum_to_second_order),
-        cmocka_unit_test(a_quaternion_turns_by_the_angle_about_the_axis),
-        cmocka_unit_test(a_heavy_top_moves_as_by_another_integration),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(touching_spheres_have_the_sums_of_their_moments, nothing_is_counted_twice_where_spheres_overlap,
+           many_spheres_in_one_place_have_the_volume_of_their_union, two_overlapping_spheres_are_the_body_of_revolution,
+           the_frame_is_the_principal_one, what_is_no_body_is_told, a_free_top_keeps_energy_and_angular_momentum_to_second_order,
+           a_quaternion_turns_by_the_angle_about_the_axis, a_heavy_top_moves_as_by_another_integration)

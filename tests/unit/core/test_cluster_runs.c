@@ -307,16 +307,6 @@ static void clusters_at_rest_keep_still(void **unused)
     dem_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cluster_of_one_is_a_sphere_bit_for_bit),
-        cmocka_unit_test(threads_and_restarts_leave_the_same_bits_in_every_phase),
-        cmocka_unit_test(spheres_stay_where_their_cluster_puts_them),
-        cmocka_unit_test(a_scene_corrects_spins_as_often_as_asked),
-        cmocka_unit_test(a_collision_of_clusters_keeps_what_it_must),
-        cmocka_unit_test(a_tumbling_cluster_keeps_its_energy),
-        cmocka_unit_test(clusters_at_rest_keep_still),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_cluster_of_one_is_a_sphere_bit_for_bit, threads_and_restarts_leave_the_same_bits_in_every_phase,
+           spheres_stay_where_their_cluster_puts_them, a_scene_corrects_spins_as_often_as_asked,
+           a_collision_of_clusters_keeps_what_it_must, a_tumbling_cluster_keeps_its_energy, clusters_at_rest_keep_still)

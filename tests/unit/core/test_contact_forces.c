@@ -254,9 +254,4 @@ static void with_variable_unloading_too(void **unused)
     compare_many(7000);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = { cmocka_unit_test(a_million_contacts_at_once_are_as_one_by_one),
-                                        cmocka_unit_test(with_variable_unloading_too) };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_million_contacts_at_once_are_as_one_by_one, with_variable_unloading_too)

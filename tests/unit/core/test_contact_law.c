@@ -428,28 +428,17 @@ static void a_sphere_rolls_down_an_incline_at_five_sevenths_of_its_weights_pull(
     CHECK_BETWEEN(slip, 0, 4 * ringing); /* it did roll all the way */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_normal_spring_loads_along_k1_and_unloads_along_k2),
-        cmocka_unit_test(the_normal_force_never_pulls_and_is_forgotten_after_parting),
-        cmocka_unit_test(damping_below_the_latch_leaves_a_collision_as_it_is),
-        cmocka_unit_test(a_weight_on_a_latched_spring_comes_to_rest),
-        cmocka_unit_test(a_collision_integrated_with_the_law_alone_has_the_closed_forms),
-        cmocka_unit_test(the_variable_unloading_branch_steepens_with_the_load_borne),
-        cmocka_unit_test(restitution_of_variable_unloading_falls_with_speed_as_published),
-        cmocka_unit_test(closed_normal_paths_never_give_energy),
-        cmocka_unit_test(the_first_slide_follows_mindlins_curve_to_slip),
-        cmocka_unit_test(after_a_reversal_the_spring_starts_stiff_and_goes_over_to_the_opposite_slip),
-        cmocka_unit_test(friction_never_exceeds_its_limit_and_never_leaves_the_tangent_plane),
-        cmocka_unit_test(a_turning_contact_turns_its_friction_and_keeps_its_magnitude),
-        cmocka_unit_test(a_contact_at_rest_keeps_its_friction_for_ever),
-        cmocka_unit_test(without_normal_force_friction_is_zero_and_forgotten),
-        cmocka_unit_test(friction_on_a_line_never_gives_energy),
-        cmocka_unit_test(friction_in_the_plane_creates_at_most_a_hundredth_of_the_work_moved),
-        cmocka_unit_test(friction_under_a_varying_force_creates_at_most_seven_hundredths_of_the_work_moved),
-        cmocka_unit_test(a_whole_contact_from_touch_to_parting_never_gives_energy),
-        cmocka_unit_test(a_sphere_rolls_down_an_incline_at_five_sevenths_of_its_weights_pull),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(the_normal_spring_loads_along_k1_and_unloads_along_k2, the_normal_force_never_pulls_and_is_forgotten_after_parting,
+           damping_below_the_latch_leaves_a_collision_as_it_is, a_weight_on_a_latched_spring_comes_to_rest,
+           a_collision_integrated_with_the_law_alone_has_the_closed_forms,
+           the_variable_unloading_branch_steepens_with_the_load_borne,
+           restitution_of_variable_unloading_falls_with_speed_as_published, closed_normal_paths_never_give_energy,
+           the_first_slide_follows_mindlins_curve_to_slip,
+           after_a_reversal_the_spring_starts_stiff_and_goes_over_to_the_opposite_slip,
+           friction_never_exceeds_its_limit_and_never_leaves_the_tangent_plane,
+           a_turning_contact_turns_its_friction_and_keeps_its_magnitude, a_contact_at_rest_keeps_its_friction_for_ever,
+           without_normal_force_friction_is_zero_and_forgotten, friction_on_a_line_never_gives_energy,
+           friction_in_the_plane_creates_at_most_a_hundredth_of_the_work_moved,
+           friction_under_a_varying_force_creates_at_most_seven_hundredths_of_the_work_moved,
+           a_whole_contact_from_touch_to_parting_never_gives_energy,
+           a_sphere_rolls_down_an_incline_at_five_sevenths_of_its_weights_pull)

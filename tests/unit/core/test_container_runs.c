@@ -312,17 +312,7 @@ static void every_container_gives_the_same_bits_however_it_is_run(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(beds_are_made_clear_of_all_walls),
-        cmocka_unit_test(more_than_a_container_holds_does_not_fit),
-        cmocka_unit_test(no_contact_with_a_wall_is_missed_at_any_step),
-        cmocka_unit_test(a_rising_tube_lets_particles_out_beneath_it_alone),
-        cmocka_unit_test(no_dumbbell_goes_over_the_wall_of_a_tube),
-        cmocka_unit_test(what_falls_off_a_plate_is_lost_and_counted),
-        cmocka_unit_test(clusters_that_tip_over_the_edge_of_a_plate_are_lost),
-        cmocka_unit_test(every_container_gives_the_same_bits_however_it_is_run),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(beds_are_made_clear_of_all_walls, more_than_a_container_holds_does_not_fit, no_contact_with_a_wall_is_missed_at_any_step,
+           a_rising_tube_lets_particles_out_beneath_it_alone, no_dumbbell_goes_over_the_wall_of_a_tube,
+           what_falls_off_a_plate_is_lost_and_counted, clusters_that_tip_over_the_edge_of_a_plate_are_lost,
+           every_container_gives_the_same_bits_however_it_is_run)

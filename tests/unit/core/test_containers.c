@@ -305,19 +305,9 @@ static void a_container_that_cannot_be_is_refused(void **unused)
     assert_int_equal(dem_scene_create(&d, &scene), DEM_BAD_PARAMETER);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sphere_at_rest_on_any_wall_carries_its_weight),
-        cmocka_unit_test(a_normal_impact_on_any_wall_leaves_e_of_the_speed),
-        cmocka_unit_test(a_sphere_set_sliding_on_a_floor_ends_rolling_at_five_sevenths),
-        cmocka_unit_test(a_sphere_that_rolls_is_slowed_by_the_rolling_friction_of_the_floor),
-        cmocka_unit_test(a_turning_end_wall_drives_a_sphere_by_coulombs_impulse),
-        cmocka_unit_test(a_lifter_carries_a_ball_up_until_its_face_is_level),
-        cmocka_unit_test(a_particle_beyond_any_wall_has_escaped),
-        cmocka_unit_test(a_sphere_that_goes_around_the_edge_and_beneath_the_plate_is_lost),
-        cmocka_unit_test(a_failure_names_its_own_container),
-        cmocka_unit_test(a_container_that_cannot_be_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_sphere_at_rest_on_any_wall_carries_its_weight, a_normal_impact_on_any_wall_leaves_e_of_the_speed,
+           a_sphere_set_sliding_on_a_floor_ends_rolling_at_five_sevenths,
+           a_sphere_that_rolls_is_slowed_by_the_rolling_friction_of_the_floor,
+           a_turning_end_wall_drives_a_sphere_by_coulombs_impulse, a_lifter_carries_a_ball_up_until_its_face_is_level,
+           a_particle_beyond_any_wall_has_escaped, a_sphere_that_goes_around_the_edge_and_beneath_the_plate_is_lost,
+           a_failure_names_its_own_container, a_container_that_cannot_be_is_refused)

@@ -268,15 +268,6 @@ static void many_contacts_at_once_are_as_one_by_one(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(elastic_impacts_are_those_of_hertz),
-        cmocka_unit_test(restitution_out_is_restitution_in),
-        cmocka_unit_test(restitution_at_the_step_that_runs_take_is_what_was_asked_for),
-        cmocka_unit_test(oblique_impacts_are_those_of_another_code),
-        cmocka_unit_test(tangential_restitution_over_the_angle),
-        cmocka_unit_test(many_contacts_at_once_are_as_one_by_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(elastic_impacts_are_those_of_hertz, restitution_out_is_restitution_in,
+           restitution_at_the_step_that_runs_take_is_what_was_asked_for, oblique_impacts_are_those_of_another_code,
+           tangential_restitution_over_the_angle, many_contacts_at_once_are_as_one_by_one)

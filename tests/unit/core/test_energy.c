@@ -268,15 +268,6 @@ static void the_drums_work_is_in_the_particles_or_in_the_contacts(void **unused)
     dem_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_sphere_that_slides_on_the_wall_loads_the_drum_with_its_friction),
-        cmocka_unit_test(contacts_between_spheres_do_not_load_the_drum),
-        cmocka_unit_test(the_weights_torque_is_that_of_the_centre_of_mass),
-        cmocka_unit_test(the_torque_of_a_steady_drum_carries_the_beds_weight),
-        cmocka_unit_test(a_collision_takes_in_what_restitution_leaves),
-        cmocka_unit_test(the_drums_work_is_in_the_particles_or_in_the_contacts),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_sphere_that_slides_on_the_wall_loads_the_drum_with_its_friction, contacts_between_spheres_do_not_load_the_drum,
+           the_weights_torque_is_that_of_the_centre_of_mass, the_torque_of_a_steady_drum_carries_the_beds_weight,
+           a_collision_takes_in_what_restitution_leaves, the_drums_work_is_in_the_particles_or_in_the_contacts)

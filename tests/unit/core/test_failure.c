@@ -188,17 +188,7 @@ static void a_definition_out_of_range_is_refused(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_drum_that_is_too_soft_stops_and_says_so),
-        cmocka_unit_test(an_overlap_beyond_half_a_radius_is_a_failure_of_those_two),
-        cmocka_unit_test(a_particle_beyond_the_wall_has_escaped),
-        cmocka_unit_test(a_place_or_velocity_that_is_not_a_number_is_found_at_the_next_look),
-        cmocka_unit_test(what_is_not_a_number_is_found_among_spheres_at_rest),
-        cmocka_unit_test(spheres_nearly_one_in_another_overlap_too_much),
-        cmocka_unit_test(a_failed_scene_stays_failed),
-        cmocka_unit_test(a_definition_out_of_range_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_drum_that_is_too_soft_stops_and_says_so, an_overlap_beyond_half_a_radius_is_a_failure_of_those_two,
+           a_particle_beyond_the_wall_has_escaped, a_place_or_velocity_that_is_not_a_number_is_found_at_the_next_look,
+           what_is_not_a_number_is_found_among_spheres_at_rest, spheres_nearly_one_in_another_overlap_too_much,
+           a_failed_scene_stays_failed, a_definition_out_of_range_is_refused)

@@ -217,13 +217,5 @@ static void an_empty_place_has_no_velocity(void **unused)
     dem_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_bed_that_turns_rigidly_has_omega_cross_r_and_no_fluctuation),
-        cmocka_unit_test(a_uniform_lattice_has_its_solid_fraction_everywhere),
-        cmocka_unit_test(random_velocities_have_their_temperature),
-        cmocka_unit_test(an_empty_place_has_no_velocity),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_bed_that_turns_rigidly_has_omega_cross_r_and_no_fluctuation, a_uniform_lattice_has_its_solid_fraction_everywhere,
+           random_velocities_have_their_temperature, an_empty_place_has_no_velocity)

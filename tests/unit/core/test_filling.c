@@ -169,15 +169,6 @@ static void the_same_seed_gives_the_same_start_and_another_seed_another(void **u
     for (int k = 0; k < 3; k++) bed_free(&b[k]);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(spheres_start_inside_without_overlap),
-        cmocka_unit_test(every_species_has_its_share),
-        cmocka_unit_test(a_drum_filled_to_nine_tenths_settles),
-        cmocka_unit_test(a_settled_bed_is_as_full_as_was_asked),
-        cmocka_unit_test(more_than_fits_is_refused),
-        cmocka_unit_test(the_same_seed_gives_the_same_start_and_another_seed_another),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(spheres_start_inside_without_overlap, every_species_has_its_share, a_drum_filled_to_nine_tenths_settles,
+           a_settled_bed_is_as_full_as_was_asked, more_than_fits_is_refused,
+           the_same_seed_gives_the_same_start_and_another_seed_another)

@@ -273,22 +273,9 @@ static void parameters_out_of_range_are_refused(void **unused)
     assert_int_equal(dem_granule_follow(0.5, NAN, 1, &m), DEM_BAD_PARAMETER);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_least_rates_are_those_of_the_table),
-        cmocka_unit_test(stepping_through_time_finds_the_same_boundary),
-        cmocka_unit_test(stepping_through_time_finds_the_same_slip),
-        cmocka_unit_test(stepping_through_time_finds_the_same_regimes),
-        cmocka_unit_test(at_full_friction_it_slips_an_eighth_of_a_radian_at_most),
-        cmocka_unit_test(one_revolution_tells_what_thirty_tell),
-        cmocka_unit_test(the_error_is_a_bound),
-        cmocka_unit_test(it_never_slips_above_eq_33_and_first_where_eq_28_says),
-        cmocka_unit_test(a_smooth_wall_needs_the_energy_of_the_loop),
-        cmocka_unit_test(fits_stand_beside_it_as_far_off_as_they_are),
-        cmocka_unit_test(what_becomes_of_it_depends_on_the_rate),
-        cmocka_unit_test(contact_round_the_wall_is_never_lost_by_turning_faster),
-        cmocka_unit_test(parameters_out_of_range_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(the_least_rates_are_those_of_the_table, stepping_through_time_finds_the_same_boundary,
+           stepping_through_time_finds_the_same_slip, stepping_through_time_finds_the_same_regimes,
+           at_full_friction_it_slips_an_eighth_of_a_radian_at_most, one_revolution_tells_what_thirty_tell, the_error_is_a_bound,
+           it_never_slips_above_eq_33_and_first_where_eq_28_says, a_smooth_wall_needs_the_energy_of_the_loop,
+           fits_stand_beside_it_as_far_off_as_they_are, what_becomes_of_it_depends_on_the_rate,
+           contact_round_the_wall_is_never_lost_by_turning_faster, parameters_out_of_range_are_refused)

@@ -112,13 +112,5 @@ static void a_collision_turned_round_returns_to_its_start(void **unused)
     dem_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(half_the_step_gives_a_quarter_of_the_error),
-        cmocka_unit_test(free_fall_is_exact),
-        cmocka_unit_test(places_stay_within_one_period),
-        cmocka_unit_test(a_collision_turned_round_returns_to_its_start),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(half_the_step_gives_a_quarter_of_the_error, free_fall_is_exact, places_stay_within_one_period,
+           a_collision_turned_round_returns_to_its_start)

@@ -465,21 +465,11 @@ static void a_small_sphere_in_a_wide_drum_is_measured_as_in_a_narrow_one(void **
     CHECK_NEAR(fraction[1] / fraction[0], 1, 1e-3); /* the bins of the median */
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_angle_of_a_bed_cut_level_at_a_plane_is_that_of_the_plane),
-        cmocka_unit_test(every_angle_of_a_rough_bed_is_that_of_the_plane_in_the_mean),
-        cmocka_unit_test(flow_fluctuation_is_that_of_the_speed_downslope_over_all_frames_and_particles),
-        cmocka_unit_test(a_ring_that_turns_with_the_drum_covers_the_wall_and_does_not_slip),
-        cmocka_unit_test(the_surface_lags_by_what_its_spheres_fall_behind_in_a_revolution),
-        cmocka_unit_test(species_placed_at_random_are_mixed),
-        cmocka_unit_test(species_side_by_side_are_segregated_across_and_not_along),
-        cmocka_unit_test(species_in_bands_along_the_axis_have_an_axial_index_of_one),
-        cmocka_unit_test(the_radial_index_is_the_difference_of_mean_radii_over_the_drums),
-        cmocka_unit_test(one_species_has_no_segregation),
-        cmocka_unit_test(overlaps_and_contacts_are_those_of_the_pairs_that_touch),
-        cmocka_unit_test(a_small_sphere_in_a_wide_drum_is_measured_as_in_a_narrow_one),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(every_angle_of_a_bed_cut_level_at_a_plane_is_that_of_the_plane,
+           every_angle_of_a_rough_bed_is_that_of_the_plane_in_the_mean,
+           flow_fluctuation_is_that_of_the_speed_downslope_over_all_frames_and_particles,
+           a_ring_that_turns_with_the_drum_covers_the_wall_and_does_not_slip,
+           the_surface_lags_by_what_its_spheres_fall_behind_in_a_revolution, species_placed_at_random_are_mixed,
+           species_side_by_side_are_segregated_across_and_not_along, species_in_bands_along_the_axis_have_an_axial_index_of_one,
+           the_radial_index_is_the_difference_of_mean_radii_over_the_drums, one_species_has_no_segregation,
+           overlaps_and_contacts_are_those_of_the_pairs_that_touch, a_small_sphere_in_a_wide_drum_is_measured_as_in_a_narrow_one)

@@ -250,17 +250,7 @@ static void a_lattice_has_its_solid_fraction(void **state)
     strew_clear(&s);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_cone_has_its_angle_under_every_definition),
-        cmocka_unit_test(a_heap_that_covers_its_plate_says_nothing_of_the_error_of_its_base),
-        cmocka_unit_test(the_standard_error_tells_a_lopsided_heap),
-        cmocka_unit_test(a_flat_top_is_told_by_what_the_definitions_differ_in),
-        cmocka_unit_test(a_plate_of_any_width_has_the_same_heap),
-        cmocka_unit_test(a_few_grains_have_no_angle),
-        cmocka_unit_test(a_bed_in_a_cylinder_has_its_slope_up_or_down),
-        cmocka_unit_test(a_lattice_has_its_solid_fraction),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_cone_has_its_angle_under_every_definition, a_heap_that_covers_its_plate_says_nothing_of_the_error_of_its_base,
+           the_standard_error_tells_a_lopsided_heap, a_flat_top_is_told_by_what_the_definitions_differ_in,
+           a_plate_of_any_width_has_the_same_heap, a_few_grains_have_no_angle, a_bed_in_a_cylinder_has_its_slope_up_or_down,
+           a_lattice_has_its_solid_fraction)

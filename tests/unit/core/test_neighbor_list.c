@@ -291,18 +291,8 @@ static void every_law_finds_masses_and_radii_of_all_pairs(void **unused)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(no_contact_is_missed_in_a_fast_start_of_two_sizes),
-        cmocka_unit_test(no_contact_is_missed_where_sizes_are_ten_times_apart),
-        cmocka_unit_test(no_contact_is_missed_with_a_lining),
-        cmocka_unit_test(no_contact_is_missed_in_a_slow_drum_turning_backwards),
-        cmocka_unit_test(no_contact_is_missed_along_a_very_short_axis),
-        cmocka_unit_test(no_contact_is_missed_among_tumbling_clusters),
-        cmocka_unit_test(contacts_are_listed_in_the_order_of_their_ids),
-        cmocka_unit_test(every_law_finds_masses_and_radii_of_all_pairs),
-        cmocka_unit_test(contacts_of_each_particle_are_counted_as_by_all_pairs),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(no_contact_is_missed_in_a_fast_start_of_two_sizes, no_contact_is_missed_where_sizes_are_ten_times_apart,
+           no_contact_is_missed_with_a_lining, no_contact_is_missed_in_a_slow_drum_turning_backwards,
+           no_contact_is_missed_along_a_very_short_axis, no_contact_is_missed_among_tumbling_clusters,
+           contacts_are_listed_in_the_order_of_their_ids, every_law_finds_masses_and_radii_of_all_pairs,
+           contacts_of_each_particle_are_counted_as_by_all_pairs)

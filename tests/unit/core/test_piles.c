@@ -90,12 +90,5 @@ static void without_damping_below_the_latch_they_sink(void **unused)
     CHECK_BETWEEN(height_after(0.4, &variable), -0.1, 0.75);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(four_spheres_stand_where_friction_holds_them),
-        cmocka_unit_test(four_spheres_fall_where_it_does_not),
-        cmocka_unit_test(without_damping_below_the_latch_they_sink),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(four_spheres_stand_where_friction_holds_them, four_spheres_fall_where_it_does_not,
+           without_damping_below_the_latch_they_sink)

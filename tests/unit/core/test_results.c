@@ -289,19 +289,10 @@ static void a_fast_bed_is_judged_by_its_last_four_revolutions(void **unused)
     dem_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_steady_table_has_its_mean_error_and_range),
-        cmocka_unit_test(a_transient_is_left_out_and_a_drift_is_told),
-        cmocka_unit_test(too_few_frames_are_refused_and_missing_values_left_out),
-        cmocka_unit_test(a_surface_that_is_seen_now_and_then_has_no_angle_and_one_that_is_missed_no_error),
-        cmocka_unit_test(the_transient_of_a_bed_that_loses_its_surface_is_told_from_its_moment),
-        cmocka_unit_test(the_chord_and_the_fluctuation_are_those_of_the_mean_interface),
-        cmocka_unit_test(regimes_are_told_from_how_the_bed_moves),
-        cmocka_unit_test(avalanches_that_shake_the_wall_are_no_slumps),
-        cmocka_unit_test(fast_beds_rain_slide_or_turn_with_the_drum),
-        cmocka_unit_test(a_fast_bed_is_judged_by_its_last_four_revolutions),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_steady_table_has_its_mean_error_and_range, a_transient_is_left_out_and_a_drift_is_told,
+           too_few_frames_are_refused_and_missing_values_left_out,
+           a_surface_that_is_seen_now_and_then_has_no_angle_and_one_that_is_missed_no_error,
+           the_transient_of_a_bed_that_loses_its_surface_is_told_from_its_moment,
+           the_chord_and_the_fluctuation_are_those_of_the_mean_interface, regimes_are_told_from_how_the_bed_moves,
+           avalanches_that_shake_the_wall_are_no_slumps, fast_beds_rain_slide_or_turn_with_the_drum,
+           a_fast_bed_is_judged_by_its_last_four_revolutions)

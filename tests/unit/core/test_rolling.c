@@ -366,20 +366,9 @@ static void runs_have_the_same_bits_for_any_threads_and_after_a_restart(void **u
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_moment_grows_along_its_spring_and_yields_at_its_limit),
-        cmocka_unit_test(a_long_way_takes_the_limit_a_metre),
-        cmocka_unit_test(closed_paths_never_give_energy),
-        cmocka_unit_test(a_turning_contact_turns_its_moment_and_keeps_its_magnitude),
-        cmocka_unit_test(a_contact_at_rest_keeps_its_moment_for_ever),
-        cmocka_unit_test(many_contacts_at_once_are_as_one_by_one),
-        cmocka_unit_test(a_rolling_sphere_is_slowed_by_five_sevenths_of_mu_r_g_and_stops),
-        cmocka_unit_test(a_sphere_on_a_slope_stays_if_the_slope_is_below_mu_r),
-        cmocka_unit_test(what_turns_with_the_wall_as_one_body_feels_no_moment),
-        cmocka_unit_test(between_two_spheres_moments_are_opposite_and_spare_the_twist),
-        cmocka_unit_test(runs_have_the_same_bits_for_any_threads_and_after_a_restart),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(the_moment_grows_along_its_spring_and_yields_at_its_limit, a_long_way_takes_the_limit_a_metre,
+           closed_paths_never_give_energy, a_turning_contact_turns_its_moment_and_keeps_its_magnitude,
+           a_contact_at_rest_keeps_its_moment_for_ever, many_contacts_at_once_are_as_one_by_one,
+           a_rolling_sphere_is_slowed_by_five_sevenths_of_mu_r_g_and_stops, a_sphere_on_a_slope_stays_if_the_slope_is_below_mu_r,
+           what_turns_with_the_wall_as_one_body_feels_no_moment, between_two_spheres_moments_are_opposite_and_spare_the_twist,
+           runs_have_the_same_bits_for_any_threads_and_after_a_restart)

@@ -459,21 +459,12 @@ int main(int count, char **arguments)
 {
     (void)count;
     wait_without_spinning(arguments);
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(advancing_to_rotation_ends_at_its_first_step),
-        cmocka_unit_test(a_run_gives_the_same_bits_for_any_division_into_calls),
-        cmocka_unit_test(a_run_gives_the_same_bits_for_any_number_of_threads),
-        cmocka_unit_test(parts_smaller_than_one_spheres_contacts_give_the_same_bits),
-        cmocka_unit_test(a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit),
-        cmocka_unit_test(what_measuring_noted_of_the_particles_is_saved_too),
-        cmocka_unit_test(a_run_saved_at_the_very_change_of_phase_goes_on_bit_for_bit),
-        cmocka_unit_test(a_state_of_another_shape_is_refused),
-        cmocka_unit_test(a_settled_bed_in_a_standing_drum_keeps_still),
-        cmocka_unit_test(a_block_of_touching_spheres_without_weight_stays_where_it_is),
-        cmocka_unit_test(a_sphere_at_rest_on_the_wall_stays_at_rest),
-        cmocka_unit_test(a_bed_shifted_along_the_axis_moves_as_before),
-        cmocka_unit_test(a_turning_wall_drags_a_sphere_that_it_presses_on),
-        cmocka_unit_test(a_drum_turned_backwards_leans_the_other_way),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return RUN_UNIT_TESTS(
+        NULL, NULL, advancing_to_rotation_ends_at_its_first_step, a_run_gives_the_same_bits_for_any_division_into_calls,
+        a_run_gives_the_same_bits_for_any_number_of_threads, parts_smaller_than_one_spheres_contacts_give_the_same_bits,
+        a_run_saved_and_restored_in_any_phase_goes_on_bit_for_bit, what_measuring_noted_of_the_particles_is_saved_too,
+        a_run_saved_at_the_very_change_of_phase_goes_on_bit_for_bit, a_state_of_another_shape_is_refused,
+        a_settled_bed_in_a_standing_drum_keeps_still, a_block_of_touching_spheres_without_weight_stays_where_it_is,
+        a_sphere_at_rest_on_the_wall_stays_at_rest, a_bed_shifted_along_the_axis_moves_as_before,
+        a_turning_wall_drags_a_sphere_that_it_presses_on, a_drum_turned_backwards_leans_the_other_way);
 }

@@ -219,18 +219,7 @@ static void hysteresis_reaches_from_the_highest_start_to_the_lowest_stop(void **
     assert_true(isnan(slumps_of(time, angle, A_SIDE + A_SIDE / 2).hysteresis_deg));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_saw_tooth_is_found_tooth_by_tooth),
-        cmocka_unit_test(noise_neither_hides_nor_makes_slumps),
-        cmocka_unit_test(swings_of_few_frames_are_no_noise),
-        cmocka_unit_test(a_climb_does_not_hide_the_falls_in_it),
-        cmocka_unit_test(noise_alone_has_no_slumps),
-        cmocka_unit_test(uneven_slumps_are_all_seen),
-        cmocka_unit_test(hysteresis_reaches_from_the_highest_start_to_the_lowest_stop),
-        cmocka_unit_test(falls_well_below_the_usual_are_left_out_and_nothing_else_is),
-        cmocka_unit_test(missing_frames_are_left_out_and_too_few_have_no_slumps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_saw_tooth_is_found_tooth_by_tooth, noise_neither_hides_nor_makes_slumps, swings_of_few_frames_are_no_noise,
+           a_climb_does_not_hide_the_falls_in_it, noise_alone_has_no_slumps, uneven_slumps_are_all_seen,
+           hysteresis_reaches_from_the_highest_start_to_the_lowest_stop,
+           falls_well_below_the_usual_are_left_out_and_nothing_else_is, missing_frames_are_left_out_and_too_few_have_no_slumps)

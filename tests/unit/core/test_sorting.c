@@ -233,12 +233,5 @@ static void a_saved_order_that_is_none_is_refused(void **unused)
     dem_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_spheres_nobody_outside_can_tell),       cmocka_unit_test(of_clusters_nobody_outside_can_tell),
-        cmocka_unit_test(a_sort_changes_a_step_by_roundings_alone), cmocka_unit_test(across_sorts_a_run_has_the_same_bits),
-        cmocka_unit_test(a_saved_order_that_is_none_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(of_spheres_nobody_outside_can_tell, of_clusters_nobody_outside_can_tell, a_sort_changes_a_step_by_roundings_alone,
+           across_sorts_a_run_has_the_same_bits, a_saved_order_that_is_none_is_refused)

@@ -252,15 +252,7 @@ static void a_bed_placed_anew_is_the_same_bed(void **unused)
     dem_scene_free(anew);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_scene_that_starts_from_a_state_of_its_own_goes_on_with_the_same_bits),
-        cmocka_unit_test(with_another_rate_the_drum_goes_on_from_where_it_had_turned_to),
-        cmocka_unit_test(contacts_remember_across_a_start_but_not_into_another_law),
-        cmocka_unit_test(a_bed_of_other_particles_or_one_never_at_rest_is_refused),
-        cmocka_unit_test(placed_particles_start_where_they_were_put_and_fly_as_bodies_do),
-        cmocka_unit_test(a_bed_placed_anew_is_the_same_bed),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_scene_that_starts_from_a_state_of_its_own_goes_on_with_the_same_bits,
+           with_another_rate_the_drum_goes_on_from_where_it_had_turned_to,
+           contacts_remember_across_a_start_but_not_into_another_law, a_bed_of_other_particles_or_one_never_at_rest_is_refused,
+           placed_particles_start_where_they_were_put_and_fly_as_bodies_do, a_bed_placed_anew_is_the_same_bed)

@@ -218,20 +218,10 @@ static void missing_values_are_left_out_everywhere(void **unused)
     assert_true(isnan(statistics_line(none, none, 2, 1).slope));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(the_standard_error_of_a_correlated_series_is_the_scatter_of_its_mean),
-        cmocka_unit_test(a_series_of_five_correlation_lengths_claims_too_small_an_error),
-        cmocka_unit_test(a_series_longer_than_is_summed_over_has_the_same_error),
-        cmocka_unit_test(the_correlation_length_of_an_uncorrelated_series_is_near_one_and_grows_with_memory),
-        cmocka_unit_test(an_error_that_remembers_counts_the_echoes_that_a_window_misses),
-        cmocka_unit_test(too_few_values_have_no_standard_error),
-        cmocka_unit_test(the_transient_ends_where_the_step_is),
-        cmocka_unit_test(a_decaying_start_is_cut_to_below_the_noise),
-        cmocka_unit_test(a_line_is_found_exactly_and_its_error_is_that_of_least_squares),
-        cmocka_unit_test(theil_sen_ignores_outliers),
-        cmocka_unit_test(missing_values_are_left_out_everywhere),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(the_standard_error_of_a_correlated_series_is_the_scatter_of_its_mean,
+           a_series_of_five_correlation_lengths_claims_too_small_an_error, a_series_longer_than_is_summed_over_has_the_same_error,
+           the_correlation_length_of_an_uncorrelated_series_is_near_one_and_grows_with_memory,
+           an_error_that_remembers_counts_the_echoes_that_a_window_misses, too_few_values_have_no_standard_error,
+           the_transient_ends_where_the_step_is, a_decaying_start_is_cut_to_below_the_noise,
+           a_line_is_found_exactly_and_its_error_is_that_of_least_squares, theil_sen_ignores_outliers,
+           missing_values_are_left_out_everywhere)

@@ -208,16 +208,7 @@ static void streams_that_make_no_sense_are_refused(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(particles_enter_when_they_are_due),
-        cmocka_unit_test(a_particle_meets_the_level_of_the_bed_at_the_speed_asked_for),
-        cmocka_unit_test(nobody_enters_into_another_and_all_arrive),
-        cmocka_unit_test(species_come_mixed_in_proportion),
-        cmocka_unit_test(a_fill_has_the_same_bits_for_any_threads_and_after_a_restart),
-        cmocka_unit_test(what_rests_on_the_floor_is_told_from_what_falls),
-        cmocka_unit_test(streams_that_make_no_sense_are_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(particles_enter_when_they_are_due, a_particle_meets_the_level_of_the_bed_at_the_speed_asked_for,
+           nobody_enters_into_another_and_all_arrive, species_come_mixed_in_proportion,
+           a_fill_has_the_same_bits_for_any_threads_and_after_a_restart, what_rests_on_the_floor_is_told_from_what_falls,
+           streams_that_make_no_sense_are_refused)

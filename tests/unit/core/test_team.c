@@ -81,12 +81,5 @@ static void as_many_parts_as_there_may_be(void **unused)
     for (int p = 0; p < MOST_PARTS; p++) assert_int_equal(s.count[p], 1);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_part_is_done_once_by_any_number_of_threads),
-        cmocka_unit_test(without_a_team_parts_are_done_one_after_the_other),
-        cmocka_unit_test(as_many_parts_as_there_may_be),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(every_part_is_done_once_by_any_number_of_threads, without_a_team_parts_are_done_one_after_the_other,
+           as_many_parts_as_there_may_be)

@@ -414,20 +414,9 @@ static void across_the_period_is_as_inside(void **unused)
     for (int k = 6; k < 12; k++) CHECK_NEAR(end[1][k], end[0][k], 1e-10 * 100 + 100 * ROUNDING * 100);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(head_on_spheres_part_with_e_and_the_closed_forms),
-        cmocka_unit_test(head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says),
-        cmocka_unit_test(growing_spheres_of_hertz_press_each_other_as_grown_ones_do),
-        cmocka_unit_test(a_sphere_leaves_the_wall_with_e_and_the_closed_forms),
-        cmocka_unit_test(with_variable_unloading_spheres_part_slower_the_faster_they_met),
-        cmocka_unit_test(at_the_runs_own_time_step_e_holds_to_half_a_percent),
-        cmocka_unit_test(an_impact_that_slides_throughout_gives_the_impulse_of_coulomb),
-        cmocka_unit_test(a_sphere_that_rolls_along_the_wall_is_not_slowed_by_an_impact),
-        cmocka_unit_test(a_sphere_set_sliding_ends_rolling_at_five_sevenths),
-        cmocka_unit_test(oblique_spinning_spheres_conserve_momentum_and_angular_momentum),
-        cmocka_unit_test(across_the_period_is_as_inside),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(head_on_spheres_part_with_e_and_the_closed_forms, head_on_spheres_of_hertz_overlap_as_long_and_as_far_as_he_says,
+           growing_spheres_of_hertz_press_each_other_as_grown_ones_do, a_sphere_leaves_the_wall_with_e_and_the_closed_forms,
+           with_variable_unloading_spheres_part_slower_the_faster_they_met, at_the_runs_own_time_step_e_holds_to_half_a_percent,
+           an_impact_that_slides_throughout_gives_the_impulse_of_coulomb,
+           a_sphere_that_rolls_along_the_wall_is_not_slowed_by_an_impact, a_sphere_set_sliding_ends_rolling_at_five_sevenths,
+           oblique_spinning_spheres_conserve_momentum_and_angular_momentum, across_the_period_is_as_inside)

@@ -273,17 +273,6 @@ static void one_sphere_or_a_handful_have_no_angle_and_few_no_verdict(void **unus
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_series_without_trend_is_hardly_ever_said_to_drift_and_the_bound_holds),
-        cmocka_unit_test(a_ramp_drifts_and_its_slope_is_below_the_bound),
-        cmocka_unit_test(a_step_is_not_steady),
-        cmocka_unit_test(a_run_that_is_too_short_says_so),
-        cmocka_unit_test(correlation_times_are_counted),
-        cmocka_unit_test(beds_that_fall_keep_their_falls),
-        cmocka_unit_test(the_first_fall_of_a_bed_that_flows_is_its_transient),
-        cmocka_unit_test(one_sphere_or_a_handful_have_no_angle_and_few_no_verdict),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_series_without_trend_is_hardly_ever_said_to_drift_and_the_bound_holds, a_ramp_drifts_and_its_slope_is_below_the_bound,
+           a_step_is_not_steady, a_run_that_is_too_short_says_so, correlation_times_are_counted, beds_that_fall_keep_their_falls,
+           the_first_fall_of_a_bed_that_flows_is_its_transient, one_sphere_or_a_handful_have_no_angle_and_few_no_verdict)

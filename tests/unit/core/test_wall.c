@@ -240,15 +240,6 @@ static void walls_move_as_their_velocities_say(void **unused)
     assert_false(container_move(&before, &rising, true, 2 * t));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_thin_tube_is_seen_from_inside_outside_and_its_edges),
-        cmocka_unit_test(a_plate_is_seen_from_above_and_below_and_from_beside_its_edge),
-        cmocka_unit_test(a_drum_is_seen_from_within),
-        cmocka_unit_test(a_bar_is_seen_from_within_the_drum_wherever_it_has_turned),
-        cmocka_unit_test(behind_a_surface_the_distance_is_negative),
-        cmocka_unit_test(walls_move_as_their_velocities_say),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_thin_tube_is_seen_from_inside_outside_and_its_edges, a_plate_is_seen_from_above_and_below_and_from_beside_its_edge,
+           a_drum_is_seen_from_within, a_bar_is_seen_from_within_the_drum_wherever_it_has_turned,
+           behind_a_surface_the_distance_is_negative, walls_move_as_their_velocities_say)

@@ -324,16 +324,6 @@ static void what_moves_otherwise_takes_single_steps(void **unused)
     dem_scene_free(scene);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(waves_have_the_same_bits_as_single_steps),
-        cmocka_unit_test(of_a_rolling_mixture_between_end_walls_too),
-        cmocka_unit_test(by_every_law),
-        cmocka_unit_test(waves_that_stop_on_their_way_have_the_same_bits),
-        cmocka_unit_test(a_drum_that_is_too_soft_stops_as_in_single_steps),
-        cmocka_unit_test(every_effect_of_a_step_has_the_same_bits_where_waves_are_allowed),
-        cmocka_unit_test(what_moves_otherwise_takes_single_steps),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(waves_have_the_same_bits_as_single_steps, of_a_rolling_mixture_between_end_walls_too, by_every_law,
+           waves_that_stop_on_their_way_have_the_same_bits, a_drum_that_is_too_soft_stops_as_in_single_steps,
+           every_effect_of_a_step_has_the_same_bits_where_waves_are_allowed, what_moves_otherwise_takes_single_steps)

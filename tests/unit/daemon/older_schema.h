@@ -102,26 +102,22 @@ static const char drums_closed_and_with_lifters[] =
     "ALTER TABLE drum_input ADD COLUMN wall_rolling_friction REAL NOT NULL DEFAULT 0;";
 
 /* What both have in common stands at the end, in the same order. */
+#define COLUMNS_OF_A_BED                                                                                                           \
+    ", gravity REAL NOT NULL, particles INTEGER NOT NULL, species INTEGER NOT NULL, diameter REAL NOT NULL,"                       \
+    "  density REAL NOT NULL, shape TEXT NOT NULL," /* of the first species */                                                     \
+    "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"                                            \
+    "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, time_step REAL NOT NULL,"                                \
+    "  duration REAL NOT NULL, seed INTEGER NOT NULL,"                                                                             \
+    "  rolling_friction REAL NOT NULL, wall_rolling_friction REAL NOT NULL"
 static const char fill_and_heap_tables[] =
     "CREATE TABLE fill_input("
     "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
-    "  cylinder_diameter REAL NOT NULL, stream_diameter REAL NOT NULL, rate REAL NOT NULL, impact_speed REAL NOT NULL,"
-    "  gravity REAL NOT NULL, particles INTEGER NOT NULL, species INTEGER NOT NULL, diameter REAL NOT NULL,"
-    "  density REAL NOT NULL, shape TEXT NOT NULL," /* of the first species */
-    "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"
-    "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, time_step REAL NOT NULL,"
-    "  duration REAL NOT NULL, seed INTEGER NOT NULL,"
-    "  rolling_friction REAL NOT NULL, wall_rolling_friction REAL NOT NULL) STRICT;"
+    "  cylinder_diameter REAL NOT NULL, stream_diameter REAL NOT NULL, rate REAL NOT NULL,"
+    "  impact_speed REAL NOT NULL" COLUMNS_OF_A_BED ") STRICT;"
     "CREATE TABLE heap_input("
     "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
     "  tube_diameter REAL NOT NULL, lift_speed REAL NOT NULL, plate_diameter REAL NOT NULL, rim_height REAL NOT NULL,"
-    "  plate_friction REAL NOT NULL,"
-    "  gravity REAL NOT NULL, particles INTEGER NOT NULL, species INTEGER NOT NULL, diameter REAL NOT NULL,"
-    "  density REAL NOT NULL, shape TEXT NOT NULL," /* of the first species */
-    "  friction REAL NOT NULL, restitution REAL NOT NULL, wall_friction REAL NOT NULL,"
-    "  tangential_stiffness_ratio REAL NOT NULL, stiffness REAL NOT NULL, time_step REAL NOT NULL,"
-    "  duration REAL NOT NULL, seed INTEGER NOT NULL,"
-    "  rolling_friction REAL NOT NULL, wall_rolling_friction REAL NOT NULL) STRICT;"
+    "  plate_friction REAL NOT NULL" COLUMNS_OF_A_BED ") STRICT;"
     "CREATE TABLE surface_result("
     "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
     "  height REAL, center_height REAL, wall_height REAL, base_diameter REAL, volume REAL, static_cohesive_index REAL) STRICT;"

@@ -1,15 +1,7 @@
 /* Reading events.ndjson while somebody writes it. */
-#include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-#include <stdio.h>
-#include <string.h>
 #include <unistd.h>
 
-#include <cmocka.h>
-
+#include "claims.h"
 #include "event_tail.h"
 
 static FILE *file_with(const char *text)
@@ -126,15 +118,6 @@ static void a_long_file_comes_in_pieces_without_loss(void **state)
     fclose(file);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_line_counts_when_it_is_whole),
-        cmocka_unit_test(the_latest_progress_counts_and_rubbish_does_not),
-        cmocka_unit_test(a_phase_that_is_too_long_is_not_cut_within_a_character),
-        cmocka_unit_test(a_new_attempt_forgets_an_earlier_failure),
-        cmocka_unit_test(checkpoints_come_in_order_with_their_attempts),
-        cmocka_unit_test(a_long_file_comes_in_pieces_without_loss),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_line_counts_when_it_is_whole, the_latest_progress_counts_and_rubbish_does_not,
+           a_phase_that_is_too_long_is_not_cut_within_a_character, a_new_attempt_forgets_an_earlier_failure,
+           checkpoints_come_in_order_with_their_attempts, a_long_file_comes_in_pieces_without_loss)

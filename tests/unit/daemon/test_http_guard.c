@@ -1,11 +1,5 @@
 /* Claims about which requests come in, for methods that no address has yet. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
+#include "claims.h"
 #include "http_guard.h"
 
 static int status_of(const char *method, const char *origin, const char *type, const char *length)
@@ -49,11 +43,4 @@ static void whatever_sends_a_document_says_that_it_is_json(void **state)
     assert_int_equal(status_of("DELETE", NULL, NULL, NULL), 0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(whatever_may_write_is_taken_from_our_own_page_alone),
-        cmocka_unit_test(whatever_sends_a_document_says_that_it_is_json),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(whatever_may_write_is_taken_from_our_own_page_alone, whatever_sends_a_document_says_that_it_is_json)

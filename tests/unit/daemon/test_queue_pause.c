@@ -1,7 +1,6 @@
 /* How long the queue stands still while the machine can't run jobs. */
-#include "queue_pause.h"
-
 #include "claims.h"
+#include "queue_pause.h"
 
 static void intervals_double_up_to_half_a_minute(void **state)
 {
@@ -45,12 +44,5 @@ static void only_a_worker_that_was_started_after_it_tells_that_the_machine_is_so
     assert_false(queue_pause_holds(&pause, 401.01));
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(intervals_double_up_to_half_a_minute),
-        cmocka_unit_test(workers_that_end_side_by_side_are_one_setback),
-        cmocka_unit_test(only_a_worker_that_was_started_after_it_tells_that_the_machine_is_sound),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(intervals_double_up_to_half_a_minute, workers_that_end_side_by_side_are_one_setback,
+           only_a_worker_that_was_started_after_it_tells_that_the_machine_is_sound)

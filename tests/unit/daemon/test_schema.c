@@ -1,16 +1,7 @@
 /* Claims about databases that an earlier version of the program made. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
+#include "claims.h"
 #include "database.h"
 #include "older_schema.h"
 
@@ -162,13 +153,6 @@ static void a_database_of_a_newer_program_is_refused(void **state)
     remove_folder(&made);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(every_earlier_version_is_brought_up_to_date_with_what_it_holds),
-        cmocka_unit_test(what_an_earlier_program_could_not_fill_in_has_a_number_that_it_does_not_know),
-        cmocka_unit_test(a_new_database_has_the_columns_of_one_that_was_brought_up_to_date),
-        cmocka_unit_test(a_database_of_a_newer_program_is_refused),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(every_earlier_version_is_brought_up_to_date_with_what_it_holds,
+           what_an_earlier_program_could_not_fill_in_has_a_number_that_it_does_not_know,
+           a_new_database_has_the_columns_of_one_that_was_brought_up_to_date, a_database_of_a_newer_program_is_refused)

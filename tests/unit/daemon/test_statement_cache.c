@@ -1,14 +1,5 @@
 /* Claims about statements that are kept for their next use. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <stdio.h>
-#include <string.h>
-
+#include "claims.h"
 #include "database.h"
 
 static sqlite3 *opened(void)
@@ -105,13 +96,4 @@ static void one_that_failed_is_not_kept(void **state)
     database_close(database);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_text_is_parsed_once),
-        cmocka_unit_test(one_in_use_is_not_used_by_another),
-        cmocka_unit_test(many_texts_are_not_all_kept),
-        cmocka_unit_test(one_that_failed_is_not_kept),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_text_is_parsed_once, one_in_use_is_not_used_by_another, many_texts_are_not_all_kept, one_that_failed_is_not_kept)

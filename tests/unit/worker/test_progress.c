@@ -1,12 +1,6 @@
 /* Claims about how far a run says that it is: the share grows while the bed grows and settles and the test runs, is the same
  * after an interruption, and is as large as the time that passed says. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
+#include "claims.h"
 #include "dem_rules.h"
 #include "progress.h"
 
@@ -96,11 +90,4 @@ static void a_heaps_progress_grows_with_what_it_is_estimated_to_take(void **stat
     assert_true(percent > 80.0 && percent < 100.0);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(a_drums_progress_grows_to_the_whole),
-        cmocka_unit_test(a_heaps_progress_grows_with_what_it_is_estimated_to_take),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(a_drums_progress_grows_to_the_whole, a_heaps_progress_grows_with_what_it_is_estimated_to_take)

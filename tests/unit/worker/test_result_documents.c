@@ -1,14 +1,5 @@
 /* Claims about the results documents of a drum and of a granule. */
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdint.h>
-/* cmocka.h needs the four above. */
-#include <cmocka.h>
-
-#include <math.h>
-#include <string.h>
-
+#include "claims.h"
 #include "drum_result.h"
 #include "granule_result.h"
 
@@ -81,12 +72,4 @@ static void a_granules_results_are_null_where_no_rate_was_given(void **state)
     }
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(what_was_not_measured_is_null),
-        cmocka_unit_test(results_stand_under_their_own_names),
-        cmocka_unit_test(a_granules_results_are_null_where_no_rate_was_given),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(what_was_not_measured_is_null, results_stand_under_their_own_names, a_granules_results_are_null_where_no_rate_was_given)
