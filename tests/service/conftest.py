@@ -3,6 +3,7 @@ import contextlib
 import fcntl
 import functools
 import os
+import re
 import signal
 import subprocess
 import tempfile
@@ -15,6 +16,9 @@ import requests
 ROOT = Path(__file__).resolve().parents[2]
 BUILD = Path(os.environ.get("REPOSED_BUILD", ROOT / "build"))
 FAKE_WORKER = Path(__file__).with_name("fake_worker.py")
+BROWSER_FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+                 "--disable-background-networking", "--disable-component-update", "--disable-sync",
+                 "--disable-dev-shm-usage", "--window-size=1280,1000"]
 ENDED = ("successful", "failed", "dismissed")
 SPEC = {
     "drum": {"diameter": 0.04, "length": 0.012, "rotation_rate": 6.0},
@@ -167,3 +171,44 @@ def daemon(tmp_path):
 def fake(tmp_path):
     """With a worker that does what the job's label says, quickly."""
     yield from run_daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "2"])
+
+
+@pytest.fixture
+def daemon_with_token(tmp_path):
+    file = tmp_path / "token"
+    file.write_text("a-token-of-this-test\n")
+    file.chmod(0o600)
+    yield from run_daemon(tmp_path, worker=FAKE_WORKER, options=["--token-file", file])
+
+
+@pytest.fixture(scope="session")
+def chromium(tmp_path_factory):
+    """One for all tests of the process, because its start takes seconds."""
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    options = webdriver.ChromeOptions()
+    options.binary_location = "/usr/bin/chromium"
+    for flag in BROWSER_FLAGS + [f"--user-data-dir={tmp_path_factory.mktemp('browser') / 'profile'}"]:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
+    yield driver
+    driver.quit()
+
+
+@pytest.fixture
+def browser(chromium):
+    """With a tab of its own, and nothing kept of the tests before."""
+    first = chromium.current_window_handle
+    chromium.switch_to.new_window("tab")
+    chromium.execute_cdp_cmd("Network.clearBrowserCookies", {})
+    chromium.execute_cdp_cmd("Network.clearBrowserCache", {})
+    yield chromium
+    complaints = [entry["message"] for entry in chromium.get_log("browser")
+                  if entry["level"] == "SEVERE" and not re.search(r"ERR_CONNECTION_|status of 401", entry["message"])]
+    origin = chromium.execute_script("return origin")
+    if origin.startswith("http"):
+        chromium.execute_cdp_cmd("Storage.clearDataForOrigin", {"origin": origin, "storageTypes": "all"})
+    chromium.close()
+    chromium.switch_to.window(first)
+    assert complaints == []  # neither script errors nor violations of the content security policy

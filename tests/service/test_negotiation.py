@@ -11,7 +11,7 @@ import pytest
 import requests
 import yaml
 from conftest import BUILD, FAKE_WORKER, SPEC, Daemon, run_daemon
-from test_page import browser, find, find_all, until  # noqa: F401
+from test_page import find, find_all, until
 
 ROOT = Path(__file__).resolve().parents[2]
 OPENAPI = "application/vnd.oai.openapi"
@@ -275,7 +275,7 @@ def test_a_session_behind_a_proxy_ends_where_it_began(behind):
 
 
 @pytest.mark.parametrize("behind", [True], indirect=True)
-def test_the_page_works_behind_a_proxy(behind, browser):  # noqa: F811
+def test_the_page_works_behind_a_proxy(behind, browser):
     study = {"base": {"inputs": SPEC, "label": {"fake": "quick"}}, "vary": {"/inputs/contact/friction": [0.1, 0.3]}}
     made = requests.post(f"{behind.url}/studies", json=study, timeout=30).headers["Location"]
     requests.get(f"{made}?wait=30", timeout=40)

@@ -8,42 +8,13 @@ import subprocess
 
 import pytest
 import requests
-from conftest import FAKE_WORKER, run_daemon
-from selenium import webdriver
 from selenium.common.exceptions import ElementNotInteractableException, NoSuchElementException, StaleElementReferenceException
-from selenium.webdriver.chrome.service import Service
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import WebDriverWait
 from test_heap_and_fill import SPECS
 
-FLAGS = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
-         "--disable-background-networking", "--disable-component-update", "--disable-sync",
-         "--disable-dev-shm-usage", "--window-size=1280,1000"]
 HOSTILE = '<img src=x onerror="document.title=\'owned\'"><b>bold</b>'
-
-
-@pytest.fixture
-def browser(tmp_path):
-    options = webdriver.ChromeOptions()
-    options.binary_location = "/usr/bin/chromium"
-    for flag in FLAGS + [f"--user-data-dir={tmp_path / 'profile'}"]:
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
-    yield driver
-    complaints = [entry["message"] for entry in driver.get_log("browser")
-                  if entry["level"] == "SEVERE" and not re.search(r"ERR_CONNECTION_|status of 401", entry["message"])]
-    driver.quit()
-    assert complaints == []  # neither script errors nor violations of the content security policy
-
-
-@pytest.fixture
-def daemon_with_token(tmp_path):
-    file = tmp_path / "token"
-    file.write_text("a-token-of-this-test\n")
-    file.chmod(0o600)
-    yield from run_daemon(tmp_path, worker=FAKE_WORKER, options=["--token-file", file])
 
 
 def until(browser, seen, seconds=20):

@@ -2,7 +2,7 @@
 it asks the daemon for."""
 import sqlite3
 
-from test_page import browser, daemon_with_token, find, until  # noqa: F401
+from test_page import find, until
 from test_page_studies import submit
 
 WORKERS = 2
@@ -13,7 +13,7 @@ def update_job(daemon, job, **columns):
         database.execute(f"UPDATE job SET {','.join(f'{name}=?' for name in columns)} WHERE id=?", (*columns.values(), job))
 
 
-def test_what_a_waiting_job_has_to_say_is_shown(fake, browser):  # noqa: F811
+def test_what_a_waiting_job_has_to_say_is_shown(fake, browser):
     for _ in range(WORKERS):
         fake.submit(fake="slow", seconds="60")
     waiting, usual = fake.submit(), fake.submit()
@@ -24,7 +24,7 @@ def test_what_a_waiting_job_has_to_say_is_shown(fake, browser):  # noqa: F811
     assert find(browser, f"#job-{usual} .state").text == "accepted"  # that it waits, its state says
 
 
-def test_an_address_of_nothing_says_so_and_shows_a_way_on(fake, browser):  # noqa: F811
+def test_an_address_of_nothing_says_so_and_shows_a_way_on(fake, browser):
     for address in ["/?cursor=nonsense", "/?q=" + "%C3%A4" * 101, "/web/studies.html#20990101-000000-00000000",
                     "/web/studies.html#%E0%A4%A"]:
         browser.get("about:blank")
@@ -41,7 +41,7 @@ def test_a_search_may_have_a_hundred_characters_of_any_script(fake):
     assert answer.status_code == 400 and "101 characters" in answer.json()["detail"]
 
 
-def test_a_wrong_token_and_one_that_no_header_takes_are_told(daemon_with_token, browser):  # noqa: F811
+def test_a_wrong_token_and_one_that_no_header_takes_are_told(daemon_with_token, browser):
     browser.get(daemon_with_token.url)
     field = until(browser, lambda b: find(b, "#token-value") if find(b, "#token").is_displayed() else None)
     for value, said in [("wrong", "does not take this token"), ("schlüssel-€", "this is none")]:

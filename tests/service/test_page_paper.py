@@ -6,30 +6,30 @@ import socketserver
 import threading
 import time
 
-from test_page import browser, find, find_all, until  # noqa: F401
+from test_page import find, find_all, until
 from test_page_studies import submit
 
 A4 = {"paperWidth": 8.27, "paperHeight": 11.69}  # inches
 
 
-def printed_pages(browser):  # noqa: F811
+def printed_pages(browser):
     pdf = base64.b64decode(browser.execute_cdp_cmd("Page.printToPDF", A4)["data"])
     return len(re.findall(rb"/Type\s*/Page\b", pdf))
 
 
-def lay_out_for_paper(browser):  # noqa: F811
+def lay_out_for_paper(browser):
     """As on A4 between margins of a centimetre."""
     browser.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 718, "height": 1000, "deviceScaleFactor": 1, "mobile": False})
 
 
-def reaches_beyond(browser, selector):  # noqa: F811
+def reaches_beyond(browser, selector):
     """How many of these elements begin or end outside the sheet."""
     return browser.execute_script("return [...document.querySelectorAll(arguments[0])].filter(e => e.getClientRects().length"
                                   " && (e.getBoundingClientRect().right > innerWidth + 1 || e.getBoundingClientRect().left < 0)).length", selector)
 
 
-def test_paper_has_tables_that_fit_without_gaps_and_no_white_words(fake, browser):  # noqa: F811
+def test_paper_has_tables_that_fit_without_gaps_and_no_white_words(fake, browser):
     study = submit(fake, name="on paper", repeats=2, vary={"/inputs/contact/friction": [0.1, 0.3, 0.5],
                                                            "/inputs/wall/friction": [0.3, 0.5]})
     last = fake.submit(project="opened")
@@ -79,7 +79,7 @@ class SlowLine(socketserver.ThreadingTCPServer):
                 pass
 
 
-def test_a_list_may_take_long_as_long_as_it_comes(fake, browser):  # noqa: F811
+def test_a_list_may_take_long_as_long_as_it_comes(fake, browser):
     """Uncompressed. The page's clock goes twelve times as fast, so that it waits for 1.7 s, not for 20; the list takes 3 s."""
     for k in range(5):
         fake.submit(project=f"slow {k}")

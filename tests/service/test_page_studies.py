@@ -5,7 +5,7 @@ import subprocess
 import requests
 from conftest import SPEC
 from selenium.webdriver.common.keys import Keys
-from test_page import HOSTILE, browser, daemon_with_token, find, find_all, jobs_shown, scrolls_sideways, until, use_phone  # noqa: F401
+from test_page import HOSTILE, find, find_all, jobs_shown, scrolls_sideways, until, use_phone
 
 
 def click(browser, selector):
@@ -24,8 +24,7 @@ def test_an_empty_list_shows_a_line_that_submits_the_first_study(fake, browser):
     line = until(browser, lambda b: find(b, "#empty pre").text).replace("\\\n", " ")
     made = json.loads(subprocess.run(line.replace("curl", "curl -sS", 1), shell=True, capture_output=True, check=True).stdout)
     assert made["jobs"] == 6
-    row = until(browser, lambda b: find(b, f"#study-{made['studyID']}"))  # it came without a reload
-    until(browser, lambda b: find(row, ".badge").text == "successful")
+    until(browser, lambda b: find(b, f"#study-{made['studyID']} .badge").text == "successful", 60)  # it came without a reload
 
 
 def test_a_study_is_followed_to_its_table(fake, browser):

@@ -1,7 +1,7 @@
 """The words of the page: everything in results has some, and what a run cannot know is said in them."""
 import re
 
-from test_page import browser, find, find_all, row_of, until  # noqa: F401
+from test_page import find, find_all, row_of, until
 from test_page_studies import submit
 
 
@@ -26,7 +26,7 @@ def test_every_result_has_words_and_none_stands_in_the_pages_own(fake):
         assert of_the_page == set(), process
 
 
-def test_results_are_shown_by_the_labels_and_units_of_their_description(fake, browser):  # noqa: F811
+def test_results_are_shown_by_the_labels_and_units_of_their_description(fake, browser):
     job = fake.submit()
     fake.ended(job)
     browser.get(f"{fake.url}/?open={job}")
@@ -36,13 +36,13 @@ def test_results_are_shown_by_the_labels_and_units_of_their_description(fake, br
     assert shown["time step"] == "100 µs" and shown["seen from beginning to end"] == "12" and shown["steady"] == "yes"
 
 
-def facts(browser, job):  # noqa: F811
+def facts(browser, job):
     """What an opened job shows, but for its links, label and names of definitions, as {name: value}."""
     rows = until(browser, lambda b: find_all(b, f"#detail-{job} .results .facts div"))
     return {name.text: value.text for name, value in ((find(row, "dt"), find(row, "dd")) for row in rows)}
 
 
-def test_a_run_too_short_to_tell_is_shown_in_words_and_its_small_numbers_are_no_zeros(fake, browser):  # noqa: F811
+def test_a_run_too_short_to_tell_is_shown_in_words_and_its_small_numbers_are_no_zeros(fake, browser):
     job = fake.submit(results="of a moment")
     fake.ended(job)
     browser.get(f"{fake.url}/?open={job}")
@@ -56,7 +56,7 @@ def test_a_run_too_short_to_tell_is_shown_in_words_and_its_small_numbers_are_no_
     assert not re.search(r"too-short|per revolution|at-most|_", find(browser, f"#detail-{job} .results").text)
 
 
-def test_a_run_without_an_angle_says_so_in_the_list_and_opened(fake, browser):  # noqa: F811
+def test_a_run_without_an_angle_says_so_in_the_list_and_opened(fake, browser):
     job = fake.submit(results="of too few")
     fake.ended(job)
     browser.get(f"{fake.url}/?open={job}")
@@ -67,7 +67,7 @@ def test_a_run_without_an_angle_says_so_in_the_list_and_opened(fake, browser):  
     assert facts(browser, job)["verdict"] == "too few particles to tell"
 
 
-def words_of_the_first_case(browser, daemon, study, runs):  # noqa: F811
+def words_of_the_first_case(browser, daemon, study, runs):
     """{heading: text} of a study's table, once all its runs have ended."""
     browser.get("about:blank")
     browser.get(f"{daemon.url}/web/studies.html#{study}")
@@ -75,7 +75,7 @@ def words_of_the_first_case(browser, daemon, study, runs):  # noqa: F811
     return dict(zip(*([cell.text for cell in find_all(browser, f"#cases {part} tr :is(th, td)")] for part in ("thead", "tbody"))))
 
 
-def test_studies_tell_their_verdicts_in_words_also_where_there_is_no_angle(fake, browser):  # noqa: F811
+def test_studies_tell_their_verdicts_in_words_also_where_there_is_no_angle(fake, browser):
     tiny = submit(fake, name="tiny", cases=[{"name": "tiny", "label": {"results": "of too few"}}], repeats=2)
     mixed = {"name": "mixed", "inputs": {"seed": 0}, "label": {"verdicts": "steady too-short drifting"}}
     mixed = submit(fake, name="mixed", cases=[mixed], repeats=3)

@@ -6,7 +6,7 @@ import io
 import pytest
 import requests
 from test_heap_and_fill import SPECS
-from test_page import browser, find, until  # noqa: F401
+from test_page import find, until
 from worker_runs import result, run, small, write_spec
 
 FULL = {"drum": {"diameter": 0.044, "length": 0.0165, "rotation_rate": 6}, "particles": [{"shape": "cube", "diameter": 0.002}],
@@ -68,7 +68,7 @@ def test_warnings_stand_in_messages_lists_tables_and_studies(fake):
         (0, "done"), (1, "done, with 1 warning: /run/fact_0 is <b>odd</b> 0"), (2, "done, with 2 warnings: /run/fact_0 is <b>odd</b> 0")}
 
 
-def test_the_page_shows_warnings_before_the_angle(fake, browser):  # noqa: F811
+def test_the_page_shows_warnings_before_the_angle(fake, browser):
     job = fake.submit(warnings="2")
     fake.ended(job)
     browser.get(f"{fake.url}/?open={job}")
