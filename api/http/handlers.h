@@ -15,6 +15,8 @@ route_handler show_api;
 route_handler list_processes, show_process, execute_process;
 /* handlers_jobs.c */
 route_handler list_jobs, show_job, remove_job, retry_job, pin_job, unpin_job;
+/* handlers_batch.c */
+route_handler cancel_jobs, delete_jobs;
 /* handlers_results.c */
 route_handler show_results, show_output, show_spec, show_log;
 /* handlers_series.c */
@@ -39,7 +41,7 @@ void respond_results(api_service *service, const http_request *request, http_res
 /* Finds the job named by the first segment; false: the response says why not. */
 bool find_job(api_service *service, const http_request *request, http_response *response, job_record *job);
 
-/* Shared between handlers of lists: the address of this list with the filters it was asked with; cursor 0: as it was
+/* Shared between handlers of lists: the address of this list with the filters it was asked with; cursor NULL: as it was
  * asked. And of tables: is CSV asked for? */
 json_t *list_link(const http_request *request, const char *rel, const char *cursor);
 bool wants_csv(const http_request *request);

@@ -105,6 +105,16 @@ typedef struct room_to_free {
 } room_to_free;
 store_status store_look_for_room(job_store *store, room_to_free *room);
 
+/* Those jobs that a filter lets through, whatever it says of the page. deletes: those that have ended and are not pinned are
+ * deleted; else those that wait or run are dismissed. only_tell: nothing is changed. tell: called with the ids of those that are
+ * found, until it returns false. In pieces, and no longer than a second: then some are left. */
+typedef struct job_batch {
+    int64_t found, changed, left;
+    int64_t unfit, pinned; /* let through too, but not in a state that allows it; kept because they are pinned */
+} job_batch;
+store_status store_change_jobs(job_store *store, const job_filter *filter, bool deletes, bool only_tell, const client_watch *client,
+                               bool (*tell)(void *context, const char *id), void *context, job_batch *result);
+
 store_status store_find_job(job_store *store, const char *id, job_record *job);
 /* Of a job that waits: its place among those that do, from 1, and when it is expected to start. STORE_NOT_FOUND: it does not. */
 typedef struct queue_place {

@@ -50,6 +50,12 @@ store_status store_end(job_store *store, store_status status);
 /* Reads what jobs are listed by into memory, before somebody has to wait for it. */
 void store_warm(job_store *store);
 
+/* The numbers of all jobs that a filter lets through, oldest first; *numbers is the caller's to free. counts: as those of a list. */
+store_status store_find_all(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES], int64_t **numbers,
+                            size_t *count);
+/* job_store_delete.c: the folders of jobs that were deleted at this time, out of the way. */
+void store_put_folders_aside(job_store *store, double since);
+
 /* request_keys.c, between begin and end: keeps the key of this thread's request, if it has one, and the id of what it is about. */
 store_status store_keep_key(job_store *store);
 void store_name_made(const char *id);

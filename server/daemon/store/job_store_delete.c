@@ -76,7 +76,7 @@ store_status store_retry_study(job_store *store, const char *id)
 }
 
 /* Out of the way before the answer is sent; what is in them goes later (folder_remover.h). */
-static void put_folders_aside(job_store *store, double since)
+void store_put_folders_aside(job_store *store, double since)
 {
     sqlite3 *reader = store_borrow_reader(store);
     sqlite3_stmt *statement = sql_prepare(reader, "SELECT id FROM leaving WHERE since=?", "d", since);
@@ -117,7 +117,7 @@ static store_status delete_one(job_store *store, store_status (*from_tables)(job
     const double since = unix_seconds();
     store_status status = store_begin(store);
     if (status == STORE_OK) status = store_end(store, from_tables(store, id, since));
-    if (status == STORE_OK) put_folders_aside(store, since);
+    if (status == STORE_OK) store_put_folders_aside(store, since);
     return status;
 }
 

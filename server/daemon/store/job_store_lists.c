@@ -245,6 +245,18 @@ store_status store_list_jobs(job_store *store, const job_filter *filter, int64_t
     return status == STORE_OK ? list_plainly(store, filter, visit, context) : status;
 }
 
+store_status store_find_all(job_store *store, const job_filter *filter, int64_t counts[JOB_STATUSES], int64_t **numbers,
+                            size_t *count)
+{
+    int64_t study;
+    sqlite3 *reader = store_borrow_reader(store);
+    *numbers = NULL;
+    store_status status = find_study_number(reader, filter->study, &study);
+    if (status == STORE_OK) status = job_index_find_all(store->index, reader, filter, study, counts, numbers, count);
+    store_return_reader(store, reader);
+    return status;
+}
+
 void store_warm(job_store *store)
 {
     sqlite3 *reader = store_borrow_reader(store);
