@@ -75,6 +75,23 @@ typedef struct dem_contact_parameters {
     double wall_rolling_friction;      /* likewise, particle against all that is the container's but ends, floor and plate */
 } dem_contact_parameters;
 
+/* What a container shows to particles, as far as each may be of another material. */
+typedef enum dem_surface {
+    DEM_WALL,    /* the cylinder of a drum or of a standing cylinder; the tube */
+    DEM_ENDS,    /* of a drum; a cylinder's floor */
+    DEM_LIFTERS, /* their bars */
+    DEM_LINING,  /* its spheres */
+    DEM_PLATE,   /* with its rim */
+    DEM_SURFACES
+} dem_surface;
+
+/* A contact of two materials: what dem_contact_parameters have of all contacts. */
+typedef struct dem_pair {
+    double friction, rolling_friction, restitution;
+    double stiffness, unloading_slope; /* N/m, 1/m: as there; the slope is more than 0 for all pairs or for none */
+    dem_elasticity elasticity[2];      /* Hertz-Mindlin */
+} dem_pair;
+
 /* Spheres glued to the inner wall, turning with it. diameter 0: no lining, a smooth wall. */
 typedef struct dem_lining {
     double diameter; /* m */
@@ -140,6 +157,10 @@ typedef struct dem_scene_definition {
     size_t species_count;
     dem_species species[DEM_MAXIMUM_SPECIES];
     dem_contact_parameters contact;
+    /* Each species with each, both ways round, and behind these with each surface, in the place of what contact, ends, lifters and
+     * plate say; without has_pairs nobody looks at it. */
+    bool has_pairs;
+    dem_pair pair[DEM_MAXIMUM_SPECIES][DEM_MAXIMUM_SPECIES + DEM_SURFACES];
     dem_lining lining;
     bool is_placed;       /* nothing is placed at random: particles come by dem_scene_place or dem_scene_continue */
     double time_step;     /* s */

@@ -15,6 +15,7 @@
 #include "dem_granule.h"
 #include "dem_types.h"
 #include "problem.h"
+#include "spec_fields.h"
 
 /* Numbers of JSON are doubles to most clients: whole ones up to 2^53 - 1, a seed say, come back as they were. */
 #define WHOLE_NUMBER_BITS 53
@@ -25,9 +26,23 @@
 typedef struct species_inputs {
     double shape; /* index into the choices of the table; the one behind the last: the spheres below */
     double diameter, density, share;
+    spec_name material; /* "": none */
     size_t sphere_count;
     dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
 } species_inputs;
+
+/* NaN: as the contact has it. */
+typedef struct material_inputs {
+    spec_name name;
+    double density, youngs_modulus, poissons_ratio;
+    double poisson_ratio; /* given instead; NaN once poissons_ratio is set by it */
+} material_inputs;
+
+/* Of two materials, or of one and a surface, what is not as contact and wall say; NaN: as they do. */
+typedef struct pair_inputs {
+    spec_name between[2];
+    double friction, rolling_friction, restitution, stiffness;
+} pair_inputs;
 
 /* A particle of a bed that is given particle by particle. */
 typedef struct start_particle {
@@ -69,7 +84,11 @@ typedef struct scene_inputs {
     double rate_was_rpm;      /* NaN: it was not */
     size_t species_count;
     species_inputs species[DEM_MAXIMUM_SPECIES];
-    double share_by;                                   /* a share_basis */
+    double share_by; /* a share_basis */
+    size_t material_count, pair_count;
+    material_inputs *materials; /* (material_count) owned */
+    pair_inputs *pairs;         /* (pair_count) owned */
+    spec_name wall_material, plate_material;
     double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
     double contact_law, friction, rolling_friction, tangential_stiffness_ratio;
     double restitution, unloading_slope; /* one of the two */

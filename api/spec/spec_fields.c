@@ -17,13 +17,16 @@ const spec_field *spec_field_at(const spec_table *table, const char *pointer)
 {
     const spec_field *field = NULL;
     spec_group group = SPEC_INPUTS;
+    bool is_inside = false; /* an entry of the list that `field` is */
     for (const char *step = pointer; *step;) {
         const size_t length = strcspn(step, "/");
         char name[LONGEST_NAME + 1];
         snprintf(name, sizeof name, "%.*s", (int)length, step);
-        const bool is_entry = field && field->kind >= FIELD_LIST && strspn(name, "0123456789") == strlen(name);
+        const bool is_number = strspn(name, "0123456789") == strlen(name), was_list = field && field->kind >= FIELD_LIST;
+        const bool is_entry = was_list && !is_inside && (is_number || field->kind == FIELD_NAMED_LIST);
         if (!is_entry) field = spec_field_find(table, group, name);
         if (!field) return NULL;
+        is_inside = is_entry;
         group = field->child;
         step += length + (step[length] == '/');
     }

@@ -27,7 +27,9 @@ typedef enum spec_group {
     SPEC_PLATE,
     SPEC_INTEGRATION,
     SPEC_START,
-    SPEC_PLACED
+    SPEC_PLACED,
+    SPEC_MATERIALS,
+    SPEC_PAIRS
 } spec_group;
 
 typedef enum field_kind {
@@ -38,12 +40,18 @@ typedef enum field_kind {
     FIELD_TEXT,             /* kept as bytes that end with 0; "": not given. Its range is that of its length */
     FIELD_PLACE,            /* a list of three numbers, kept as three doubles */
     FIELD_ORIENTATION,      /* a list of four numbers, kept as four doubles */
+    FIELD_TWO_NAMES,        /* a list of two texts, kept as spec_name[2] */
     FIELD_CHOICE_OR_OBJECT, /* a word, or an object whose members are kept beside it; the object's index follows the words' */
     FIELD_OBJECT,
     FIELD_OBJECT_OR_NULL, /* null, the default: none */
     FIELD_LIST,           /* of objects */
-    FIELD_LONG_LIST       /* the same, kept in memory of its own: see spec_inputs_clear */
+    FIELD_LONG_LIST,      /* the same, kept in memory of its own: see spec_inputs_clear */
+    FIELD_NAMED_LIST      /* an object of objects, whose names are the user's: kept as a long list, the name first in each entry */
 } field_kind;
+
+/* A name that a user gives, with its 0; names of entries have 1 to NAME_MOST bytes. */
+enum { NAME_MOST = 40 };
+typedef char spec_name[NAME_MOST + 1];
 
 /* How a number of the job's specification is kept in a column of SQL. */
 typedef enum input_column {

@@ -190,12 +190,64 @@ void refuse_unknown_members(const json_t *object, const char *pointer, const cha
 static char *list_memory(const spec_field *field, size_t count, char *place)
 {
     if (field->kind == FIELD_LIST) return place + field->offset;
+    *(void **)(place + field->offset) = NULL;
+    if (count == 0) return place;
     return *(void **)(place + field->offset) = calloc(count, field->entry_size);
 }
 
 /* object: NULL reads the defaults. place: the struct that the offsets of the group's fields count from. */
 static void read_group(const spec_table *table, spec_group group, const json_t *object, const char *pointer, char *place,
                        problem_list *problems);
+
+static void set_nothing_given(const spec_table *table, spec_group group, char *place);
+
+/* An entry of a list, at the pointer. */
+static void read_entry(const spec_table *table, const spec_field *field, const json_t *object, const char *pointer, char *entry,
+                       problem_list *problems)
+{
+    if (field->kind != FIELD_LIST) set_nothing_given(table, field->child, entry);
+    if (json_is_object(object)) {
+        read_group(table, field->child, object, pointer, entry, problems);
+        return;
+    }
+    char seen[LONGEST_VALUE];
+    json_value_text(object, seen, sizeof seen);
+    problem_list_add(problems, pointer, "is %s; must be an object", seen);
+}
+
+static void read_named_list(const spec_table *table, const spec_field *field, const json_t *list, const char *pointer, char *place,
+                            problem_list *problems)
+{
+    char seen[LONGEST_VALUE], member[LONGEST_POINTER];
+    const size_t count = json_object_size(list);
+    if (!json_is_object(list)) {
+        json_value_text(list, seen, sizeof seen);
+        problem_list_add(problems, pointer, "is %s; must be an object whose members are objects", seen);
+        return;
+    }
+    if (count > (size_t)field->maximum) {
+        problem_list_add(problems, pointer, "has %zu members; must have at most %.0f", count, field->maximum);
+        return;
+    }
+    char *entry = list_memory(field, count, place);
+    if (!entry) {
+        problem_list_add(problems, pointer, "could not be read: out of memory");
+        return;
+    }
+    *(size_t *)(place + field->count_offset) = count;
+    const char *name;
+    json_t *object;
+    json_object_foreach((json_t *)list, name, object)
+    {
+        const size_t length = strlen(name);
+        if (length < 1 || length > NAME_MOST)
+            problem_list_add(problems, pointer, "has a member whose name has %zu bytes; must have 1 to %d", length, NAME_MOST);
+        pointer_to_member(member, pointer, length <= NAME_MOST ? name : "");
+        read_entry(table, field, object, member, entry, problems);
+        snprintf(entry, sizeof(spec_name), "%s", length <= NAME_MOST ? name : "");
+        entry += field->entry_size;
+    }
+}
 
 static void read_list(const spec_table *table, const spec_field *field, const json_t *list, const char *pointer, char *place,
                       problem_list *problems)
@@ -219,13 +271,7 @@ static void read_list(const spec_table *table, const spec_field *field, const js
     for (size_t s = 0; s < count && !problem_list_is_full(problems); s++) {
         char entry[LONGEST_POINTER];
         snprintf(entry, sizeof entry, "%.200s/%zu", pointer, s);
-        const json_t *object = json_array_get(list, s);
-        if (!json_is_object(object)) {
-            json_value_text(object, seen, sizeof seen);
-            problem_list_add(problems, entry, "is %s; must be an object", seen);
-            continue;
-        }
-        read_group(table, field->child, object, entry, first + s * field->entry_size, problems);
+        read_entry(table, field, json_array_get(list, s), entry, first + s * field->entry_size, problems);
     }
     *(size_t *)(place + field->count_offset) = count;
 }
@@ -300,6 +346,23 @@ static void read_text(const spec_field *field, const json_t *value, const char *
     else memcpy(text, json_string_value(value), length + 1);
 }
 
+static void read_two_names(const spec_field *field, const json_t *value, const char *pointer, spec_name *names,
+                           problem_list *problems)
+{
+    char seen[LONGEST_VALUE], entry[LONGEST_POINTER];
+    names[0][0] = names[1][0] = '\0';
+    if (json_array_size(value) != 2) {
+        json_value_text(value, seen, sizeof seen);
+        if (json_is_array(value)) snprintf(seen, sizeof seen, "a list of %zu", json_array_size(value));
+        problem_list_add(problems, pointer, "is %s; must be a list of two names", value ? seen : "missing");
+        return;
+    }
+    for (size_t c = 0; c < 2; c++) {
+        snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
+        read_text(field, json_array_get(value, c), entry, names[c], problems);
+    }
+}
+
 /* Three or four numbers of the field's range. */
 static void read_place(const spec_field *field, const json_t *value, const char *pointer, double *place, problem_list *problems)
 {
@@ -353,12 +416,14 @@ static void read_group(const spec_table *table, spec_group group, const json_t *
         if (field->kind >= FIELD_OBJECT && field->required && !value) {
             problem_list_add(problems, member, "is missing; must be %s",
                              field->kind >= FIELD_LIST ? "a list of objects" : "an object");
-        } else if (field->kind == FIELD_LONG_LIST) {
-            if (value) read_list(table, field, value, member, place, problems);
+        } else if (field->kind == FIELD_LONG_LIST || field->kind == FIELD_NAMED_LIST) {
+            if (value) (field->kind == FIELD_LONG_LIST ? read_list : read_named_list)(table, field, value, member, place, problems);
         } else if (field->kind == FIELD_LIST) {
             read_list(table, field, value, member, place, problems);
         } else if (field->kind == FIELD_TEXT) {
             read_text(field, value, member, place + field->offset, problems);
+        } else if (field->kind == FIELD_TWO_NAMES) {
+            read_two_names(field, value, member, (spec_name *)(place + field->offset), problems);
         } else if (field->kind == FIELD_PLACE || field->kind == FIELD_ORIENTATION) {
             read_place(field, value, member, (double *)(place + field->offset), problems);
         } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {
@@ -379,9 +444,9 @@ static void set_nothing_given(const spec_table *table, spec_group group, char *p
         if (field->group != group) continue;
         if (field->kind == FIELD_CHOICE_OR_OBJECT) set_nothing_given(table, field->child, place);
         if (field->kind == FIELD_OBJECT_OR_NULL) *(double *)(place + field->offset) = NAN;
-        if (field->kind == FIELD_TEXT) {
+        if (field->kind == FIELD_TEXT || field->kind == FIELD_TWO_NAMES) {
             place[field->offset] = '\0';
-        } else if (field->kind == FIELD_LONG_LIST) {
+        } else if (field->kind == FIELD_LONG_LIST || field->kind == FIELD_NAMED_LIST) {
             *(void **)(place + field->offset) = NULL;
             *(size_t *)(place + field->count_offset) = 0;
         } else if (field->kind < FIELD_OBJECT) *(double *)(place + field->offset) = NAN;
@@ -403,7 +468,7 @@ void spec_inputs_read(const spec_table *table, const json_t *object, void *input
 void spec_inputs_clear(const spec_table *table, void *inputs)
 {
     for (size_t f = 0; f < table->count; f++) {
-        if (table->field[f].kind != FIELD_LONG_LIST) continue;
+        if (table->field[f].kind != FIELD_LONG_LIST && table->field[f].kind != FIELD_NAMED_LIST) continue;
         void **memory = (void **)((char *)inputs + table->field[f].offset);
         free(*memory);
         *memory = NULL;

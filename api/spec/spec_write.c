@@ -17,13 +17,15 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
 
 static json_t *write_list(const spec_table *table, const spec_field *field, const char *place)
 {
-    json_t *list = json_array();
+    const bool is_named = field->kind == FIELD_NAMED_LIST;
+    json_t *list = is_named ? json_object() : json_array();
     const size_t count = *(const size_t *)(place + field->count_offset);
     const char *first = place + field->offset;
-    if (field->kind == FIELD_LONG_LIST) first = *(const char *const *)first;
+    if (field->kind >= FIELD_LONG_LIST) first = *(const char *const *)first;
     for (size_t s = 0; list && s < count; s++) {
         const char *entry = first + s * field->entry_size;
-        if (json_array_append_new(list, write_group(table, field->child, entry)) != 0) {
+        json_t *object = write_group(table, field->child, entry);
+        if (is_named ? json_object_set_new(list, entry, object) : json_array_append_new(list, object)) {
             json_decref(list);
             return NULL;
         }
@@ -48,12 +50,15 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
         if (field->kind == FIELD_TEXT) {
             if (!place[field->offset]) continue;
             member = json_string(place + field->offset);
-        } else if (field->kind == FIELD_LONG_LIST && *(const size_t *)(place + field->count_offset) == 0) {
+        } else if (field->kind >= FIELD_LONG_LIST && *(const size_t *)(place + field->count_offset) == 0) {
             continue;
         } else if (field->kind == FIELD_ORIENTATION) {
             const double *q = (const double *)(place + field->offset);
             if (isnan(q[0])) continue;
             member = json_pack("[f, f, f, f]", q[0], q[1], q[2], q[3]);
+        } else if (field->kind == FIELD_TWO_NAMES) {
+            const spec_name *names = (const spec_name *)(place + field->offset);
+            member = json_pack("[s, s]", names[0], names[1]);
         } else if (field->kind == FIELD_PLACE) {
             const double *x = (const double *)(place + field->offset);
             member = json_pack("[f, f, f]", x[0], x[1], x[2]);

@@ -1,5 +1,78 @@
 #include "contact_constants.h"
 
+#include "dem_rules.h"
+
+/* As `contact` would say it, if the pair's were all contacts. */
+static dem_contact_parameters contact_of_pair(const dem_scene_definition *d, const dem_pair *pair)
+{
+    dem_contact_parameters contact = d->contact;
+    contact.stiffness = pair->stiffness;
+    contact.restitution = pair->restitution;
+    contact.unloading_slope = pair->unloading_slope;
+    contact.particle = pair->elasticity[0];
+    contact.wall = pair->elasticity[1];
+    return contact;
+}
+
+/* is_wall: the second of two bodies is of contact.wall. */
+static void law_numbers_set(real numbers[LAW_NUMBERS], const dem_contact_parameters *contact, bool is_wall, double dt)
+{
+    if (contact->law != DEM_WALTON_BRAUN) {
+        const damped_law law = damped_law_of(contact, is_wall, dt);
+        memcpy(numbers, (real[LAW_NUMBERS]){ law.k_n, law.k_t, law.damping, law.lag }, LAW_NUMBERS * sizeof *numbers);
+        return;
+    }
+    const double k_1 = contact->stiffness, k_t0 = k_1 * contact->tangential_stiffness_ratio;
+    numbers[LAW_K_N] = (real)k_1;
+    numbers[LAW_K_T] = (real)k_t0;
+    numbers[LAW_K_2] =
+        (real)(contact->unloading_slope > 0 ? contact->unloading_slope : k_1 / (contact->restitution * contact->restitution));
+    numbers[LAW_LATCH] = latch_damping_of(contact);
+    numbers[LAW_PUSH] = (real)(k_t0 * dt);
+}
+
+static void pair_numbers_set(pair_numbers *numbers, const dem_scene_definition *d, const dem_pair *pair)
+{
+    const dem_contact_parameters contact = contact_of_pair(d, pair);
+    numbers->friction = (real)pair->friction;
+    numbers->rolling_friction = (real)pair->rolling_friction;
+    law_numbers_set(numbers->law, &contact, true, d->time_step);
+}
+
+void pair_table_set(pair_table *table, const dem_scene_definition *d)
+{
+    memset(table, 0, sizeof *table);
+    table->is_given = d->has_pairs;
+    for (size_t a = 0; d->has_pairs && a < d->species_count; a++) {
+        for (size_t b = 0; b < d->species_count; b++) pair_numbers_set(&table->of[a][b], d, &d->pair[a][b]);
+        for (size_t s = DEM_MAXIMUM_SPECIES; s < DEM_MAXIMUM_SPECIES + DEM_SURFACES; s++)
+            pair_numbers_set(&table->of[a][s], d, &d->pair[a][s]);
+    }
+}
+
+/* Whether any of the species has other numbers with one of the partners from..to-1 than `contact` gives. */
+static bool law_differs(const pair_table *table, const dem_scene_definition *d, size_t from, size_t to, bool is_wall)
+{
+    real of_all[LAW_NUMBERS];
+    law_numbers_set(of_all, &d->contact, is_wall, d->time_step);
+    bool differs = false;
+    for (size_t a = 0; table->is_given && a < d->species_count; a++)
+        for (size_t b = from; b < to; b++) differs = differs || memcmp(table->of[a][b].law, of_all, sizeof of_all) != 0;
+    return differs;
+}
+
+bool pair_table_spheres_differ(const pair_table *table, const dem_scene_definition *d)
+{
+    const size_t lining = DEM_MAXIMUM_SPECIES + DEM_LINING;
+    return law_differs(table, d, 0, d->species_count, false)
+           || (d->lining.diameter > 0 && law_differs(table, d, lining, lining + 1, false));
+}
+
+bool pair_table_walls_differ(const pair_table *table, const dem_scene_definition *d)
+{
+    return law_differs(table, d, DEM_MAXIMUM_SPECIES, DEM_MAXIMUM_SPECIES + DEM_SURFACES, true);
+}
+
 void species_roots_set(species_roots *roots, const spheres *s)
 {
     for (size_t a = 0; a < s->species_count; a++) {
@@ -8,8 +81,26 @@ void species_roots_set(species_roots *roots, const spheres *s)
     }
 }
 
+void contact_constants_of_pair(contact_list *list, size_t slot, const pair_table *table, size_t species, size_t partner)
+{
+    const pair_numbers *numbers = &table->of[species][partner];
+    list->friction[slot] = table->has_friction ? numbers->friction : 0;
+    if (list->has_rolling) list->rolling_friction[slot] = table->has_friction ? numbers->rolling_friction : 0;
+    if (list->laws_differ)
+        for (int c = 0; c < LAW_NUMBERS; c++) list->law[c][slot] = numbers->law[c];
+}
+
+static void set_pairs(contact_list *pairs, const spheres *s, const pair_table *table, size_t from, size_t to)
+{
+    for (size_t k = from; k < to; k++) {
+        const size_t second = (size_t)pairs->second[k];
+        const size_t partner = second < s->mobile_count ? (size_t)s->species[second] : DEM_MAXIMUM_SPECIES + DEM_LINING;
+        contact_constants_of_pair(pairs, k, table, (size_t)s->species[pairs->first[k]], partner);
+    }
+}
+
 void contact_constants_of_each(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact,
-                               const species_roots *roots, size_t from, size_t to)
+                               const species_roots *roots, const pair_table *table, size_t from, size_t to)
 {
     const int32_t mobile = (int32_t)s->mobile_count;
     const real mu = (real)contact->friction, mu_wall = (real)contact->wall_friction;
@@ -26,15 +117,18 @@ void contact_constants_of_each(contact_list *pairs, const spheres *s, const dem_
         pairs->root_mass[k] = roots->of[s->species[first[k]]][second[k] < mobile ? s->species[second[k]] : DEM_MAXIMUM_SPECIES];
     if (pairs->has_rolling)
         for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
+    if (table->is_given) set_pairs(pairs, s, table, from, to);
 }
 
-void contact_constants_of_all(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact)
+void contact_constants_of_all(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact, const pair_table *table)
 {
+    const size_t species = (size_t)s->species[0];
     for (size_t k = 0; k < BLOCK; k++) {
         pairs->friction[k] = (real)contact->friction;
         pairs->first_radius[k] = s->full_radius[0];
         pairs->root_mass[k] = (real)sqrt(0.5 / sphere_inverse_mass(s, 0));
         pairs->radius[k] = s->full_radius[0] / 2;
         if (pairs->has_rolling) pairs->rolling_friction[k] = (real)contact->rolling_friction;
+        if (table->is_given) contact_constants_of_pair(pairs, k, table, species, species);
     }
 }

@@ -1,5 +1,5 @@
-/* What does not change in a step of a contact between spheres: friction, radii, masses. A law may ask for any of it, whatever
- * the species. */
+/* What does not change in a step of a contact: friction, radii, masses, and what its two materials are to its law. A law may ask for
+ * any of it, whatever the species. */
 #ifndef CONTACT_CONSTANTS_H
 #define CONTACT_CONSTANTS_H
 
@@ -11,11 +11,31 @@ typedef struct species_roots {
     real of[DEM_MAXIMUM_SPECIES][DEM_MAXIMUM_SPECIES + 1];
 } species_roots;
 
+/* What contacts of two materials have as constants. */
+typedef struct pair_numbers {
+    real friction, rolling_friction, law[LAW_NUMBERS];
+} pair_numbers;
+
+/* The same for each pair of a definition; where it has none, everything is as `contact` and the walls say. */
+typedef struct pair_table {
+    bool is_given;
+    bool has_friction; /* else the present phase has none */
+    pair_numbers of[DEM_MAXIMUM_SPECIES][DEM_MAXIMUM_SPECIES + DEM_SURFACES];
+} pair_table;
+
+void pair_table_set(pair_table *table, const dem_scene_definition *definition);
+/* Whether contacts with others than themselves, or with walls, have other numbers of the law than `contact` gives to all. */
+bool pair_table_spheres_differ(const pair_table *table, const dem_scene_definition *definition);
+bool pair_table_walls_differ(const pair_table *table, const dem_scene_definition *definition);
+
 void species_roots_set(species_roots *roots, const spheres *spheres);
 /* Of the pairs from..to-1. */
 void contact_constants_of_each(contact_list *pairs, const spheres *spheres, const dem_contact_parameters *contact,
-                               const species_roots *roots, size_t from, size_t to);
+                               const species_roots *roots, const pair_table *table, size_t from, size_t to);
 /* Of a block of pairs, which are all alike. */
-void contact_constants_of_all(contact_list *pairs, const spheres *spheres, const dem_contact_parameters *contact);
+void contact_constants_of_all(contact_list *pairs, const spheres *spheres, const dem_contact_parameters *contact,
+                              const pair_table *table);
+/* Of one contact of a list: what it has by its two materials. partner: index into the table's second. */
+void contact_constants_of_pair(contact_list *list, size_t slot, const pair_table *table, size_t species, size_t partner);
 
 #endif

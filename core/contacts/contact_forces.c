@@ -134,10 +134,12 @@ WIDE_INLINE wide cross(const wide a[3], const wide b[3], int c)
 
 /* Tangential displacement of the step: ds = (v_r - (v_r.n) n) factor, with the relative velocity at the contact
  * v_r = v_j - v_i - (r_a omega_i + r_b omega_j) x n and the levers r = R - overlap/2. radius: (BLOCK) m, R of both ends where
- * they are the same; NULL: they may differ, and gather_any has summed R omega of both. */
-WIDE_INLINE void displacements(contact_block *restrict block, const real *restrict radius, double factor)
+ * they are the same; NULL: they may differ, and gather_any has summed R omega of both. factors: (BLOCK) where the factor is not one
+ * for all; else NULL. */
+WIDE_INLINE void displacements(contact_block *restrict block, const real *restrict radius, double factor,
+                               const real *restrict factors)
 {
-    const wide times = wide_all((real)factor), half = wide_all((real)0.5);
+    const wide of_all = wide_all((real)factor), half = wide_all((real)0.5);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide overlap = wide_load(block->overlap + k);
@@ -151,10 +153,16 @@ WIDE_INLINE void displacements(contact_block *restrict block, const real *restri
             for (int c = 0; c < 3; c++) s[c] = wide_fused(arm, omega[c], wide_load(block->r_omega[c] + k));
             for (int c = 0; c < 3; c++) v_r[c] = wide_load(block->v[c] + k) - cross(s, n, c);
         }
-        const wide parting = wide_dot(v_r, n);
+        const wide parting = wide_dot(v_r, n), times = factors ? wide_load(factors + k) : of_all;
         wide_store(block->parting + k, parting);
         for (int c = 0; c < 3; c++) wide_store(block->ds[c] + k, wide_minus_product(v_r[c], parting, n[c]) * times);
     }
+}
+
+static void displacements_of_materials(contact_block *block, const real *radius, const real *factors)
+{
+    if (radius) displacements(block, radius, 0, factors);
+    else displacements(block, NULL, 0, factors);
 }
 
 /* Makes the rows that are added to the loads. The force on the first sphere is f = T - N n; the moment about each centre is
@@ -194,8 +202,10 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     const real *const first_radius = list->first_radius + constants_of(list, start);
     *largest = normals(block, *largest);
     const double factor = is_damped ? dt : contact->stiffness * contact->tangential_stiffness_ratio * dt;
-    if (is_wall || are_alike(list)) displacements(block, first_radius, factor);
-    else displacements(block, NULL, factor);
+    const real *const radius = is_wall || are_alike(list) ? first_radius : NULL;
+    if (list->laws_differ && !is_damped) displacements_of_materials(block, radius, list->law[LAW_PUSH] + constants_of(list, start));
+    else if (radius) displacements(block, radius, factor, NULL);
+    else displacements(block, NULL, factor, NULL);
     if (!is_damped) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, dt);

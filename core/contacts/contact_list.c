@@ -2,10 +2,11 @@
 
 #include "array.h"
 
-dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants)
+dem_status contact_list_init(contact_list *list, int extras, contact_constants constants)
 {
     memset(list, 0, sizeof *list);
-    list->has_rolling = has_rolling;
+    list->has_rolling = (extras & CONTACTS_ROLL) != 0;
+    list->laws_differ = (extras & CONTACT_LAWS_DIFFER) != 0;
     list->constants = constants;
     return contact_list_reserve(list, BLOCK);
 }
@@ -49,7 +50,8 @@ static bool constants_create(contact_list *list, size_t n)
 {
     list->constant_capacity = n;
     bool enough = true;
-    for (int c = 0; c < contact_list_constants(list); c++) {
+    for (int c = 0; c < CONTACT_CONSTANTS; c++) {
+        if (!contact_list_keeps(list, c)) continue;
         list->constant[c] = array_create(n, sizeof *list->constant[c]);
         enough = enough && list->constant[c];
     }
@@ -86,11 +88,12 @@ void contact_list_forget(contact_list *list, size_t slot)
 
 void contact_list_pad(contact_list *list, int32_t first, int32_t second)
 {
-    const int constants = list->constants == CONSTANTS_OF_EACH ? contact_list_constants(list) : 0;
+    const int constants = list->constants == CONSTANTS_OF_EACH ? CONTACT_CONSTANTS : 0;
     for (size_t k = list->count; k < round_up_to_block(list->count); k++) {
         list->first[k] = first;
         list->second[k] = second;
-        for (int c = 0; c < constants; c++) list->constant[c][k] = 0;
+        for (int c = 0; c < constants; c++)
+            if (contact_list_keeps(list, c)) list->constant[c][k] = 0;
         contact_list_forget(list, k);
     }
 }
@@ -113,13 +116,15 @@ void contact_list_copy(contact_list *to, size_t slot, const contact_list *from, 
     to->first[slot] = from->first[k];
     to->second[slot] = from->second[k];
     if (from->constants != CONSTANTS_OF_EACH) return;
-    for (int c = 0; c < contact_list_constants(from); c++) to->constant[c][slot] = from->constant[c][k];
+    for (int c = 0; c < CONTACT_CONSTANTS; c++)
+        if (contact_list_keeps(from, c)) to->constant[c][slot] = from->constant[c][k];
 }
 
 void contact_list_copy_constants(contact_list *to, const contact_list *from)
 {
     if (from->constants != CONSTANTS_OF_ALL) return;
-    for (int c = 0; c < contact_list_constants(from); c++) memcpy(to->constant[c], from->constant[c], BLOCK * sizeof(real));
+    for (int c = 0; c < CONTACT_CONSTANTS; c++)
+        if (contact_list_keeps(from, c)) memcpy(to->constant[c], from->constant[c], BLOCK * sizeof(real));
 }
 
 static void take_memory(contact_list *to, const contact_list *from)

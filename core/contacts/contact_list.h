@@ -20,10 +20,19 @@ typedef row8 contact_row;
  * each contact. */
 typedef enum contact_constants { CONSTANTS_OF_NONE, CONSTANTS_OF_ALL, CONSTANTS_OF_EACH } contact_constants;
 
-enum { CONTACT_CONSTANTS = 5, CONSTANTS_OF_ROLLING = 1 };
+/* What a law is made of for the two materials of a contact, where not all contacts have the same. Of the damped laws: k_n, k_t,
+ * damping and lag of damped_law. Of Walton & Braun's: K1, K_T0, K2 (or S, where unloading is variable), latch_damping_of, and K_T0
+ * over a step. */
+enum { LAW_K_N, LAW_K_T, LAW_DAMPING, LAW_LAG, LAW_PUSH, LAW_NUMBERS, LAW_K_2 = LAW_DAMPING, LAW_LATCH = LAW_LAG };
+
+enum { CONSTANTS_OF_ANY = 4, CONTACT_CONSTANTS = CONSTANTS_OF_ANY + LAW_NUMBERS + 1 };
+
+/* What contacts of a list may have beside the rest: then it has the arrays for it. */
+enum { CONTACTS_ROLL = 1, CONTACT_LAWS_DIFFER = 2 };
 
 typedef struct contact_list {
     bool has_rolling; /* contacts resist rolling; else the arrays that only rolling friction needs are NULL */
+    bool laws_differ; /* from contact to contact in the numbers of the law; else these arrays are NULL */
     contact_constants constants;
     /* Arrays are (capacity), a multiple of BLOCK. The slots from count to the end of the block are padding: a pair of spheres
      * that exist, whose result is never read. */
@@ -40,7 +49,7 @@ typedef struct contact_list {
             real *roll[3];
         };
     };
-    /* The constants, (constant_capacity); last those that only rolling friction needs. With CONSTANTS_OF_ALL an array has one
+    /* The constants, (constant_capacity); last those that not every list needs. With CONSTANTS_OF_ALL an array has one
      * block, which serves every block of contacts. A new constant is declared here and set in contact_constants.c (pairs) and
      * wall_reach.c (walls). */
     size_t constant_capacity;
@@ -51,6 +60,7 @@ typedef struct contact_list {
             real *first_radius; /* m, at full size */
             real *root_mass; /* kg^(1/2), root of the effective mass m_i m_j/(m_i + m_j); of the first's where the other is fixed */
             real *radius;    /* m, effective: R_i R_j/(R_i + R_j), of the first alone to a wall */
+            real *law[LAW_NUMBERS];
             real *rolling_friction; /* mu_r */
         };
     };
@@ -63,18 +73,21 @@ typedef struct contact_list {
 _Static_assert(offsetof(contact_list, roll) - offsetof(contact_list, memory)
                    == (CONTACT_NUMBERS - NUMBERS_OF_ROLLING) * sizeof(real *),
                "arrays stand in the order of contact_history");
+_Static_assert(offsetof(contact_list, law) - offsetof(contact_list, constant) == CONSTANTS_OF_ANY * sizeof(real *),
+               "the constants of every list are counted");
 _Static_assert(offsetof(contact_list, rolling_friction) - offsetof(contact_list, constant)
-                   == (CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING) * sizeof(real *),
+                   == (CONTACT_CONSTANTS - 1) * sizeof(real *),
                "every constant is counted");
 
-/* How many arrays of histories, and of constants, the list has. */
+/* How many arrays of histories the list has, and whether it has that of a constant. */
 static inline int contact_list_numbers(const contact_list *list)
 {
     return list->has_rolling ? CONTACT_NUMBERS : CONTACT_NUMBERS - NUMBERS_OF_ROLLING;
 }
-static inline int contact_list_constants(const contact_list *list)
+static inline bool contact_list_keeps(const contact_list *list, int constant)
 {
-    return list->has_rolling ? CONTACT_CONSTANTS : CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING;
+    if (constant < CONSTANTS_OF_ANY) return true;
+    return constant < CONSTANTS_OF_ANY + LAW_NUMBERS ? list->laws_differ : list->has_rolling;
 }
 /* Index, in the arrays of constants, of the first constant of the block of contacts that begins at `start`. */
 static inline size_t constants_of(const contact_list *list, size_t start)
@@ -91,7 +104,12 @@ static inline real latch_damping_of(const dem_contact_parameters *c)
 {
     return (real)(2 * c->latch_damping * sqrt(c->stiffness) / c->restitution);
 }
-dem_status contact_list_init(contact_list *list, bool has_rolling, contact_constants constants);
+/* extras: CONTACTS_ROLL and what is beside it, added. */
+dem_status contact_list_init(contact_list *list, int extras, contact_constants constants);
+static inline int contact_list_extras(const contact_list *list)
+{
+    return (list->has_rolling ? CONTACTS_ROLL : 0) + (list->laws_differ ? CONTACT_LAWS_DIFFER : 0);
+}
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */
 dem_status contact_list_reserve(contact_list *list, size_t count);

@@ -285,7 +285,8 @@ static dem_status parts_reserve(contact_parts *parts, const contact_list *pairs,
     bool enough = parts->shared && parts->slot;
     for (int p = 0; p < count; p++) {
         contact_list *const copies = &parts->part[p].copies;
-        if (copies->capacity == 0) enough = contact_list_init(copies, pairs->has_rolling, pairs->constants) == DEM_OK && enough;
+        if (copies->capacity == 0)
+            enough = contact_list_init(copies, contact_list_extras(pairs), pairs->constants) == DEM_OK && enough;
         copies->ends_differ = pairs->ends_differ;
         copies->damped = pairs->damped;
         copies->latch_damping = pairs->latch_damping;

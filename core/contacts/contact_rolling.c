@@ -33,8 +33,10 @@ static void rolling_moments(contact_block *restrict block, real *restrict roll_x
 
 void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, double dt)
 {
-    /* The damped laws have set each contact's; Walton & Braun's is one for all. */
-    if (contact->law == DEM_WALTON_BRAUN)
+    /* The damped laws have set each contact's; Walton & Braun's is one for all, or of the materials. */
+    if (contact->law == DEM_WALTON_BRAUN && list->laws_differ)
+        memcpy(block->k_t, list->law[LAW_K_T] + constants_of(list, start), sizeof block->k_t);
+    else if (contact->law == DEM_WALTON_BRAUN)
         for (int k = 0; k < BLOCK; k++) block->k_t[k] = (real)(contact->stiffness * contact->tangential_stiffness_ratio);
     const size_t at = constants_of(list, start);
     rolling_moments(block, list->roll[0] + start, list->roll[1] + start, list->roll[2] + start, list->rolling_friction + at,

@@ -38,17 +38,18 @@ WIDE_INLINE wide edge_share(wide alpha, wide v, const wide edge[2], wide per_dt)
 
 /* What all contacts of a block share. */
 typedef struct shared_numbers {
-    wide damping, lag, edge[2], per_dt, half_per_dt;
+    wide edge[2], per_dt, half_per_dt;
 } shared_numbers;
 
 static shared_numbers shared_by_all(damped_law law, real inverse_time_step)
 {
-    return (shared_numbers){ wide_all(law.damping),
-                             wide_all(law.lag),
-                             { wide_all(law.edge[0]), wide_all(law.edge[1]) },
+    return (shared_numbers){ { wide_all(law.edge[0]), wide_all(law.edge[1]) },
                              wide_all(inverse_time_step),
                              wide_all(inverse_time_step / 2) };
 }
+
+/* A number of the law for the contacts from k on. of_each: (BLOCK) where materials differ; NULL: of_all. */
+WIDE_INLINE wide law_number(const real *of_each, int k, wide of_all) { return of_each ? wide_load(of_each + k) : of_all; }
 
 /* What friction needs. spring: N. */
 WIDE_INLINE void store_normal(contact_block *restrict block, int k, wide spring, wide c_n, wide mu, wide k_t, wide compliance,
@@ -64,29 +65,41 @@ WIDE_INLINE void store_normal(contact_block *restrict block, int k, wide spring,
     wide_store(block->dashpot + k, c * all->half_per_dt);
 }
 
-/* linear_springs of contact_law.h, LANES at a time, and the force they make. */
-static void linear_normals(contact_block *restrict block, const real *restrict root_mass, const real *restrict friction,
-                           damped_law law, real inverse_time_step)
+/* linear_springs of contact_law.h, LANES at a time, and the force they make. of_each: (LAW_NUMBERS) numbers of the law for each
+ * contact; all NULL: those of `law`. */
+WIDE_INLINE void linear_normals(contact_block *restrict block, const real *restrict root_mass, const real *restrict friction,
+                                damped_law law, const real *const of_each[], real inverse_time_step)
 {
-    const wide k_n = wide_all(law.k_n), k_t = wide_all(law.k_t), compliance = wide_all(1 / law.k_t);
+    const wide damping = wide_all(law.damping), lag = wide_all(law.lag);
+    const wide k_n = wide_all(law.k_n), k_t_of_all = wide_all(law.k_t), compliance = wide_all(1 / law.k_t);
     const shared_numbers all = shared_by_all(law, inverse_time_step);
-    for (int k = 0; k < BLOCK; k += LANES)
-        store_normal(block, k, k_n * wide_load(block->overlap + k), all.damping * (wide_load(root_mass + k) - all.lag),
-                     wide_load(friction + k), k_t, compliance, &all);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide k_t = law_number(of_each[LAW_K_T], k, k_t_of_all);
+        const wide c_n =
+            law_number(of_each[LAW_DAMPING], k, damping) * (wide_load(root_mass + k) - law_number(of_each[LAW_LAG], k, lag));
+        store_normal(block, k, law_number(of_each[LAW_K_N], k, k_n) * wide_load(block->overlap + k), c_n, wide_load(friction + k),
+                     k_t, of_each[LAW_K_T] ? wide_all(1) / k_t : compliance, &all);
+    }
 }
 
-/* hertz_mindlin_springs of contact_law.h, LANES at a time, and the force they make. */
-static void hertz_mindlin_normals(contact_block *restrict block, const real *restrict root_mass, const real *restrict radius,
-                                  const real *restrict friction, damped_law law, real inverse_time_step)
+/* hertz_mindlin_springs of contact_law.h, likewise. */
+WIDE_INLINE void hertz_mindlin_normals(contact_block *restrict block, const real *restrict root_mass, const real *restrict radius,
+                                       const real *restrict friction, damped_law law, const real *const of_each[],
+                                       real inverse_time_step)
 {
-    const wide four_thirds_e = wide_all((real)(4.0 / 3.0) * law.k_n), eight_g = wide_all(8 * law.k_t);
-    const wide per_eight_g = wide_all(1 / (8 * law.k_t)), tiny = wide_all(TINY_SQUARE);
+    const wide damping = wide_all(law.damping), lag = wide_all(law.lag), four_thirds = wide_all((real)(4.0 / 3.0));
+    const wide four_thirds_e_of_all = wide_all((real)(4.0 / 3.0) * law.k_n), eight_g_of_all = wide_all(8 * law.k_t);
+    const wide per_eight_g_of_all = wide_all(1 / (8 * law.k_t)), tiny = wide_all(TINY_SQUARE), eight = wide_all(8);
     const shared_numbers all = shared_by_all(law, inverse_time_step);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide alpha = wide_load(block->overlap + k);
         const wide aa = wide_greater(wide_load(radius + k) * alpha, tiny); /* apart: what follows is not used */
         const wide y = wide_inverse_fourth_root(aa), inverse_a = y * y, a = aa * inverse_a, root_a = a * y;
-        const wide c_n = all.damping * root_a * wide_minus_product(wide_load(root_mass + k), all.lag, root_a);
+        const wide four_thirds_e = of_each[LAW_K_N] ? four_thirds * wide_load(of_each[LAW_K_N] + k) : four_thirds_e_of_all;
+        const wide eight_g = of_each[LAW_K_T] ? eight * wide_load(of_each[LAW_K_T] + k) : eight_g_of_all;
+        const wide per_eight_g = of_each[LAW_K_T] ? wide_all(1) / eight_g : per_eight_g_of_all;
+        const wide c_n = law_number(of_each[LAW_DAMPING], k, damping) * root_a
+                         * wide_minus_product(wide_load(root_mass + k), law_number(of_each[LAW_LAG], k, lag), root_a);
         store_normal(block, k, four_thirds_e * a * alpha, c_n, wide_load(friction + k), eight_g * a, per_eight_g * inverse_a, &all);
     }
 }
@@ -130,14 +143,35 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
     }
 }
 
+/* The normal forces of either law. of_each: as above. */
+WIDE_INLINE void damped_normals(contact_block *block, const contact_list *list, size_t at, const real *const of_each[],
+                                bool is_linear, real inverse_dt)
+{
+    const real *const root_mass = list->root_mass + at, *const friction = list->friction + at;
+    if (is_linear) linear_normals(block, root_mass, friction, list->damped, of_each, inverse_dt);
+    else hertz_mindlin_normals(block, root_mass, list->radius + at, friction, list->damped, of_each, inverse_dt);
+}
+
+static void normals_of_all(contact_block *block, const contact_list *list, size_t at, bool is_linear, real inverse_dt)
+{
+    const real *const none[LAW_NUMBERS] = { NULL };
+    damped_normals(block, list, at, none, is_linear, inverse_dt);
+}
+
+static void normals_of_materials(contact_block *block, const contact_list *list, size_t at, bool is_linear, real inverse_dt)
+{
+    const real *const of_each[LAW_NUMBERS] = { list->law[LAW_K_N] + at, list->law[LAW_K_T] + at, list->law[LAW_DAMPING] + at,
+                                               list->law[LAW_LAG] + at };
+    damped_normals(block, list, at, of_each, is_linear, inverse_dt);
+}
+
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
                                   double dt)
 {
     const size_t at = constants_of(list, start);
-    const real inverse_dt = dt > 0 ? (real)(1 / dt) : 0, *root_mass = list->root_mass + at, *friction = list->friction + at;
+    const real inverse_dt = dt > 0 ? (real)(1 / dt) : 0;
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
-    if (contact->law == DEM_SPRING_DASHPOT) linear_normals(block, root_mass, friction, list->damped, inverse_dt);
-    else hertz_mindlin_normals(block, root_mass, list->radius + at, friction, list->damped, inverse_dt);
+    (list->laws_differ ? normals_of_materials : normals_of_all)(block, list, at, contact->law == DEM_SPRING_DASHPOT, inverse_dt);
     rotate_stretch(block, t_x, t_y, t_z);
     friction_forces(block, t_x, t_y, t_z);
 }

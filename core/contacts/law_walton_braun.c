@@ -57,6 +57,34 @@ static void normal_forces_of_slope(contact_block *restrict block, real *restrict
     }
 }
 
+/* Both where materials differ, and the numbers of the law with them. law: (LAW_NUMBERS) from the block's first on. */
+WIDE_INLINE void normal_forces_of_materials(contact_block *restrict block, real *restrict alpha_0, const real *const law[],
+                                            const real *restrict root_mass, bool has_slope)
+{
+    const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), four = wide_all(4), tiny = wide_all(TINY_SQUARE);
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide k_1 = wide_load(law[LAW_K_N] + k), number = wide_load(law[LAW_K_2] + k), alpha = wide_load(block->overlap + k);
+        const wide pressed = wide_greater(alpha, zero), s = number * pressed;
+        const wide latch = has_slope ? s * pressed / (one + s) : alpha * (one - k_1 / number);
+        const wide_mask touching = wide_exceeds(alpha, zero);
+        const wide latched = wide_where(touching, wide_greater(wide_load(alpha_0 + k), latch));
+        wide_store(alpha_0 + k, latched);
+        const wide q = number * latched, root2 = wide_greater(q * (q + four), tiny);
+        const wide k_2 = has_slope ? wide_fused(half * k_1, q + root2 * wide_inverse_root(root2), k_1) : number;
+        store_latching_force(block, k, latch, latched, touching, k_1, k_2,
+                             -wide_load(law[LAW_LATCH] + k) * wide_load(root_mass + k));
+    }
+}
+
+static void normal_forces_of_list(contact_block *block, real *alpha_0, const contact_list *list, size_t start, bool has_slope)
+{
+    const size_t at = constants_of(list, start);
+    const real *law[LAW_NUMBERS];
+    for (int c = 0; c < LAW_NUMBERS; c++) law[c] = list->law[c] + at;
+    if (has_slope) normal_forces_of_materials(block, alpha_0, law, list->root_mass + at, true);
+    else normal_forces_of_materials(block, alpha_0, law, list->root_mass + at, false);
+}
+
 /* friction_increment of contact_law.h, LANES at a time, in three passes: the stored force turned into the tangent
  * plane; the stiffness along it; the new force. */
 static void rotate_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
@@ -120,7 +148,9 @@ void contact_block_walton_braun(contact_block *block, contact_list *list, size_t
     real *const alpha_0 = list->alpha_0 + start;
     const latch_dashpots dashpots = { list->latch_damping, list->root_mass + constants_of(list, start) };
     const bool alike = list->constants == CONSTANTS_OF_ALL;
-    if (contact->unloading_slope > 0) normal_forces_of_slope(block, alpha_0, (real)k_1, (real)contact->unloading_slope, dashpots);
+    if (list->laws_differ) normal_forces_of_list(block, alpha_0, list, start, contact->unloading_slope > 0);
+    else if (contact->unloading_slope > 0)
+        normal_forces_of_slope(block, alpha_0, (real)k_1, (real)contact->unloading_slope, dashpots);
     else if (alike) normal_forces(block, alpha_0, (real)k_1, (real)k_2, dashpots, true);
     else normal_forces(block, alpha_0, (real)k_1, (real)k_2, dashpots, false);
     rotate_friction(block, t_x, t_y, t_z, list->friction + constants_of(list, start));

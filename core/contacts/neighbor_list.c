@@ -27,9 +27,16 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_s
     bool enough =
         outer_list_init(&list->outer, s, SKIN * s->smallest_diameter) == DEM_OK && list->picked_velocity && list->wall_start;
     contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
+    pair_table_set(&list->table, definition);
+    const bool spheres_differ = pair_table_spheres_differ(&list->table, definition);
+    const bool walls_differ = pair_table_walls_differ(&list->table, definition);
+    alike = alike && !spheres_differ;
     const contact_constants constants[] = { alike ? CONSTANTS_OF_ALL : CONSTANTS_OF_EACH, CONSTANTS_OF_EACH };
-    for (int k = 0; k < 4; k++)
-        enough = contact_list_init(all[k], has_rolling, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
+    for (int k = 0; k < 4; k++) {
+        const bool laws_differ = k % 2 == 0 ? spheres_differ : walls_differ;
+        const int extras = (has_rolling ? CONTACTS_ROLL : 0) + (laws_differ ? CONTACT_LAWS_DIFFER : 0);
+        enough = contact_list_init(all[k], extras, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
+    }
     list->pairs.ends_differ = ends_differ;
     list->pairs.damped = damped_law_of(&definition->contact, false, definition->time_step);
     list->walls.damped = damped_law_of(&definition->contact, true, definition->time_step);

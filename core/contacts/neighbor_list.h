@@ -7,6 +7,7 @@
 #ifndef NEIGHBOR_LIST_H
 #define NEIGHBOR_LIST_H
 
+#include "contact_constants.h"
 #include "neighbor_outer.h"
 
 enum {
@@ -37,6 +38,7 @@ typedef struct neighbor_list {
     double *wall_torques;             /* N m about the axis, of each on its sphere (contact_forces_with_walls) */
     size_t wall_row_capacity;
     contact_parts parts; /* of the pairs */
+    pair_table table;    /* of materials */
     int64_t inner_picks;
     int64_t picked_of; /* outer.builds at the last pick */
     /* written in each step, apart from what all threads read */

@@ -155,7 +155,7 @@ static void fill_walls(const pick_work *work, int part, int parts)
     const uint32_t before = (uint32_t)work->walls[part];
     for (size_t i = from, slot = before; i < to; i++) {
         const size_t end = list->wall_start[i + 1] += before;
-        if (slot < end) wall_reach_fill(&list->walls, slot, end, s, work->vessel, work->ahead, i);
+        if (slot < end) wall_reach_fill(&list->walls, slot, end, s, work->vessel, &list->table, work->ahead, i);
         slot = end;
     }
     contact_list_carry(&list->walls, &list->walls_before, work->walls[part], work->walls[part + 1]);
@@ -170,7 +170,7 @@ static void make_contacts(void *context, int part, int parts)
     const size_t first = work->now[part], end = work->now[part + 1];
     pick_pairs(work, part, parts);
     if (list->pairs.constants == CONSTANTS_OF_EACH)
-        contact_constants_of_each(&list->pairs, s, work->contact, &work->roots, first, end);
+        contact_constants_of_each(&list->pairs, s, work->contact, &work->roots, &list->table, first, end);
     if (!work->same_outer) contact_list_carry(&list->pairs, &list->pairs_before, first, end);
     fill_walls(work, part, parts);
     if (part + 1 < parts) return;
@@ -206,7 +206,7 @@ dem_status neighbor_list_pick(neighbor_list *list, spheres *s, const container *
     list->pairs.count = count;
     list->walls.count = wall_count;
     team_run(parts, make_contacts, &work);
-    if (list->pairs.constants == CONSTANTS_OF_ALL) contact_constants_of_all(&list->pairs, s, contact);
+    if (list->pairs.constants == CONSTANTS_OF_ALL) contact_constants_of_all(&list->pairs, s, contact, &list->table);
     list->picked_of = list->outer.builds;
     /* The lining's paths are arcs: they leave their straight paths by this much at most. */
     list->strayed =

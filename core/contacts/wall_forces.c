@@ -98,6 +98,7 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
     memset(aside->memory, 0, sizeof aside->memory);
     memset(aside->constant, 0, sizeof aside->constant);
     *list = (contact_list){ .has_rolling = walls->has_rolling,
+                            .laws_differ = walls->laws_differ,
                             .constants = CONSTANTS_OF_EACH,
                             .count = to - from,
                             .capacity = BLOCK,
@@ -112,8 +113,8 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
     for (int c = 0; c < CONTACT_CONSTANTS; c++) list->constant[c] = aside->constant[c];
     for (int m = 0; m < contact_list_numbers(walls); m++)
         memcpy(aside->memory[m], walls->memory[m] + from, (to - from) * sizeof(real));
-    for (int c = 0; c < contact_list_constants(walls); c++)
-        memcpy(aside->constant[c], walls->constant[c] + from, (to - from) * sizeof(real));
+    for (int c = 0; c < CONTACT_CONSTANTS; c++)
+        if (contact_list_keeps(walls, c)) memcpy(aside->constant[c], walls->constant[c] + from, (to - from) * sizeof(real));
     for (size_t k = 0; k < BLOCK; k++) { /* the rest of the block is padding: it repeats a contact that exists */
         aside->first[k] = walls->first[k < to - from ? from + k : from];
         aside->second[k] = walls->second[k < to - from ? from + k : from];

@@ -60,8 +60,8 @@ void wall_reach_count(const spheres *s, const container *c, wall_outlook outlook
     for (size_t i = from; i < to; i++) count[i] = (uint32_t)walls_in_reach(s, c, outlook, i);
 }
 
-void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres *s, const container *c, wall_outlook outlook,
-                     size_t i)
+void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres *s, const container *c, const pair_table *table,
+                     wall_outlook outlook, size_t i)
 {
     for (int k = 0; slot < end; k++) {
         if (!in_reach(s, c, outlook, i, k)) continue;
@@ -72,6 +72,8 @@ void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres
         walls->first_radius[slot] = s->full_radius[i];
         walls->root_mass[slot] = (real)(1 / sqrt(sphere_inverse_mass(s, i)));
         walls->radius[slot] = s->full_radius[i];
+        if (table->is_given)
+            contact_constants_of_pair(walls, slot, table, (size_t)s->species[i], DEM_MAXIMUM_SPECIES + (size_t)c->wall[k].surface);
         slot++;
     }
 }

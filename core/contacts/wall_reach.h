@@ -3,7 +3,7 @@
 #ifndef WALL_REACH_H
 #define WALL_REACH_H
 
-#include "contact_list.h"
+#include "contact_constants.h"
 #include "container.h"
 
 /* For how long, and how far a sphere may stray from its straight path meanwhile. */
@@ -17,6 +17,6 @@ void wall_reach_count(const spheres *spheres, const container *container, wall_o
                       uint32_t *count);
 /* The same walls into the slots slot..end-1, ascending, and what the contacts need. */
 void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres *spheres, const container *container,
-                     wall_outlook outlook, size_t i);
+                     const pair_table *table, wall_outlook outlook, size_t i);
 
 #endif

@@ -83,8 +83,19 @@ double dem_bed_friction(double friction, const dem_species *species, size_t coun
     return dem_has_clusters(species, count) ? fmax(friction, 0.5) : friction;
 }
 
+static bool have_pairs_rolling_friction(const dem_scene_definition *d)
+{
+    bool have = false;
+    for (size_t a = 0; d->has_pairs && a < d->species_count; a++) {
+        for (size_t b = 0; b < d->species_count; b++) have = have || d->pair[a][b].rolling_friction > 0;
+        for (size_t s = 0; s < DEM_SURFACES; s++) have = have || d->pair[a][DEM_MAXIMUM_SPECIES + s].rolling_friction > 0;
+    }
+    return have;
+}
+
 bool dem_has_rolling_friction(const dem_scene_definition *d)
 {
+    if (d->has_pairs) return have_pairs_rolling_friction(d);
     return d->contact.rolling_friction > 0 || d->contact.wall_rolling_friction > 0 || d->ends.rolling_friction > 0
            || d->plate.rolling_friction > 0;
 }

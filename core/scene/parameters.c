@@ -37,6 +37,28 @@ static bool is_not_negative(double x) { return x >= 0 && isfinite(x); }
 
 static bool are_frictions(double sliding, double rolling) { return is_not_negative(sliding) && is_not_negative(rolling); }
 
+static bool is_pair(const dem_pair *p, const dem_scene_definition *d)
+{
+    dem_contact_parameters c = d->contact;
+    c.stiffness = p->stiffness;
+    c.particle = p->elasticity[0];
+    c.wall = p->elasticity[1];
+    return is_law(&c) && are_frictions(p->friction, p->rolling_friction) && p->restitution > 0 && p->restitution <= 1
+           && is_not_negative(p->unloading_slope) && (p->unloading_slope > 0) == (d->contact.unloading_slope > 0);
+}
+
+/* The contact of two is the same seen from either. */
+static bool are_pairs(const dem_scene_definition *d)
+{
+    bool good = true;
+    for (size_t a = 0; d->has_pairs && a < d->species_count; a++) {
+        for (size_t b = 0; b < d->species_count; b++)
+            good = good && is_pair(&d->pair[a][b], d) && d->pair[a][b].friction == d->pair[b][a].friction;
+        for (size_t s = DEM_MAXIMUM_SPECIES; s < DEM_MAXIMUM_SPECIES + DEM_SURFACES; s++) good = good && is_pair(&d->pair[a][s], d);
+    }
+    return good;
+}
+
 /* Bars whose corners lie within the drum, and which leave room between each other. */
 static bool are_lifters(const dem_lifters *l, double radius)
 {
@@ -97,7 +119,7 @@ static dem_status parameters_check(const dem_scene_definition *d)
     if (good && d->lining.diameter != 0)
         good = is_positive(d->lining.diameter) && is_positive(d->lining.pitch) && d->lining.diameter < 0.25 * d->diameter
                && d->lining.pitch <= d->length;
-    return good && is_container(d) && is_stream(d) ? DEM_OK : DEM_BAD_PARAMETER;
+    return good && are_pairs(d) && is_container(d) && is_stream(d) ? DEM_OK : DEM_BAD_PARAMETER;
 }
 
 dem_status parameters_complete(dem_scene_definition *d)

@@ -61,6 +61,7 @@ void scene_enter_phase(dem_scene *scene, dem_phase phase)
         scene->contact.rolling_friction = scene->contact.wall_rolling_friction = 0.0;
     }
     container_set_friction(&scene->container, definition, phase != DEM_PHASE_GROWING);
+    scene->neighbors.table.has_friction = phase != DEM_PHASE_GROWING;
     container_move(&scene->container, definition, phase == DEM_PHASE_RUNNING, scene_time_in_motion(scene));
     container_rotate_lining(&scene->container, &scene->spheres);
     neighbor_list_invalidate(&scene->neighbors);

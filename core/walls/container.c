@@ -60,6 +60,18 @@ static void set_box(container *c, double radius, double low, double high)
     c->high[2] = high;
 }
 
+static dem_surface surface_of(const container *c, int k)
+{
+    switch (c->wall[k].kind) {
+    case WALL_PLANE: return DEM_ENDS;
+    case WALL_DISC: return DEM_PLATE;
+    case WALL_BAR: return DEM_LIFTERS;
+    case WALL_SHELL: return k == 0 ? DEM_WALL : DEM_PLATE;
+    case WALL_CYLINDER: break;
+    }
+    return DEM_WALL;
+}
+
 void container_init(container *c, const dem_scene_definition *definition)
 {
     *c = (container){ .kind = definition->container, .radius = 0.5 * definition->diameter, .length = definition->length };
@@ -85,6 +97,7 @@ void container_init(container *c, const dem_scene_definition *definition)
         tube_walls(c, definition);
         break;
     }
+    for (int k = 0; k < c->wall_count; k++) c->wall[k].surface = surface_of(c, k);
     container_set_friction(c, definition, true);
 }
 

@@ -3,6 +3,7 @@
 #ifndef WALL_H
 #define WALL_H
 
+#include "dem_types.h"
 #include "real.h"
 
 typedef enum wall_kind {
@@ -15,6 +16,7 @@ typedef enum wall_kind {
 
 typedef struct container_wall {
     wall_kind kind;
+    dem_surface surface; /* whose material it has */
     double friction, rolling_friction;
     double radius;        /* m: of cylinder, disc and shell; of a bar, the distance of its top from the axis */
     double low, high;     /* m: the shell's edges along z; plane and disc are at low */

@@ -12,12 +12,30 @@ enum { CASE, STEPS, THREADS, SETTLING };
 
 static named_number asked[] = {
     { "case", 0 }, /* 0: spheres, 1: two sizes, 2: tetrahedra, 3: spring-dashpot with lifters, 4: Hertz-Mindlin, end walls,
-                      5: rolling friction, two sizes */
+                      5: rolling friction, two sizes, 6: two materials and a third of the walls */
     { "steps", 2000 }, { "threads", 1 }, { "settling", 1 }, /* 0: the steps begin with the growing, 1: with the rotation */
     { NULL, 0 },
 };
 
 static double of(int which) { return asked[which].value; }
+
+static void set_materials(dem_scene_definition *d)
+{
+    d->species_count = 2;
+    d->species[0].share = 0.5;
+    d->species[1] = (dem_species){ .diameter = 0.003, .density = 1500, .share = 0.5 };
+    d->has_pairs = true;
+}
+
+/* Each pair a little different. */
+static void set_pairs(dem_scene_definition *d)
+{
+    for (size_t a = 0; d->has_pairs && a < d->species_count; a++)
+        for (size_t b = 0; b < DEM_MAXIMUM_SPECIES + DEM_SURFACES; b++)
+            d->pair[a][b] = (dem_pair){ .friction = 0.2 + 0.01 * (double)(a + b),
+                                        .restitution = 0.8 - 0.02 * (double)(a + b % DEM_MAXIMUM_SPECIES),
+                                        .stiffness = d->contact.stiffness * (1 - 0.05 * (double)(a * b % 3)) };
+}
 
 static dem_scene_definition drum_asked(void)
 {
@@ -46,10 +64,12 @@ static dem_scene_definition drum_asked(void)
         d.contact.particle = d.contact.wall = (dem_elasticity){ 1e6, 0.3 };
         d.ends = (dem_drum_ends){ .are_walls = true, .friction = 0.3 };
     }
+    if (number == 6) set_materials(&d);
     if (number == 5) d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.05;
     d.contact.latch_damping = 0.3;
     d.threads = (int)of(THREADS);
     follow_rules(&d, 0.03);
+    set_pairs(&d);
     return d;
 }
 

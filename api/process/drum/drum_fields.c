@@ -65,6 +65,8 @@ static const spec_field fields[] = {
     FIELDS_OF_CONTACT,
 
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "inner wall of the drum" },
+    { SPEC_WALL, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT(wall_material), FREE_OF_BED,
+      .meaning = "name of the material of all that is the drum's, a member of materials: its pairs with others hold there" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction), USUAL(0.0, 1.5),
       COLUMN("wall_friction", REAL, scene.contact.wall_friction), LISTED, IN_VIEW(240), FREE_OF_BED,
       .meaning = "coefficient of friction between a particle and the wall or its lining" },
@@ -107,6 +109,7 @@ static const spec_field fields[] = {
     { SPEC_DURATION, "at_most_revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = NAN,
       AT(at_most_revolutions), .meaning = "where until_standard_error_deg gives up. Default: 10" },
 
+    FIELDS_OF_MATERIALS,
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
       SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),

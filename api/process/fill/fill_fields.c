@@ -34,6 +34,8 @@ static const spec_field fields[] = {
     FIELDS_OF_CONTACT,
 
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall and floor of the cylinder" },
+    { SPEC_WALL, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT(wall_material),
+      .meaning = "name of the material of wall and floor, a member of materials: its pairs with others hold there" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction), USUAL(0.0, 1.5),
       COLUMN("wall_friction", REAL, scene.contact.wall_friction), LISTED, IN_VIEW(240),
       .meaning = "coefficient of friction between a particle and wall or floor" },
@@ -46,6 +48,7 @@ static const spec_field fields[] = {
     { SPEC_DURATION, "settling_seconds", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 1e6), .fallback = 2.0, AT(fill.settling_seconds),
       .meaning = "at most: it ends as soon as the bed is at rest" },
 
+    FIELDS_OF_MATERIALS,
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
       SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),

@@ -24,6 +24,8 @@ static const spec_field fields[] = {
       SLIP("cm", 0.01), COLUMN("rim_height", REAL, scene.plate.rim_height), IN_VIEW(130),
       .meaning = "of the rim around it; 0: none. Default: half the largest particle diameter, which keeps the lowest layer "
                  "from rolling off" },
+    { SPEC_PLATE, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT(plate_material),
+      .meaning = "name of the material of plate and rim, a member of materials" },
     { SPEC_PLATE, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(heap.plate_friction), USUAL(0.0, 1.5),
       COLUMN("plate_friction", REAL, scene.plate.friction), IN_VIEW(140),
       .meaning = "coefficient of friction between a particle and the plate or its rim" },
@@ -41,6 +43,8 @@ static const spec_field fields[] = {
     FIELDS_OF_CONTACT,
 
     { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall of the tube" },
+    { SPEC_WALL, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT(wall_material),
+      .meaning = "name of the material of the tube, a member of materials: its pairs with others hold there" },
     { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction), USUAL(0.0, 1.5),
       COLUMN("wall_friction", REAL, scene.contact.wall_friction), LISTED, IN_VIEW(240),
       .meaning = "coefficient of friction between a particle and the tube" },
@@ -54,6 +58,7 @@ static const spec_field fields[] = {
       .meaning = "it ends as soon as the tube is clear of the heap and the heap at rest. Default: the time to raise the tube by "
                  "fill_height, and 3 s" },
 
+    FIELDS_OF_MATERIALS,
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
       SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),

@@ -8,6 +8,7 @@
 #include "dem_cluster.h"
 #include "input_rows.h"
 
+enum { MOST_MATERIALS = 32, MOST_PAIRS = 400 };
 static const char *const shape_choices[] = { "sphere", "dumbbell", "tetrahedron", "cube", NULL }; /* as dem_shape counts them */
 static const char *const unloading_choices[] = { "constant", "variable", NULL };
 static const char *const precision_choices[] = { "single", "double", NULL };
@@ -17,6 +18,8 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
 
 #define AT(member) .offset = offsetof(scene_inputs, member)
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
+#define AT_MATERIAL(member) .offset = offsetof(material_inputs, member)
+#define AT_PAIR(member) .offset = offsetof(pair_inputs, member)
 #define AT_SPHERE(member) .offset = offsetof(dem_cluster_sphere, member)
 
 /* As they would stand in a table, but for the backslashes. */
@@ -43,10 +46,13 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       COLUMN("diameter", REAL, scene.species[0].diameter), LISTED, IN_LIST(130, "× ", 1, NULL), IN_VIEW(200), \
       .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
                  "cluster has its own" }, \
-    { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, AT_SPECIES(density), \
+    { SPEC_PARTICLES, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT_SPECIES(material), \
+      .meaning = "name of its material, a member of materials" }, \
+    { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, \
+      .spared_beside = "material", AT_SPECIES(density), \
       USUAL(100.0, 23000.0), SLIP("g/cm3", 1000.0), \
       COLUMN("density", REAL, scene.species[0].density), LISTED, IN_VIEW(210), \
-      .meaning = "density of the particle itself, not of the bed" }, \
+      .meaning = "density of the particle itself, not of the bed. With material: its density" }, \
     { SPEC_PARTICLES, "share", FIELD_REAL, .unit = "", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SPECIES(share), \
       FREE_OF_BED, .meaning = "share of the particles, by what share_by says; all shares sum to 1. Default: equal shares" }, \
     { SPEC_INPUTS, "share_by", FIELD_CHOICE, .unit = "", .choices = share_choices, AT(share_by), \
@@ -94,6 +100,33 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       AT(youngs_modulus), .meaning = "of particles and wall, instead of maximum_overlap; for hertz-mindlin alone" }, \
     { SPEC_CONTACT, "poissons_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = 0.3, AT(poissons_ratio), \
       .meaning = "of particles and wall; used by hertz-mindlin alone" }
+
+#define FIELDS_OF_MATERIALS \
+    { SPEC_INPUTS, "materials", FIELD_NAMED_LIST, SPEC_MATERIALS, RANGE(0, MOST_MATERIALS), AT(materials), \
+      .count_offset = offsetof(scene_inputs, material_count), .entry_size = sizeof(material_inputs), \
+      .meaning = "materials by names of your own, which particles and walls name" }, \
+    { SPEC_MATERIALS, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = NAN, AT_MATERIAL(density), \
+      .meaning = "density, of particles that have none of their own. Default: 2500 kg/m3" }, \
+    { SPEC_MATERIALS, "youngs_modulus", FIELD_REAL, .unit = "Pa", RANGE(1e3, 1e13), .fallback = NAN, AT_MATERIAL(youngs_modulus), \
+      FREE_OF_BED, .meaning = "for hertz-mindlin, whose contacts have the E* and G* of both materials. Default: the contact's" }, \
+    { SPEC_MATERIALS, "poissons_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = NAN, AT_MATERIAL(poissons_ratio), \
+      FREE_OF_BED, .meaning = "for hertz-mindlin. Default: the contact's" }, \
+    { SPEC_MATERIALS, "poisson_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = NAN, .excludes_too = "poissons_ratio", \
+      AT_MATERIAL(poisson_ratio), FREE_OF_BED, .meaning = "another spelling of poissons_ratio" }, \
+    { SPEC_INPUTS, "pairs", FIELD_LONG_LIST, SPEC_PAIRS, RANGE(0, MOST_PAIRS), AT(pairs), \
+      .count_offset = offsetof(scene_inputs, pair_count), .entry_size = sizeof(pair_inputs), \
+      .meaning = "contacts of two materials, or of one and a surface, that differ from what contact and wall say of all" }, \
+    { SPEC_PAIRS, "between", FIELD_TWO_NAMES, .unit = "", RANGE(1, NAME_MOST), AT_PAIR(between), \
+      .meaning = "the two: names of materials, or a material and a surface of the container. Of a drum: wall (its lining, too, " \
+                 "unless that is named itself), ends, lifters, lining; of a cylinder: wall, floor; of a heap: wall or tube, plate" }, \
+    { SPEC_PAIRS, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT_PAIR(friction), \
+      .meaning = "coefficient of friction. Default: as without the pair" }, \
+    { SPEC_PAIRS, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = NAN, AT_PAIR(rolling_friction), \
+      .meaning = "coefficient of rolling friction. Default: as without the pair" }, \
+    { SPEC_PAIRS, "restitution", FIELD_REAL, .unit = "", RANGE(0.1, 1.0), .fallback = NAN, AT_PAIR(restitution), \
+      .meaning = "coefficient of normal restitution; with variable unloading: of the hardest impact. Default: the contact's" }, \
+    { SPEC_PAIRS, "stiffness", FIELD_REAL, .unit = "N/m", RANGE(1e-3, 1e9), .fallback = NAN, AT_PAIR(stiffness), \
+      .meaning = "normal loading stiffness; not for hertz-mindlin. Default: the contact's" }
 
 #define FIELDS_OF_OUTPUT_AND_RUN \
     { SPEC_INPUTS, "snapshots", FIELD_OBJECT, SPEC_SNAPSHOTS, .meaning = "files of all particles, for ParaView" }, \

@@ -9,6 +9,7 @@
 
 #include "dem_cluster.h"
 #include "dem_rules.h"
+#include "pair_rules.h"
 
 #define MOST_STEPS 1e10
 #define MOST_SNAPSHOTS 1e5
@@ -16,7 +17,6 @@
 #define MOST_SAMPLES 2e5
 #define MOST_SHARE_ERROR 1.000001e-4 /* of the sum of shares, which are often given in four digits */
 #define LEAST_RESTITUTION 0.1        /* as restitution's own range has it */
-#define MOST_OVERLAP 0.25            /* of the smallest diameter: beyond half a radius a run is stopped */
 
 double scene_spheres_a_particle(const dem_scene_definition *scene)
 {
@@ -86,10 +86,12 @@ void scene_check_every_species(const scene_inputs *inputs, const dem_scene_defin
 
 void scene_derive_species(scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
+    materials_complete(inputs, problems);
     scene->species_count = inputs->species_count;
     for (size_t s = 0; s < inputs->species_count; s++) {
         species_inputs *species = &inputs->species[s];
-        scene->species[s] = (dem_species){ .diameter = species->diameter, .density = species->density, .share = species->share };
+        scene->species[s] =
+            (dem_species){ .diameter = species->diameter, .density = material_density(inputs, species), .share = species->share };
         const bool is_cluster = species->shape > DEM_SPHERE, has_left = is_cluster && client_has_left(inputs->client);
         if (has_left) problem_list_add(problems, "/inputs/particles", "was not read to its end: who asked has left");
         if (isnan(species->shape) || has_left) scene->species[s].diameter = NAN; /* refused */
@@ -113,14 +115,6 @@ void scene_check_size_ratio(const dem_scene_definition *scene, problem_list *pro
                          "most %g of the smallest",
                          smallest_sphere, largest_sphere, SCENE_MOST_SIZE_RATIO);
 }
-
-/* What stiffness is chosen for: the heaviest particle at the speed at which it meets the wall. */
-typedef struct collision {
-    double heaviest, lightest; /* kg; the lightest that a contact can move */
-    double smallest, largest;  /* m, diameters of spheres, also those of clusters */
-    double speed;              /* m/s */
-    double fastest;            /* m/s, that or what two particles of the start can meet at: the step must do for it */
-} collision;
 
 static void check_unloading(const scene_inputs *inputs, problem_list *problems)
 {
@@ -252,7 +246,8 @@ double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem
                          "is %g Pa, but this law takes stiffness (N/m) or "
                          "maximum_overlap; youngs_modulus is for hertz-mindlin",
                          inputs->youngs_modulus);
-    return (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
+    const double overlap = (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
+    return pairs_derive(inputs, &worst, overlap, scene, problems);
 }
 
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems)

@@ -289,7 +289,7 @@ static void compare_values(const spec_table *table, spec_group group, const json
 
 void start_compare(const job_spec *spec, const json_t *origin, problem_list *problems)
 {
-    static const char *const compared[] = { "drum", "particles", "wall" };
+    static const char *const compared[] = { "drum", "particles", "wall", "materials" };
     const json_t *then = json_object_get(origin, "inputs");
     const double asked = (double)spec->scene.particle_count, there = spec->inputs.start.bed_particles;
     if (asked > there || asked < there)
@@ -307,6 +307,7 @@ void start_compare(const job_spec *spec, const json_t *origin, problem_list *pro
     json_t *now = spec_inputs_write(spec->type->inputs, (const char *)spec + spec->type->inputs_at);
     for (size_t k = 0; now && k < sizeof compared / sizeof compared[0]; k++) {
         char pointer[40];
+        if (!json_object_get(then, compared[k])) continue; /* without materials densities are with the particles */
         snprintf(pointer, sizeof pointer, "/inputs/%s", compared[k]);
         const spec_group group = spec_field_find(spec->type->inputs, SPEC_INPUTS, compared[k])->child;
         compare_values(spec->type->inputs, group, json_object_get(now, compared[k]), json_object_get(then, compared[k]), pointer,

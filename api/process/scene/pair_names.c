@@ -1,0 +1,63 @@
+#include "pair_names.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static const struct {
+    dem_container_kind kind;
+    const char *name;
+    dem_surface surface;
+} surface_names[] = {
+    { DEM_DRUM, "wall", DEM_WALL },          { DEM_DRUM, "ends", DEM_ENDS },          { DEM_DRUM, "lifters", DEM_LIFTERS },
+    { DEM_DRUM, "lining", DEM_LINING },      { DEM_CYLINDER, "wall", DEM_WALL },      { DEM_CYLINDER, "floor", DEM_ENDS },
+    { DEM_TUBE_ON_PLATE, "tube", DEM_WALL }, { DEM_TUBE_ON_PLATE, "wall", DEM_WALL }, { DEM_TUBE_ON_PLATE, "plate", DEM_PLATE },
+};
+enum { SURFACE_NAMES = sizeof surface_names / sizeof *surface_names };
+
+bool surface_is_there(const dem_scene_definition *scene, dem_surface surface)
+{
+    switch (surface) {
+    case DEM_ENDS: return scene->container == DEM_CYLINDER || (scene->container == DEM_DRUM && scene->ends.are_walls);
+    case DEM_LIFTERS: return scene->lifters.count > 0;
+    case DEM_LINING: return scene->lining.diameter > 0;
+    case DEM_PLATE: return scene->container == DEM_TUBE_ON_PLATE;
+    default: return true;
+    }
+}
+
+bool is_surface_name(const char *name)
+{
+    for (size_t k = 0; k < SURFACE_NAMES; k++)
+        if (strcmp(surface_names[k].name, name) == 0) return true;
+    return false;
+}
+
+int material_index(const scene_inputs *inputs, const char *name)
+{
+    for (size_t k = 0; *name && k < inputs->material_count; k++)
+        if (strcmp(inputs->materials[k].name, name) == 0) return (int)k;
+    return NO_PARTNER;
+}
+
+int surface_index(const dem_scene_definition *scene, const char *name)
+{
+    for (size_t k = 0; k < SURFACE_NAMES; k++)
+        if (surface_names[k].kind == scene->container && strcmp(surface_names[k].name, name) == 0)
+            return (int)surface_names[k].surface;
+    return NO_PARTNER;
+}
+
+static void add_name(char *text, size_t size, const char *name)
+{
+    const size_t length = strlen(text);
+    snprintf(text + length, size - length, "%s\"%s\"", length ? ", " : "", name);
+}
+
+void partner_names(const scene_inputs *inputs, const dem_scene_definition *scene, char *text, size_t size)
+{
+    *text = '\0';
+    for (size_t k = 0; k < inputs->material_count; k++) add_name(text, size, inputs->materials[k].name);
+    for (size_t k = 0; scene && k < SURFACE_NAMES; k++)
+        if (surface_names[k].kind == scene->container && surface_is_there(scene, surface_names[k].surface))
+            add_name(text, size, surface_names[k].name);
+}

@@ -1,0 +1,28 @@
+/* From materials and pairs to what each contact of a scene is made of. */
+#ifndef PAIR_RULES_H
+#define PAIR_RULES_H
+
+#include "job_spec.h"
+
+#define MOST_OVERLAP 0.25 /* of the smallest diameter: beyond half a radius a run is stopped */
+
+/* What stiffness is chosen for: the heaviest particle at the speed at which it meets the wall. */
+typedef struct collision {
+    double heaviest, lightest; /* kg; the lightest that a contact can move */
+    double smallest, largest;  /* m, diameters of spheres, also those of clusters */
+    double speed;              /* m/s */
+    double fastest;            /* m/s, that or what two particles of the start can meet at: the step must do for it */
+} collision;
+
+/* One spelling of each material's members, and whether the names that particles and walls give are there. */
+void materials_complete(scene_inputs *inputs, problem_list *problems);
+/* kg/m3, of a species: its own, or its material's. */
+double material_density(const scene_inputs *inputs, const species_inputs *species);
+
+/* Each pair's contact, once `scene` has the contact of those that nothing is said of, and its time step; the step becomes the least
+ * that any pair needs. overlap: the largest expected, as a share of the smallest diameter, without pairs. Returns the same with
+ * them. */
+double pairs_derive(const scene_inputs *inputs, const collision *worst, double overlap, dem_scene_definition *scene,
+                    problem_list *problems);
+
+#endif
