@@ -46,6 +46,8 @@ const problem_kind problem_kinds[] = {
     { "too-many-wrong-tokens", "Too many wrong tokens",
       "The address sent many tokens that are none; none is looked at for a while." },
     { "too-many-requests", "Too many requests", "The address asks faster than one address may." },
+    { "too-much-of-one-address", "Too much of one address",
+      "What the address sends and has not read yet fills what one address may have of the memory." },
     { "not-a-session", "Not a session", "A session is begun with one token." },
     { "foreign-page", "Foreign page", "A page of another service asked for a change." },
     { "queue-full", "The queue is full", "More jobs would wait than may." },

@@ -1,6 +1,8 @@
 """Who may: tokens by name, sessions of the page, guesses that get slow, and one address that can't take what others need."""
+import re
 import signal
 import socket
+import sqlite3
 import subprocess
 import time
 
@@ -9,7 +11,7 @@ import requests
 import yaml
 from conftest import BUILD, FAKE_WORKER, ROOT, run_daemon
 from test_daemon_clients import ENDLESS, ask_and_keep, until
-from test_daemon_http import head
+from test_daemon_http import head, metrics_of
 
 READER, WRITER, LATER = "reads-only-0123456789", "writes-too-0123456789", "comes-later-0123456789"
 LINES = f"# who may\nanna read {READER}\n\n  ci-server\twrite {WRITER}\r\n"
@@ -176,6 +178,48 @@ def test_three_hundred_waiters_of_one_address_stop_no_other(fake):
     finally:
         for waiter in waiters:
             waiter.close()
+
+
+def test_one_address_has_its_share_of_connections_and_no_more(fake):
+    job = fake.submit(fake="slow", seconds="60")
+    busy = [connect_from("127.0.0.1", fake) for _ in range(90)]
+    for waiter in busy:
+        waiter.sendall(head(fake, target=f"/jobs/{job}?wait=60").encode())
+    until(lambda: metrics_of(fake)["reposed_http_connections"] >= 90, 20)
+    idle = [connect_from("127.0.0.1", fake) for _ in range(500)]
+    try:
+        for address in ("127.0.0.2", "127.0.0.3"):
+            assert ask_from(address, fake, "/healthz").startswith(b"HTTP/1.1 200")
+        answer = ask_from("127.0.0.2", fake, "/metrics").decode()
+        while "reposed_http_connections " not in answer:
+            answer = ask_from("127.0.0.2", fake, "/metrics").decode()
+        assert int(re.search(r"^reposed_http_connections (\d+)", answer, re.M)[1]) <= 322  # 320, and those that ask
+        assert fake.get("/healthz").status_code == 200  # one that asks nothing makes room for it
+        for waiter in busy:  # and none that waits for its answer was closed for that
+            waiter.setblocking(False)
+            with pytest.raises(BlockingIOError):
+                waiter.recv(1)
+    finally:
+        for connection in busy + idle:
+            connection.close()
+
+
+def test_what_one_address_does_not_read_leaves_memory_for_another(fake):
+    job = fake.submit()
+    fake.ended(job)
+    spec = '"' + "x" * 5_000_000 + '"'
+    with sqlite3.connect(f"{fake.data}/reposed.sqlite", timeout=30) as writer:
+        writer.execute("update job set spec=?", (spec,))
+    writer.close()
+    clients = [ask_and_keep(fake, f"/jobs/{job}/spec", receive_buffer=4096) for _ in range(7)]
+    try:
+        told = [client.recv(100) for client in clients]  # what is refused is short
+        assert [answer[9:12] for answer in told].count(b"429") >= 1 and [answer[9:12] for answer in told].count(b"200") == 6
+        for _ in range(5):  # 25 MB more: another address has room for them while the first reads nothing
+            assert ask_from("127.0.0.2", fake, f"/jobs/{job}/spec").startswith(b"HTTP/1.1 200")
+    finally:
+        for client in clients:
+            client.close()
 
 
 def test_slow_queries_of_one_address_leave_a_place_for_another(fake):

@@ -13,20 +13,27 @@
 #define LEAST_BYTES_PER_SECOND 1000.0 /* from then on, on the average */
 #define SECONDS_OF_A_STALL 3.0
 
-void connection_watch_init(connection_watch *watch, int enough)
+void connection_watch_init(connection_watch *watch, int enough, int most_of_address)
 {
-    *watch = (connection_watch){ .enough = enough };
+    *watch = (connection_watch){ .enough = enough, .most_of_address = most_of_address };
     pthread_mutex_init(&watch->lock, NULL);
 }
 
 void connection_watch_clear(connection_watch *watch) { pthread_mutex_destroy(&watch->lock); }
 
-static void copy_address(uint8_t address[CONNECTION_ADDRESS_SIZE], const struct sockaddr *from)
+static const uint8_t mapped[12] = { [10] = 0xff, [11] = 0xff }; /* before an address of IPv4 */
+
+void connection_address(uint8_t address[CONNECTION_ADDRESS_SIZE], const struct sockaddr *from)
 {
     memset(address, 0, CONNECTION_ADDRESS_SIZE);
-    if (from && from->sa_family == AF_INET) memcpy(address, &((const struct sockaddr_in *)(const void *)from)->sin_addr, 4);
-    else if (from && from->sa_family == AF_INET6)
-        memcpy(address, &((const struct sockaddr_in6 *)(const void *)from)->sin6_addr, 16);
+    if (from && from->sa_family == AF_INET) {
+        memcpy(address, mapped, sizeof mapped);
+        memcpy(address + sizeof mapped, &((const struct sockaddr_in *)(const void *)from)->sin_addr, 4);
+    } else if (from && from->sa_family == AF_INET6) {
+        const struct in6_addr *six = &((const struct sockaddr_in6 *)(const void *)from)->sin6_addr;
+        const bool is_four = memcmp(six, mapped, sizeof mapped) == 0;
+        memcpy(address, six, is_four ? CONNECTION_ADDRESS_SIZE : CONNECTION_ADDRESS_SIZE / 2);
+    }
 }
 
 bool connection_is_from(const watched_connection *connection, const watched_connection *other)
@@ -40,6 +47,7 @@ bool connection_is_closed(int socket)
     return poll(&end, 1, 0) > 0 && (end.revents & (POLLRDHUP | POLLHUP | POLLERR)) != 0;
 }
 
+/* With the lock held. */
 static int count_from(const connection_watch *watch, const watched_connection *address)
 {
     int count = 0;
@@ -69,12 +77,35 @@ static void make_room(connection_watch *watch)
     victim->reading_since = victim->stalled_since = 0.0; /* it goes; the next one is another */
 }
 
+/* With the lock held: whether it was so. */
+static bool drop_idle_of(const connection_watch *watch, const watched_connection *address)
+{
+    watched_connection *victim = NULL;
+    for (watched_connection *c = watch->first; c; c = c->next)
+        if (connection_is_from(c, address) && c->reading_since > 0.0 && (!victim || c->reading_since < victim->reading_since))
+            victim = c;
+    if (!victim) return false;
+    shutdown(victim->socket, SHUT_RDWR);
+    victim->reading_since = 0.0;
+    return true;
+}
+
+bool connection_watch_admits(connection_watch *watch, const struct sockaddr *address)
+{
+    watched_connection asking;
+    connection_address(asking.address, address);
+    pthread_mutex_lock(&watch->lock);
+    const bool admitted = count_from(watch, &asking) < watch->most_of_address || drop_idle_of(watch, &asking);
+    pthread_mutex_unlock(&watch->lock);
+    return admitted;
+}
+
 watched_connection *connection_watch_add(connection_watch *watch, int socket, const struct sockaddr *address)
 {
     watched_connection *connection = malloc(sizeof *connection);
     if (!connection) return NULL;
     *connection = (watched_connection){ .socket = socket };
-    copy_address(connection->address, address);
+    connection_address(connection->address, address);
     pthread_mutex_lock(&watch->lock);
     if (watch->count >= watch->enough) make_room(watch);
     watch->count++;
@@ -154,5 +185,23 @@ void connection_watch_drop_stalled(connection_watch *watch)
     pthread_mutex_lock(&watch->lock);
     for (watched_connection *c = watch->first; c; c = c->next)
         if (c->stalled_since > 0.0 && now - c->stalled_since >= SECONDS_OF_A_STALL) shutdown(c->socket, SHUT_RDWR);
+    pthread_mutex_unlock(&watch->lock);
+}
+
+bool connection_watch_hold(connection_watch *watch, watched_connection *connection, size_t bytes, size_t most)
+{
+    size_t before = 0;
+    pthread_mutex_lock(&watch->lock);
+    for (const watched_connection *c = watch->first; c; c = c->next) before += connection_is_from(c, connection) ? c->held : 0;
+    const bool fits = before == 0 || before + bytes <= most;
+    if (fits) connection->held += bytes;
+    pthread_mutex_unlock(&watch->lock);
+    return fits;
+}
+
+void connection_watch_release(connection_watch *watch, watched_connection *connection, size_t bytes)
+{
+    pthread_mutex_lock(&watch->lock);
+    if (connection) connection->held -= bytes;
     pthread_mutex_unlock(&watch->lock);
 }

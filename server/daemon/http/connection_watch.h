@@ -16,7 +16,8 @@ enum { CONNECTION_ADDRESS_SIZE = 16 };
 
 typedef struct watched_connection {
     int socket;
-    uint8_t address[CONNECTION_ADDRESS_SIZE]; /* of the client */
+    uint8_t address[CONNECTION_ADDRESS_SIZE]; /* of the client: connection_address */
+    size_t held;                              /* bytes of bodies and answers in memory that count */
     double reading_since;                     /* monotonic s; 0: a whole request is being answered */
     double sending_since, stalled_since;      /* monotonic s; 0: nothing is sent; it gets on */
     uint64_t taken_before, taken;             /* bytes that the client has taken: when sending began, at the last sweep */
@@ -27,10 +28,17 @@ typedef struct connection_watch {
     pthread_mutex_t lock;
     watched_connection *first;
     int count, enough; /* from so many on, those that ask nothing make room for others */
+    int most_of_address;
 } connection_watch;
 
-void connection_watch_init(connection_watch *watch, int enough);
+/* Who counts as one client: an address of IPv4, also where it comes as one of IPv6, or the first half of one of IPv6, since
+ * whoever has one of these has all with that half. */
+void connection_address(uint8_t address[CONNECTION_ADDRESS_SIZE], const struct sockaddr *from);
+
+void connection_watch_init(connection_watch *watch, int enough, int most_of_address);
 void connection_watch_clear(connection_watch *watch);
+/* Whether a further connection of this address is taken. Where it has its share, one that asks nothing makes room. */
+bool connection_watch_admits(connection_watch *watch, const struct sockaddr *address);
 /* NULL: no memory. */
 watched_connection *connection_watch_add(connection_watch *watch, int socket, const struct sockaddr *address);
 void connection_watch_remove(connection_watch *watch, watched_connection *connection);
@@ -40,6 +48,10 @@ void connection_watch_set_sending(connection_watch *watch, watched_connection *c
 void connection_watch_sweep(connection_watch *watch);
 /* The same for every answer of which nothing has been taken for some seconds. */
 void connection_watch_drop_stalled(connection_watch *watch);
+
+/* Counts bytes in memory for the connection. False: with these its address would hold more than `most`, and already holds some. */
+bool connection_watch_hold(connection_watch *watch, watched_connection *connection, size_t bytes, size_t most);
+void connection_watch_release(connection_watch *watch, watched_connection *connection, size_t bytes);
 
 /* Whether the client has closed its end. The socket must be open. */
 bool connection_is_closed(int socket);

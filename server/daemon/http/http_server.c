@@ -15,30 +15,49 @@
 
 enum {
     HTTP_THREADS = 4,
-    MOST_CONNECTIONS = 512,   /* more than may be parked and wait in the lanes: some are always left, */
-    ENOUGH_CONNECTIONS = 448, /* and from here on those that ask nothing, or take no answer, make room for new ones */
+    MOST_CONNECTIONS = 512,    /* more than may be parked and wait in the lanes: some are always left, */
+    ENOUGH_CONNECTIONS = 448,  /* and from here on those that ask nothing, or take no answer, make room for new ones */
+    ADDRESS_CONNECTIONS = 320, /* of one address; the others stay for others */
     CONNECTION_MEMORY = 32768,
     THREAD_STACK = 1 << 20, /* JSON nests up to 2048 deep */
     SILENCE_SECONDS = 20,
     DROPPED_BODY_LIMIT = 16 << 20,
-    SMALL = 64 << 10,            /* bytes that nobody counts: as many as connections, they are still bearable */
-    MOST_BODY_BYTES = 64 << 20,  /* of all large bodies that are being read */
-    MOST_ANSWER_BYTES = 64 << 20 /* of all large answers that are on their way to clients, who may be slow to read them */
+    SMALL = 64 << 10,             /* bytes that nobody counts: as many as connections, they are still bearable */
+    MOST_BODY_BYTES = 64 << 20,   /* of all large bodies that are being read */
+    MOST_ANSWER_BYTES = 64 << 20, /* of all large answers that are on their way to clients, who may be slow to read them */
+    MOST_ADDRESS_BYTES = 32 << 20 /* of both, for one address */
 };
 
 /* --- memory in sum --- */
 
+typedef enum holding { HELD, ADDRESS_IS_FULL, ALL_IS_FULL } holding;
+
 /* A single one always fits. */
-static bool hold(atomic_size_t *sum, size_t bytes, size_t most, size_t *held)
+static holding hold(http_exchange *exchange, atomic_size_t *sum, size_t bytes, size_t most, size_t *held)
 {
-    if (bytes <= SMALL) return true;
+    connection_watch *watch = &exchange->server->watch;
+    if (bytes <= SMALL) return HELD;
+    if (!connection_watch_hold(watch, exchange->watched, bytes, MOST_ADDRESS_BYTES)) return ADDRESS_IS_FULL;
     const size_t before = atomic_fetch_add(sum, bytes);
     if (before > 0 && before + bytes > most) {
         atomic_fetch_sub(sum, bytes);
-        return false;
+        connection_watch_release(watch, exchange->watched, bytes);
+        return ALL_IS_FULL;
     }
     *held = bytes;
-    return true;
+    return HELD;
+}
+
+static void refuse_held(http_exchange *exchange, holding why, const char *title, const char *detail)
+{
+    http_response *response = &exchange->response;
+    http_response_clear(response);
+    if (why == ADDRESS_IS_FULL)
+        http_respond_problem(response, 429, NULL, "Too much of one address",
+                             "what this address sends and has not read yet fills its share of the memory, %d MB; try again later",
+                             MOST_ADDRESS_BYTES >> 20);
+    else http_respond_problem(response, 503, NULL, title, "%s", detail);
+    response->retry_after = 2;
 }
 
 /* Where the answers that are on their way fill the memory, those that nobody reads go, and this one is to be asked for
@@ -46,13 +65,13 @@ static bool hold(atomic_size_t *sum, size_t bytes, size_t most, size_t *held)
 static void hold_answer(http_exchange *exchange)
 {
     http_server *server = exchange->server;
-    http_response *response = &exchange->response;
-    if (!response->body || hold(&server->answers_held, response->length, MOST_ANSWER_BYTES, &exchange->answer_held)) return;
+    const http_response *response = &exchange->response;
+    if (!response->body) return;
+    const holding held = hold(exchange, &server->answers_held, response->length, MOST_ANSWER_BYTES, &exchange->answer_held);
+    if (held == HELD) return;
     connection_watch_drop_stalled(&server->watch);
-    http_response_clear(response);
-    http_respond_problem(response, 503, NULL, "Too much on its way",
-                         "long answers that other clients are still reading fill the memory; try again later");
-    response->retry_after = 2;
+    refuse_held(exchange, held, "Too much on its way",
+                "long answers that other clients are still reading fill the memory; try again later");
 }
 
 /* --- answering --- */
@@ -177,13 +196,12 @@ static bool admit(http_exchange *exchange, const char *method)
 static enum MHD_Result begin(http_exchange *exchange, const char *method)
 {
     if (!exchange->watched) return MHD_NO; /* no memory */
-    bool admitted = admit(exchange, method);
-    if (admitted && !hold(&exchange->server->bodies_held, exchange->body_expected, MOST_BODY_BYTES, &exchange->body_held)) {
-        http_respond_problem(&exchange->response, 503, NULL, "Too many large bodies at once", "try again later");
-        exchange->response.retry_after = 2;
-        admitted = false;
-    }
-    if (admitted) {
+    const bool admitted = admit(exchange, method);
+    const holding held =
+        admitted ? hold(exchange, &exchange->server->bodies_held, exchange->body_expected, MOST_BODY_BYTES, &exchange->body_held)
+                 : HELD;
+    if (held != HELD) refuse_held(exchange, held, "Too many large bodies at once", "try again later");
+    if (admitted && held == HELD) {
         exchange->stage = EXCHANGE_READING;
         exchange->body = exchange->body_expected ? malloc(exchange->body_expected) : NULL;
         return exchange->body || !exchange->body_expected ? MHD_YES : MHD_NO;
@@ -250,12 +268,20 @@ static void end_request(void *context, struct MHD_Connection *connection, void *
     *state = NULL;
     if (!exchange) return;
     connection_watch_set_reading(&server->watch, watched(connection), 1);
+    connection_watch_release(&server->watch, watched(connection), exchange->body_held + exchange->answer_held);
     atomic_fetch_sub(&server->bodies_held, exchange->body_held);
     atomic_fetch_sub(&server->answers_held, exchange->answer_held);
     http_response_clear(&exchange->response);
     free(exchange->body);
     free(exchange->target);
     free(exchange);
+}
+
+static enum MHD_Result admit_connection(void *context, const struct sockaddr *address, socklen_t length)
+{
+    (void)length;
+    http_server *server = context;
+    return connection_watch_admits(&server->watch, address) ? MHD_YES : MHD_NO;
 }
 
 static void note_connection(void *context, struct MHD_Connection *connection, void **socket_context,
@@ -319,7 +345,7 @@ bool http_server_open(http_server *server, const config *settings, api_service *
     server->listener = open_listener(settings->host, settings->port);
     if (server->listener < 0) return false;
     server->port = port_of(server->listener);
-    connection_watch_init(&server->watch, ENOUGH_CONNECTIONS);
+    connection_watch_init(&server->watch, ENOUGH_CONNECTIONS, ADDRESS_CONNECTIONS);
     return true;
 }
 
@@ -327,12 +353,12 @@ bool http_server_start(http_server *server)
 {
     if (!waiting_room_open(&server->room, server->service, &server->watch)) return false;
     server->daemon = MHD_start_daemon(
-        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, NULL, NULL, take_request, server, MHD_OPTION_LISTEN_SOCKET,
-        server->listener, MHD_OPTION_THREAD_POOL_SIZE, (unsigned)HTTP_THREADS, MHD_OPTION_THREAD_STACK_SIZE, (size_t)THREAD_STACK,
-        MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_URI_LOG_CALLBACK, take_target, server, MHD_OPTION_NOTIFY_COMPLETED, end_request,
-        server, MHD_OPTION_NOTIFY_CONNECTION, note_connection, server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)MOST_CONNECTIONS,
-        MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_SECONDS, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY,
-        MHD_OPTION_END);
+        MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, admit_connection, server, take_request, server,
+        MHD_OPTION_LISTEN_SOCKET, server->listener, MHD_OPTION_THREAD_POOL_SIZE, (unsigned)HTTP_THREADS,
+        MHD_OPTION_THREAD_STACK_SIZE, (size_t)THREAD_STACK, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_URI_LOG_CALLBACK,
+        take_target, server, MHD_OPTION_NOTIFY_COMPLETED, end_request, server, MHD_OPTION_NOTIFY_CONNECTION, note_connection,
+        server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)MOST_CONNECTIONS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_SECONDS,
+        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY, MHD_OPTION_END);
     if (server->daemon) return true;
     log_line("the HTTP server can't be started");
     waiting_room_close(&server->room);

@@ -1,0 +1,77 @@
+/* Claims about which connections count as one client's. */
+#include "connection_watch.h"
+
+#include "claims.h"
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <string.h>
+
+static void take_address(const char *text, uint8_t address[CONNECTION_ADDRESS_SIZE])
+{
+    struct sockaddr_in four = { .sin_family = AF_INET };
+    struct sockaddr_in6 six = { .sin6_family = AF_INET6 };
+    if (inet_pton(AF_INET, text, &four.sin_addr) == 1) connection_address(address, (const struct sockaddr *)&four);
+    else if (inet_pton(AF_INET6, text, &six.sin6_addr) == 1) connection_address(address, (const struct sockaddr *)&six);
+    else fail_msg("%s is no address", text);
+}
+
+static bool is_one_client(const char *one, const char *other)
+{
+    uint8_t a[CONNECTION_ADDRESS_SIZE], b[CONNECTION_ADDRESS_SIZE];
+    take_address(one, a);
+    take_address(other, b);
+    return memcmp(a, b, sizeof a) == 0;
+}
+
+static void addresses_of_one_network_of_ipv6_are_one_client(void **state)
+{
+    (void)state;
+    assert_true(is_one_client("2001:db8:1:2::1", "2001:db8:1:2:ffff:ffff:ffff:ffff"));
+    assert_false(is_one_client("2001:db8:1:2::1", "2001:db8:1:3::1"));
+    assert_false(is_one_client("127.0.0.1", "127.0.0.2"));
+    assert_true(is_one_client("192.0.2.7", "::ffff:192.0.2.7"));
+    assert_false(is_one_client("::ffff:192.0.2.7", "::ffff:192.0.2.8"));
+    assert_false(is_one_client("32.1.13.184", "2001:db8::1")); /* the same first bytes */
+}
+
+/* The socket -1 can't be shut down, which does no harm. */
+static void an_address_has_its_share_of_connections_and_of_memory(void **state)
+{
+    (void)state;
+    connection_watch watch;
+    connection_watch_init(&watch, 100, 3);
+    struct sockaddr_in mine = { .sin_family = AF_INET, .sin_addr.s_addr = htonl(0x7f000001) },
+                       other = { .sin_family = AF_INET, .sin_addr.s_addr = htonl(0x7f000002) };
+    const struct sockaddr *me = (const struct sockaddr *)&mine, *you = (const struct sockaddr *)&other;
+    watched_connection *one[3], *yours = connection_watch_add(&watch, -1, you);
+    for (int i = 0; i < 3; i++) {
+        assert_true(connection_watch_admits(&watch, me));
+        one[i] = connection_watch_add(&watch, -1, me);
+        connection_watch_set_reading(&watch, one[i], i != 1); /* the second is being answered */
+    }
+    assert_true(connection_watch_admits(&watch, me)); /* the first makes room, then the third, */
+    assert_true(connection_watch_admits(&watch, me));
+    assert_false(connection_watch_admits(&watch, me)); /* the second does not */
+    assert_true(connection_watch_admits(&watch, you));
+
+    assert_true(connection_watch_hold(&watch, one[0], 500, 100)); /* a single one always fits */
+    assert_false(connection_watch_hold(&watch, one[1], 1, 100));
+    assert_true(connection_watch_hold(&watch, yours, 60, 100));
+    connection_watch_release(&watch, one[0], 500);
+    assert_true(connection_watch_hold(&watch, one[1], 60, 100));
+    assert_true(connection_watch_hold(&watch, one[2], 40, 100));
+    assert_false(connection_watch_hold(&watch, one[0], 1, 100));
+    for (int i = 0; i < 3; i++) connection_watch_remove(&watch, one[i]);
+    connection_watch_remove(&watch, yours);
+    connection_watch_clear(&watch);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(addresses_of_one_network_of_ipv6_are_one_client),
+        cmocka_unit_test(an_address_has_its_share_of_connections_and_of_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
