@@ -181,17 +181,7 @@ static void cases_of_a_study_have_units_and_are_told_in_si(void **unused)
     json_decref(document);
 }
 
-int main(void)
-{
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(powers_of_ten_give_the_very_number_of_the_decimals),
-        cmocka_unit_test(other_factors_are_right_to_rounding),
-        cmocka_unit_test(another_dimension_is_no_unit_of_a_row),
-        cmocka_unit_test(every_numeric_row_of_every_process_has_units_and_its_own_is_the_first),
-        cmocka_unit_test(the_canonical_text_is_that_of_the_same_inputs_in_si),
-        cmocka_unit_test(what_is_wrong_is_told_with_value_and_units),
-        cmocka_unit_test(places_have_units_one_by_one_or_all_together),
-        cmocka_unit_test(cases_of_a_study_have_units_and_are_told_in_si),
-    };
-    return cmocka_run_group_tests(tests, NULL, NULL);
-}
+UNIT_TESTS(powers_of_ten_give_the_very_number_of_the_decimals, other_factors_are_right_to_rounding,
+           another_dimension_is_no_unit_of_a_row, every_numeric_row_of_every_process_has_units_and_its_own_is_the_first,
+           the_canonical_text_is_that_of_the_same_inputs_in_si, what_is_wrong_is_told_with_value_and_units,
+           places_have_units_one_by_one_or_all_together, cases_of_a_study_have_units_and_are_told_in_si)
