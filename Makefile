@@ -1,6 +1,6 @@
 # reposed: virtual rotary-drum tests. `make help` lists the targets.
 
-PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev libseccomp-dev
+PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev libseccomp-dev libcurl4-openssl-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core python3-owslib
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib

@@ -133,6 +133,7 @@ static bool fits_service(api_service *service, const job_spec *spec, problem_lis
         job_check_limits(limits, "/inputs", estimate.wall_seconds, estimate.particles, estimate.snapshot_bytes, spec->threads,
                          problems);
     job_check_disk(job_estimate_disk_bytes(&estimate), store_free_bytes(service->store), "/inputs/snapshots/interval", problems);
+    subscriber_check_hosts(spec->subscriber, &service->callback_hosts, problems);
     return problem_list_is_empty(problems);
 }
 
@@ -278,6 +279,7 @@ void execute_process(api_service *service, const http_request *request, http_res
     job_spec spec;
     if (!read_spec(service, type, request, response, &spec)) return;
     char id[JOB_ID_SIZE];
+    if (spec.subscriber) json_object_set_new(spec.subscriber, "base", json_string(response->base));
     const store_status status = store_add_job(service->store, &spec, id);
     if (status == STORE_OK) {
         response->wait = read_preference(request->prefer).seconds;

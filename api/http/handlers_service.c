@@ -61,7 +61,7 @@ void show_landing(api_service *service, const http_request *request, http_respon
 void show_conformance(api_service *service, const http_request *request, http_response *response)
 {
     (void)service, (void)request;
-    static const char *const classes[] = { "core", "ogc-process-description", "json", "oas30", "job-list", "dismiss" };
+    static const char *const classes[] = { "core", "ogc-process-description", "json", "oas30", "job-list", "callback", "dismiss" };
     json_t *list = json_array();
     for (size_t i = 0; i < sizeof classes / sizeof classes[0]; i++)
         json_array_append_new(list, json_sprintf("http://www.opengis.net/spec/ogcapi-processes-1/1.0/conf/%s", classes[i]));

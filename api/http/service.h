@@ -7,6 +7,7 @@
 
 #include "http_request.h"
 #include "store.h"
+#include "subscriber.h"
 #include "text_buffer.h"
 #include "version.h"
 
@@ -21,6 +22,7 @@ typedef struct api_service {
     const char *_Atomic public_url;     /* what addresses begin with, without / at the end; NULL: with the host that was asked */
     _Atomic int default_threads;        /* of a job that does not ask */
     const post_limits *_Atomic limits;  /* what one POST may ask for */
+    callback_hosts callback_hosts;      /* whom jobs may have called back */
     void *daemon;                       /* first argument of the functions below */
     void (*jobs_changed)(void *daemon); /* a job was added, dismissed or put into the queue again */
     void (*jobs_deleted)(void *daemon); /* their folders are to be removed */

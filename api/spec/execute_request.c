@@ -5,6 +5,7 @@
 
 #include "process_type.h"
 #include "spec_text.h"
+#include "subscriber.h"
 
 static bool is_text(const json_t *value, const char *text)
 {
@@ -57,14 +58,12 @@ static void check_outputs(const json_t *outputs, const process_type *type, probl
 
 void execute_request_check(const json_t *request, const process_type *type, problem_list *problems)
 {
-    const json_t *response = json_object_get(request, "response"), *subscriber = json_object_get(request, "subscriber");
+    const json_t *response = json_object_get(request, "response");
     char seen[80];
     json_value_text(response, seen, sizeof seen);
     if (response && !json_is_null(response) && !is_text(response, "document") && !is_text(response, "raw"))
         problem_list_add(problems, "/response", "is %s; must be \"document\" or \"raw\"", seen);
-    json_value_text(subscriber, seen, sizeof seen);
-    if (subscriber && !json_is_null(subscriber))
-        problem_list_add(problems, "/subscriber", "is %s; must be null, or be left out: nobody is called back, ask the job", seen);
+    subscriber_check(json_object_get(request, "subscriber"), problems);
     check_outputs(json_object_get(request, "outputs"), type, problems);
 }
 
@@ -82,6 +81,12 @@ json_t *execute_request_wanted(const json_t *request)
     if (all && json_object_size(modes) > 0) json_object_set(all, "outputs", modes);
     json_decref(modes);
     return all;
+}
+
+json_t *execute_request_subscriber(const json_t *request)
+{
+    const json_t *subscriber = json_object_get(request, "subscriber");
+    return json_is_object(subscriber) ? json_deep_copy(subscriber) : NULL;
 }
 
 /* --- qualified values --- */

@@ -6,12 +6,13 @@
 
 #include "job_spec.h"
 
-/* response and outputs say how the results are wanted; nobody is called back, so a subscriber is a problem. type: NULL,
- * unknown. */
+/* response and outputs say how the results are wanted, subscriber who is called back. type: NULL, unknown. */
 void execute_request_check(const json_t *request, const process_type *type, problem_list *problems);
 /* {"raw": bool, "outputs": {name: "value" | "reference"}}, without outputs where all are wanted by value. New reference; NULL:
  * nothing of that was said. The request has no problems. */
 json_t *execute_request_wanted(const json_t *request);
+/* Who is called back (subscriber.h). New reference; NULL: nobody. The request has no problems. */
+json_t *execute_request_subscriber(const json_t *request);
 /* Inputs, of which any may be qualified, {"value": ..., "mediaType": "application/json"}, as values alone. New reference. */
 json_t *execute_request_inputs(const json_t *inputs, problem_list *problems);
 

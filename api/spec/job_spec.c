@@ -135,6 +135,7 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
 
     spec->priority = read_priority(json_object_get(request, "priority"), problems);
     spec->wanted = execute_request_wanted(request);
+    spec->subscriber = execute_request_subscriber(request);
     spec->label = read_label(json_object_get(request, "label"), problems);
     if (problem_list_is_empty(problems) && !spec->label) problem_list_add(problems, "/label", "could not be kept: out of memory");
     if (problem_list_is_empty(problems)) return true;
@@ -146,6 +147,7 @@ void job_spec_clear(job_spec *spec)
 {
     json_decref(spec->label);
     json_decref(spec->wanted);
+    json_decref(spec->subscriber);
     if (spec->type) spec_inputs_clear(spec->type->inputs, (char *)spec + spec->type->inputs_at);
     memset(spec, 0, sizeof *spec);
 }

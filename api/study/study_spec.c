@@ -81,6 +81,9 @@ static void read_base(study_spec *study, const study_options *options, problem_l
     else if (!json_is_object(base)) refuse_value(problems, "/base", base, "an object with \"inputs\" and, if wanted, \"label\"");
     else if (!inputs) problem_list_add(problems, "/base/inputs", "is missing; must be an object");
     else if (!json_is_object(inputs)) refuse_value(problems, "/base/inputs", inputs, "an object");
+    if (json_is_object(json_object_get(base, "subscriber")))
+        refuse_value(problems, "/base/subscriber", json_object_get(base, "subscriber"),
+                     "null: of the jobs of a study nobody is called back");
     if (json_is_object(inputs) && study->has_seed && !json_object_get(inputs, "seed"))
         json_object_set_new(inputs, "seed", json_integer((json_int_t)(options->seed_if_missing & LARGEST_WHOLE_NUMBER)));
     if (json_is_object(inputs) && type && spec_field_find(type->inputs, SPEC_INPUTS, "threads")

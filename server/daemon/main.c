@@ -12,6 +12,7 @@
 
 #include "backup.h"
 #include "calibrator.h"
+#include "callback_sender.h"
 #include "client.h"
 #include "data_check.h"
 #include "end_signals.h"
@@ -37,6 +38,7 @@ typedef struct parts {
     readiness readiness;
     int signals; /* readable when the daemon is to end */
     folder_remover remover;
+    callback_sender *callbacks; /* NULL: nobody may be called back */
 } parts;
 
 /* --- what the handlers ask of us --- */
@@ -221,6 +223,7 @@ static bool open_parts(parts *all)
                                   .public_url = all->settings.public_url,
                                   .default_threads = default_threads_of(&all->settings),
                                   .limits = &all->limits,
+                                  .callback_hosts = { all->settings.callback_host, all->settings.callback_hosts },
                                   .daemon = all,
                                   .jobs_changed = jobs_changed_by_request,
                                   .jobs_deleted = jobs_deleted,
@@ -231,6 +234,7 @@ static bool open_parts(parts *all)
     if (all->service.web_folder < 0) log_line("no page: the folder %s can't be opened", all->settings.web);
     const prune_rules rules = rules_of(&all->settings);
     if (!folder_remover_start(&all->remover, all->store, &rules)) return false;
+    if (all->settings.callback_hosts > 0 && !(all->callbacks = callback_sender_start(&all->service))) return false;
     return http_server_open(&all->server, &all->settings, &all->service) && http_server_start(&all->server);
 }
 
@@ -271,6 +275,7 @@ int main(int argc, char **argv)
     dispatcher_run(&all.dispatcher, leave);
     http_server_stop(&all.server);
     folder_remover_stop(&all.remover);
+    callback_sender_stop(all.callbacks);
     dispatcher_clear(&all.dispatcher);
     store_close(all.store);
     data_folder_close(&all.data);

@@ -23,6 +23,7 @@ Version: $version
 Architecture: $architecture
 Maintainer: the authors of reposed <root@localhost>
 Depends: $needs
+Suggests: libcurl4
 Section: science
 Priority: optional
 Installed-Size: $(du -sk --exclude=DEBIAN "$tree/tree" | cut -f 1)

@@ -164,7 +164,7 @@ def test_requests_in_the_forms_of_the_standard_are_the_same_job(running, body):
     ({"outputs": {"colour": {}}}, "/outputs/colour"),
     ({"outputs": {"repose": {"transmissionMode": "post"}}}, "/outputs/repose/transmissionMode"),
     ({"outputs": [1]}, "/outputs"),
-    ({"subscriber": {"successUri": "http://example.org/"}}, "/subscriber"),
+    ({"subscriber": {"successUri": "http://example.org/"}}, "/subscriber/successUri"),
     ({"inputs": SPEC | {"drum": {"value": SPEC["drum"], "mediaType": "text/xml"}}}, "/inputs/drum"),
     ({"inputs": SPEC | {"drum": {"value": SPEC["drum"], "colour": 1}}}, "/inputs/drum/colour"),
     ({"inputs": SPEC | {"fill_fraction": {"value": 1.4}}}, "/inputs/fill_fraction"),

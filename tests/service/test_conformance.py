@@ -32,6 +32,7 @@ REQUIREMENTS = {
     "job-list": """job-list-op type-definition type-response processID-mandatory processID-definition processid-response
         status-definition status-response datetime-definition datetime-response duration-definition duration-response limit-definition
         limit-response job-list-success links""",
+    "callback": "job-callback",
     "dismiss": "job-dismiss-op job-dismiss-success",
 }
 

@@ -23,6 +23,8 @@ typedef struct config {
     int allowed_hosts;
     const char *allowed_origin[CONFIG_HOSTS]; /* whose pages may use the service: scheme://host[:port] */
     int allowed_origins;
+    const char *callback_host[CONFIG_HOSTS]; /* that may be called back */
+    int callback_hosts;
     int keep_days;                                                  /* after its end a job is deleted; 0: never */
     double keep_bytes;                                              /* that the folders of jobs may take; 0: any number */
     double max_estimate_seconds, max_particles, max_snapshot_bytes; /* that one POST may ask for; 0: any */

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "subscriber.h"
+
 /* "http[s]://host[:port][/prefix]"; it goes into addresses as it is. */
 static bool take_public_url(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
 {
@@ -47,6 +49,14 @@ static bool take_origin(config *settings, const char *value, char problem[OPTION
     return good;
 }
 
+static bool take_callback_host(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    const bool good = callback_host_is_good(value) && settings->callback_hosts < CONFIG_HOSTS;
+    snprintf(problem, OPTION_PROBLEM_SIZE, "one of %d at most, a name or address, perhaps with :port", CONFIG_HOSTS);
+    if (good) settings->callback_host[settings->callback_hosts++] = value;
+    return good;
+}
+
 static bool take_confine(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
 {
     settings->confine = strcmp(value, "yes") == 0;
@@ -82,6 +92,11 @@ static bool allows_same_hosts(const config *one, const config *other)
 static bool allows_same_origins(const config *one, const config *other)
 {
     return is_same_list(one->allowed_origin, one->allowed_origins, other->allowed_origin, other->allowed_origins);
+}
+
+static bool calls_same_hosts(const config *one, const config *other)
+{
+    return is_same_list(one->callback_host, one->callback_hosts, other->callback_host, other->callback_hosts);
 }
 
 #define LIVE .is_live = true
@@ -122,6 +137,8 @@ const config_option config_options[] = {
       .take = take_host_name, .is_same = allows_same_hosts, LIVE },
     { "allow-origin", "ORIGIN", "let pages of https://host:port use the service; may be given 8 times", .kind = OPTION_TAKEN,
       .may_repeat = true, .take = take_origin, .is_same = allows_same_origins, LIVE },
+    { "callback-host", "NAME[:PORT]", "let jobs have this host called back; may be given 8 times (none)", .kind = OPTION_TAKEN,
+      .may_repeat = true, .take = take_callback_host, .is_same = calls_same_hosts },
     { "public-url", "URL", "what addresses begin with for clients, as https://host/prefix behind a proxy", .kind = OPTION_TAKEN,
       .take = take_public_url, .is_same = has_same_url, LIVE },
     { "port-file", "FILE", "write the port there once it is open", TEXT(port_file) },

@@ -10,6 +10,7 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "callbacks.h"
 #include "database.h"
 #include "job_folder.h"
 #include "log.h"
@@ -173,6 +174,7 @@ store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64
     if (number == 0) number = sqlite3_last_insert_rowid(writer);
     if (status == STORE_OK) status = field_tables_insert_inputs(fields, writer, number, spec);
     if (status == STORE_OK) status = store_insert_load(writer, number, &estimate, machine);
+    if (status == STORE_OK) status = store_insert_subscriber(writer, number, spec->subscriber);
     free(label);
     free(wanted);
     return status;

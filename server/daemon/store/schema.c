@@ -171,6 +171,31 @@ static const char turns_of_clients[] =
     "CREATE INDEX job_waiting_turn ON job(priority DESC, turn, number, estimated_seconds) WHERE status='accepted';"
     "CREATE INDEX job_waiting_client ON job(client, priority, turn) WHERE status='accepted';";
 
+/* Who is called back about which jobs, and what there is to tell: the commit that changes a job also says so here (callbacks.h).
+ * What is no longer so when it comes to be told is not: how a run goes on once it has ended, its failure once it is tried again. */
+#define TELL(kind, address)                                                                                                        \
+    "  INSERT INTO callback(job,kind,uri,since) SELECT job, '" kind "', " address ", (julianday('now')-2440587.5)*86400.0"         \
+    "   FROM subscriber WHERE job=new.number AND " address " IS NOT NULL"                                                          \
+    "   ON CONFLICT(job,kind) DO UPDATE SET news=random(), since=excluded.since;"
+#define TELL_PROGRESS TELL("inProgress", "in_progress")
+#define TELL_SUCCESS TELL("success", "iif(new.status='successful',success,NULL)")
+#define TELL_FAILURE TELL("failed", "iif(new.status IN ('failed','dismissed'),failed,NULL)")
+static const char subscribers[] =
+    "CREATE TABLE subscriber("
+    "  job INTEGER PRIMARY KEY REFERENCES job(number) ON DELETE CASCADE,"
+    "  success TEXT, in_progress TEXT, failed TEXT, base TEXT NOT NULL) STRICT;"
+    "CREATE TABLE callback("
+    "  job INTEGER NOT NULL REFERENCES job(number) ON DELETE CASCADE,"
+    "  kind TEXT NOT NULL, uri TEXT NOT NULL, news INTEGER NOT NULL DEFAULT (random()), since REAL NOT NULL,"
+    "  due REAL NOT NULL DEFAULT 0, tries INTEGER NOT NULL DEFAULT 0, PRIMARY KEY(job, kind)) STRICT;"
+    "CREATE INDEX callback_due ON callback(due);"
+    "CREATE TRIGGER job_progress_told AFTER UPDATE OF status, progress ON job WHEN new.status='running'"
+    "  AND (old.status<>'running' OR CAST(new.progress/10 AS INTEGER)>CAST(old.progress/10 AS INTEGER))"
+    "  AND EXISTS(SELECT 1 FROM subscriber WHERE job=new.number) BEGIN" TELL_PROGRESS " END;"
+    "CREATE TRIGGER job_end_told AFTER UPDATE OF status ON job WHEN old.status<>new.status AND new.status<>'running'"
+    "  AND EXISTS(SELECT 1 FROM subscriber WHERE job=new.number) BEGIN"
+    "  DELETE FROM callback WHERE job=new.number;" TELL_SUCCESS TELL_FAILURE " END;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -200,5 +225,6 @@ const schema_migration schema_migrations[] = {
     { { pinned_jobs } },
     { { request_keys } },
     { { turns_of_clients } },
+    { { subscribers } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];
