@@ -83,7 +83,7 @@ typedef struct job_filter {
 
 /* The beds that jobs left, for specs that start from one. The source is good as long as the store. */
 start_source store_beds(job_store *store);
-/* Returns after the commit, with spec.json safe on the disk. */
+/* Returns after the commit. */
 store_status store_add_job(job_store *store, const job_spec *spec, char id[JOB_ID_SIZE]);
 /* STORE_CONFLICT: it has already ended. */
 store_status store_dismiss_job(job_store *store, const char *id);

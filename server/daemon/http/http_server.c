@@ -14,7 +14,7 @@
 #include "request_key.h"
 
 enum {
-    HTTP_THREADS = 4,
+    HTTP_THREADS = 16,         /* most of them wait for the disk: jobs that are posted at once share a commit */
     MOST_CONNECTIONS = 512,    /* more than may be parked and wait in the lanes: some are always left, */
     ENOUGH_CONNECTIONS = 448,  /* and from here on those that ask nothing, or take no answer, make room for new ones */
     ADDRESS_CONNECTIONS = 320, /* of one address; the others stay for others */

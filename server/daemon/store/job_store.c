@@ -25,6 +25,8 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
     pthread_mutex_init(&store->write_lock, NULL);
     pthread_mutex_init(&store->readers_lock, NULL);
     pthread_cond_init(&store->reader_is_free, NULL);
+    pthread_mutex_init(&store->group_lock, NULL);
+    pthread_cond_init(&store->group_is_over, NULL);
     char path[4096];
     snprintf(path, sizeof path, "%s/reposed.sqlite", data->path);
     bool good = field_tables_init(&store->fields);
@@ -50,6 +52,8 @@ void store_close(job_store *store)
     pthread_cond_destroy(&store->reader_is_free);
     pthread_mutex_destroy(&store->readers_lock);
     pthread_mutex_destroy(&store->write_lock);
+    pthread_cond_destroy(&store->group_is_over);
+    pthread_mutex_destroy(&store->group_lock);
     free(store->query_tables);
     job_index_free(store->index);
     field_tables_clear(&store->fields);
@@ -82,34 +86,6 @@ store_status store_walk(job_store *store, sqlite3 *reader, sqlite3_stmt *stateme
         status = sql_finish(statement, code);
     }
     store_return_reader(store, reader);
-    return status;
-}
-
-store_status store_begin(job_store *store)
-{
-    pthread_mutex_lock(&store->write_lock);
-    const store_status status = sql_run(store->writer, NULL, "BEGIN IMMEDIATE", "");
-    if (status != STORE_OK) pthread_mutex_unlock(&store->write_lock);
-    return status;
-}
-
-store_status store_end(job_store *store, store_status status)
-{
-    if (status == STORE_OK) status = store_keep_key(store);
-    if (status == STORE_OK) status = sql_run(store->writer, NULL, "COMMIT", "");
-    /* A full disk may have rolled back by itself already. */
-    if (status != STORE_OK && !sqlite3_get_autocommit(store->writer)) sql_run(store->writer, NULL, "ROLLBACK", "");
-    job_index_note_end(store->index, status == STORE_OK);
-    pthread_mutex_unlock(&store->write_lock);
-    return status;
-}
-
-store_status store_try_write(job_store *store)
-{
-    if (pthread_mutex_trylock(&store->write_lock) != 0) return STORE_OK;
-    store_status status = sql_run(store->writer, NULL, "BEGIN IMMEDIATE", "");
-    if (status == STORE_OK) return store_end(store, sql_run(store->writer, NULL, "UPDATE job_count SET jobs=jobs", ""));
-    pthread_mutex_unlock(&store->write_lock);
     return status;
 }
 
@@ -215,36 +191,45 @@ static store_status last_number(job_store *store, int64_t *number)
     return row ? sql_finish(row, code) : STORE_FAILED;
 }
 
+/* The folder of a job is made when its worker starts, but for one that starts from another's bed. */
+static store_status bring_bed(job_store *store, const job_spec *spec, const char *id)
+{
+    const char *from = job_started_from(spec);
+    if (!from || (store_bring_start(store, from, spec->inputs.start.snapshot, id) && job_folder_sync(store->data, id)))
+        return STORE_OK;
+    const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
+    log_line("job %s: its folder can't be written: %s", id, strerror(errno));
+    job_folder_discard(store->data, id);
+    return reason;
+}
+
+static store_status insert_alone(job_store *store, const job_spec *spec, const char *text, const char *id)
+{
+    calibration machine;
+    job_place place = { .study = 0 };
+    int64_t last = 0, last_turn = 0;
+    store_read_calibration(store, &machine);
+    store_status status = store_begin(store);
+    if (status != STORE_OK) return status;
+    status = store_check_queue(store, 1);
+    if (status == STORE_OK) status = last_number(store, &last);
+    if (status == STORE_OK) status = store_last_turn(store, client_of(spec), spec->priority, &last_turn);
+    place.turn = last_turn + 1;
+    if (status == STORE_OK) status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &place, &machine);
+    store_name_made(id);
+    return store_end(store, status);
+}
+
 static store_status add_with_text(job_store *store, const job_spec *spec, const char *text, char id[JOB_ID_SIZE])
 {
-    job_place place = { .study = 0 };
     uint32_t bits;
     if (data_folder_is_nearly_full(store->data)) return STORE_FULL;
     if (!text || !store_random_bits(&bits)) return STORE_FAILED;
     store_write_id(id, time(NULL), bits);
-    const char *from = job_started_from(spec);
-    if (!job_folder_create(store->data, id, text)
-        || (from && !(store_bring_start(store, from, spec->inputs.start.snapshot, id) && job_folder_sync(store->data, id)))) {
-        const store_status reason = errno == ENOSPC || errno == EDQUOT ? STORE_FULL : STORE_FAILED;
-        log_line("job %s: its folder can't be written: %s", id, strerror(errno));
-        job_folder_discard(store->data, id);
-        return reason;
-    }
-    calibration machine;
-    store_read_calibration(store, &machine);
-    store_status status = store_begin(store);
-    if (status == STORE_OK) {
-        status = store_check_queue(store, 1);
-        int64_t last = 0, last_turn = 0;
-        if (status == STORE_OK) status = last_number(store, &last);
-        if (status == STORE_OK) status = store_last_turn(store, client_of(spec), spec->priority, &last_turn);
-        place.turn = last_turn + 1;
-        if (status == STORE_OK)
-            status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &place, &machine);
-        store_name_made(id);
-        status = store_end(store, status);
-    }
-    if (status != STORE_OK) job_folder_discard(store->data, id);
+    store_status status = bring_bed(store, spec, id);
+    if (status != STORE_OK) return status;
+    status = insert_alone(store, spec, text, id);
+    if (status != STORE_OK && job_started_from(spec)) job_folder_discard(store->data, id);
     return status;
 }
 

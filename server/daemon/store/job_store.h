@@ -4,6 +4,7 @@
 
 #include <pthread.h>
 #include <sqlite3.h>
+#include <stdatomic.h>
 #include <time.h>
 
 #include "data_folder.h"
@@ -15,6 +16,8 @@
 
 enum { STORE_READERS = 4, JOB_ATTEMPTS = 3 };
 
+typedef struct write_group write_group;
+
 /* Everything below is private to job_store*.c and query.c. */
 struct job_store {
     data_folder *data;
@@ -22,8 +25,13 @@ struct job_store {
     job_index *index;
     _Atomic int64_t queue_limit; /* jobs that may wait */
     int places;                  /* jobs that may run at once */
-    pthread_mutex_t write_lock;  /* held for each transaction of the one writer */
+    pthread_mutex_t write_lock;  /* held by who writes, from begin to end */
     sqlite3 *writer;
+    atomic_int writers_waiting;
+    write_group *group; /* whose transaction is open; NULL: none is. With the lock held, as is_joined */
+    bool is_joined;     /* who writes has a savepoint in the transaction of others */
+    pthread_mutex_t group_lock;
+    pthread_cond_t group_is_over;
     pthread_mutex_t readers_lock;
     pthread_cond_t reader_is_free;
     sqlite3 *reader[STORE_READERS]; /* the first readers_free are free */
@@ -42,8 +50,8 @@ void store_return_reader(job_store *store, sqlite3 *reader);
 typedef bool store_row_taker(sqlite3_stmt *row, void *context);
 /* Steps through a statement, which may be NULL, and gives the reader back. */
 store_status store_walk(job_store *store, sqlite3 *reader, sqlite3_stmt *statement, store_row_taker *take, void *context);
-/* Between begin and end this thread owns the writer. end commits where status is STORE_OK, else rolls back;
- * returns what became of it. */
+/* write_group.c. Between begin and end this thread owns the writer. end commits where status is STORE_OK, together with what others
+ * do at the same time, else rolls back; returns what became of it. */
 store_status store_begin(job_store *store);
 store_status store_end(job_store *store, store_status status);
 
