@@ -21,6 +21,8 @@
 #define DEM_LEAST_LAYERS 4
 #define DEM_LEAST_REVOLUTIONS 0.5         /* turned in all */
 #define DEM_LEAST_WINDOW_REVOLUTIONS 0.25 /* and in the window */
+#define DEM_SLIPS_FROM 0.15               /* mean slip at the wall, between beds that renew themselves and those that do not */
+#define DEM_LEAST_SLIPPING_REVOLUTIONS 8  /* turned in all by a bed that slips */
 #define DEM_LEAST_WINDOW_FRAMES 40
 #define DEM_LEAST_CORRELATION_TIMES 20 /* as the window itself shows them, which may be twice too many */
 #define DEM_LEAST_FALLS 3              /* slumps or avalanches that tell as much as so many revolutions */

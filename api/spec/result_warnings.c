@@ -4,6 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "dem_rules.h"
 #include "text_copy.h"
 
 #define MUCH_OVERLAP 1.5 /* times what was asked for: stiffness is chosen for the hardest impact, and beds press beside it */
@@ -54,6 +55,17 @@ static void warn_of_end(const job_spec *spec, const json_t *results, problem_lis
                          spec->until_standard_error);
 }
 
+static void warn_of_slip(const json_t *results, problem_list *warnings)
+{
+    const double slip = json_number_value(json_object_get(member(results, "regime", "evidence"), "wall_slip"));
+    const char *verdict = json_string_value(member(results, "repose", "verdict"));
+    if (slip > DEM_SLIPS_FROM && verdict && strcmp(verdict, "too-short") == 0)
+        problem_list_add(warnings, "/regime/evidence/wall_slip",
+                         "is %.2g: a bed that slips at the wall renews itself so slowly that angle and torque have no error and no "
+                         "verdict until it has turned for %d revolutions; give the run that many",
+                         slip, DEM_LEAST_SLIPPING_REVOLUTIONS);
+}
+
 bool result_warnings_add(const job_spec *spec, json_t *results)
 {
     problem_list warnings;
@@ -63,6 +75,7 @@ bool result_warnings_add(const job_spec *spec, json_t *results)
     warn_of_motion("fill", results, &warnings);
     warn_of_missing(results, &warnings);
     warn_of_end(spec, results, &warnings);
+    warn_of_slip(results, &warnings);
     const bool done = json_object_set_new(json_object_get(results, "run"), "warnings", job_warnings_to_json(&warnings)) == 0;
     problem_list_clear(&warnings);
     return done;

@@ -41,12 +41,18 @@ double frame_window_deviation(const frame_window *window, size_t column)
     return deviation;
 }
 
-double frame_window_error(const dem_scene *scene, const frame_window *window, const double *column)
+size_t frame_window_memory(const dem_scene *scene, const frame_window *window)
 {
+    if (!(frame_window_mean(window, FRAME_WALL_SLIP) > DEM_SLIPS_FROM)) return 0;
     const double length = window->frames[(window->count - 1) * window->width + FRAME_TIME] - window->frames[FRAME_TIME];
     const double revolution = 2 * DEM_PI / fabs(scene->definition.rotation_rate); /* infinite of a drum at rest */
     const double frames = fmin(revolution / length, 1.0) * (double)window->count;
-    return statistics_standard_error_of_memory(column, window->count, frames >= 1 ? (size_t)frames : 0);
+    return frames >= 1 ? (size_t)frames : 0;
+}
+
+double frame_window_error(const dem_scene *scene, const frame_window *window, const double *column)
+{
+    return statistics_standard_error_of_memory(column, window->count, frame_window_memory(scene, window));
 }
 
 double frame_window_share_seen(const frame_window *window, size_t column)
@@ -145,15 +151,20 @@ static frame_window measure_window(const dem_scene *scene, const frame_window *a
     return flow;
 }
 
-/* What one run cannot know has no error. A bed that slides as a block keeps its shape, which another bed has not: all but
+/* What one run cannot know has no error. A bed that has slipped for a few revolutions only is still like its start. A bed that slides as a block keeps its shape, which another bed has not: all but
  * the direction of its centre of mass differs from bed to bed by more than over time. The drum's torque and that of the
  * weight have the same mean; of a bed that falls, the forces that stop each fall balance those that began it, so that the
  * torque's own error knows nothing of how the falls differ. */
-static void claim_what_a_repeat_would_show(dem_drum_results *results)
+static void claim_what_a_repeat_would_show(const dem_scene *scene, const frame_window *window, dem_drum_results *results)
 {
     dem_drive_result *drive = &results->drive;
     dem_slumps *slumps = &results->repose.slumps;
-    if (!measure_comes_in_falls(results->regime.regime)) return;
+    if (!measure_comes_in_falls(results->regime.regime)) {
+        if (measure_has_forgotten(scene, window)) return;
+        for (int m = 0; m < DEM_ANGLE_METHODS; m++) results->repose.angle[m].standard_error_deg = NAN;
+        drive->torque.standard_error = drive->weight_torque.standard_error = NAN;
+        return;
+    }
     drive->torque.standard_error = fmax(drive->torque.standard_error, drive->weight_torque.standard_error);
     if (results->regime.regime != DEM_SLUMPING) return;
     for (int m = 0; m < DEM_ANGLE_METHODS; m++)
@@ -181,6 +192,6 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
     results->packing.mean_overlap = frame_window_mean(&window, FRAME_MEAN_OVERLAP);
     results->packing.overlap_99 = frame_window_mean(&window, FRAME_OVERLAP_99);
     measure_drive_results(scene, &window, &results->drive);
-    claim_what_a_repeat_would_show(results);
+    claim_what_a_repeat_would_show(scene, &window, results);
     return arrays_end(measure_segregation_results(scene, &results->segregation));
 }

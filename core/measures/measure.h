@@ -38,7 +38,10 @@ double *frame_window_column(const frame_window *window, size_t column);
 double frame_window_mean(const frame_window *window, size_t column);
 double frame_window_deviation(const frame_window *window, size_t column);
 frame_window frame_window_from(const frame_window *window, double time); /* the frames from then on, the last at least */
-/* Of a column's mean. The particles of a bed come by again within a revolution, and with them what they had of the mean. */
+/* Frames in which the particles of a bed that slips at the wall come by again, and with them what they had of a mean: those of
+ * one revolution. 0 of a bed that does not slip: it renews itself as its particles roll down. */
+size_t frame_window_memory(const dem_scene *scene, const frame_window *window);
+/* Standard error of a column's mean, of series with that memory. */
 double frame_window_error(const dem_scene *scene, const frame_window *window, const double *column);
 
 /* Of a bed that flows: where the climb from rest and the transient are over, which is after a quarter revolution (a quarter
@@ -67,6 +70,8 @@ void measure_regime_results(const dem_scene *scene, const frame_window *window, 
 bool measure_comes_in_falls(dem_regime regime);
 
 /* Drift, verdict, and whether the regime is certain; needs all else of angle, slumps and regime. */
+/* Whether the window ends late enough for its bed to be like another one: of a bed that slips at the wall, after some revolutions. */
+bool measure_has_forgotten(const dem_scene *scene, const frame_window *window);
 void measure_verdict(const dem_scene *scene, const frame_window *window, dem_drum_results *results);
 
 /* The drum's torque since the last frame, whose meter it resets, and that of the bed's weight: frame[FRAME_TORQUE,

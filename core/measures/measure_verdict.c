@@ -25,11 +25,19 @@ static double revolutions(const dem_scene *scene, double time)
     return fabs(scene->definition.rotation_rate) * time / (2 * DEM_PI);
 }
 
-static bool is_long_enough(const dem_scene *scene, const dem_repose_result *r)
+bool measure_has_forgotten(const dem_scene *scene, const frame_window *window)
+{
+    static const double LAST_FRAME = 0.01; /* revolutions that the last frame may come before the end */
+    const double time = window->frames[(window->count - 1) * window->width + FRAME_TIME];
+    return frame_window_memory(scene, window) == 0 || revolutions(scene, time) >= DEM_LEAST_SLIPPING_REVOLUTIONS - LAST_FRAME;
+}
+
+static bool is_long_enough(const dem_scene *scene, const frame_window *window, const dem_repose_result *r)
 {
     if (r->frames < DEM_LEAST_WINDOW_FRAMES) return false;
     return r->slumps.count >= DEM_LEAST_FALLS
-           || (revolutions(scene, r->window_end) >= DEM_LEAST_REVOLUTIONS && r->window_revolutions >= DEM_LEAST_WINDOW_REVOLUTIONS);
+           || (revolutions(scene, r->window_end) >= DEM_LEAST_REVOLUTIONS && r->window_revolutions >= DEM_LEAST_WINDOW_REVOLUTIONS
+               && measure_has_forgotten(scene, window));
 }
 
 /* The angle's trend over the window, degrees; NaN where there is no angle. */
@@ -39,7 +47,7 @@ typedef struct drift {
     double times;         /* correlation times of what is left without the trend */
 } drift;
 
-static drift measure_drift(const frame_window *window, dem_repose_result *r)
+static drift measure_drift(const dem_scene *scene, const frame_window *window, dem_repose_result *r)
 {
     enum { LEAST_TIMES = 5 }; /* so that there are three degrees of freedom */
     double *time = frame_window_column(window, FRAME_TIME), *angle = frame_window_column(window, FRAME_SURFACE_FIT);
@@ -47,8 +55,9 @@ static drift measure_drift(const frame_window *window, dem_repose_result *r)
     drift d = { NAN, NAN, NAN, NAN };
     r->drift_deg_per_revolution = r->drift_bound_deg_per_revolution = r->correlation_time = r->correlation_times = NAN;
     if (time && angle && residual && !isnan(r->angle[DEM_SURFACE_FIT].mean_deg)) {
-        const trend found = statistics_trend(time, angle, window->count, residual);
-        const double correlation = fmax(statistics_correlation_length(angle, window->count), 1.0);
+        const size_t memory = frame_window_memory(scene, window);
+        const trend found = statistics_trend(time, angle, window->count, memory, residual);
+        const double correlation = fmax(statistics_correlation_length(angle, window->count, memory), 1.0);
         const double length = r->window_end - r->window_start, interval = length / (double)(window->count - 1);
         const double values = (double)found.line.points;
         d.times = values / fmax(found.correlation, 1.0);
@@ -88,7 +97,8 @@ static bool is_certain(const dem_scene *scene, const frame_window *window, const
     const size_t half = window->count / 2;
     const frame_window halves[2] = { { window->frames, half, window->width },
                                      { window->frames + half * window->width, window->count - half, window->width } };
-    if (!is_long_enough(scene, &results->repose) || (is_fast && revolutions(scene, results->repose.window_end) < FAST_REVOLUTIONS))
+    if (!is_long_enough(scene, window, &results->repose)
+        || (is_fast && revolutions(scene, results->repose.window_end) < FAST_REVOLUTIONS))
         return false;
     for (int k = 0; k < 2; k++) {
         dem_regime_result of_half;
@@ -101,10 +111,10 @@ static bool is_certain(const dem_scene *scene, const frame_window *window, const
 void measure_verdict(const dem_scene *scene, const frame_window *window, dem_drum_results *results)
 {
     dem_repose_result *r = &results->repose;
-    const drift d = measure_drift(window, r);
+    const drift d = measure_drift(scene, window, r);
     if (!has_enough_particles(scene)) r->verdict = DEM_TOO_FEW;
     else if (isnan(r->angle[DEM_SURFACE_FIT].mean_deg)) r->verdict = DEM_NO_VERDICT;
-    else if (!is_long_enough(scene, r)) r->verdict = DEM_TOO_SHORT;
+    else if (!is_long_enough(scene, window, r)) r->verdict = DEM_TOO_SHORT;
     else if (measure_comes_in_falls(results->regime.regime) || is_drifting(&d)) r->verdict = DEM_DRIFTING;
     else r->verdict = is_steady(&d, r) ? DEM_STEADY : DEM_TOO_SHORT;
     if (r->verdict == DEM_TOO_SHORT) r->drift_deg_per_revolution = NAN; /* a moment's slope; the bound stands */

@@ -85,6 +85,9 @@ static bool is_window(double tau, size_t lag, double n)
     return exp(-w / decay) < decay / sqrt(w * n);
 }
 
+/* Share of a series that the lags taken in may cover, so that the correction below stays finite. */
+static const double MOST_SHARE = 0.75;
+
 /* Variance of the mean of the n values that are there, from Wolff's window or from one of `memory` lags, whichever gives more. */
 static double variance_of_mean(const double *x, size_t count, double n, size_t memory)
 {
@@ -98,8 +101,8 @@ static double variance_of_mean(const double *x, size_t count, double n, size_t m
         terms += 2;
         const bool ends = !is_over && (is_window(0.5 * sum / naive, lag, n) || lag + 1 >= count / 2);
         /* Each covariance was taken about the mean of the series rather than the true one, which makes it too small by the
-         * variance of that mean. */
-        if (ends || lag == memory) largest = fmax(largest, sum * (1 + terms / n));
+         * variance of that mean, and their sum by the share terms / n. */
+        if (ends || lag == memory) largest = fmax(largest, sum / (1 - fmin(terms / n, MOST_SHARE)));
         is_over = is_over || ends;
     }
     return largest / n;
@@ -127,9 +130,9 @@ double statistics_standard_error_of_memory(const double *x, size_t count, size_t
 
 double statistics_standard_error(const double *x, size_t count) { return statistics_standard_error_of_memory(x, count, 0); }
 
-double statistics_correlation_length(const double *x, size_t count)
+double statistics_correlation_length(const double *x, size_t count, size_t memory)
 {
-    const double deviation = statistics_deviation(x, count), error = statistics_standard_error(x, count);
+    const double deviation = statistics_deviation(x, count), error = statistics_standard_error_of_memory(x, count, memory);
     size_t n = 0;
     for (size_t k = 0; k < count; k++) n += !isnan(x[k]);
     return deviation > 0 ? (double)n * (error / deviation) * (error / deviation) : 1.0;
@@ -185,11 +188,11 @@ line_fit statistics_line(const double *x, const double *y, size_t count, double 
     return fit;
 }
 
-trend statistics_trend(const double *x, const double *y, size_t count, double *residual)
+trend statistics_trend(const double *x, const double *y, size_t count, size_t memory, double *residual)
 {
     const line_fit plain = statistics_line(x, y, count, 1.0);
     for (size_t k = 0; k < count; k++) residual[k] = y[k] - plain.intercept - plain.slope * x[k];
-    const double correlation = statistics_correlation_length(residual, count);
+    const double correlation = statistics_correlation_length(residual, count, memory);
     return (trend){ statistics_line(x, y, count, correlation), correlation, statistics_deviation(residual, count) };
 }
 

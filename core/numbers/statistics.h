@@ -9,8 +9,8 @@ double statistics_deviation(const double *x, size_t count); /* standard deviatio
 double statistics_median(double *x, size_t count);          /* reorders x */
 
 /* Standard error of the mean of a correlated series, from the sum of its autocovariances over a window that the series
- * chooses itself (Wolff 2004, Eqns 31, 49, 52). Within 5 % of the truth for series of ten correlation lengths or more,
- * too small for shorter ones (0.84 of it at five). NaN for fewer than 8 values. */
+ * chooses itself (Wolff 2004, Eqns 31 and 52). Within 5 % of the truth for series of ten correlation lengths or more,
+ * too small for shorter ones (0.86 of it at five). NaN for fewer than 8 values. */
 double statistics_standard_error(const double *x, size_t count);
 
 /* The same of a series whose values are known to come back, weaker, within `memory` values: it may pass through zero before
@@ -19,8 +19,8 @@ double statistics_standard_error(const double *x, size_t count);
 double statistics_standard_error_of_memory(const double *x, size_t count, size_t memory);
 
 /* How many values of the series tell as much of the mean as one independent value: n (SE / deviation)^2; about 1 when
- * uncorrelated. */
-double statistics_correlation_length(const double *x, size_t count);
+ * uncorrelated. memory: as above, 0 where none is known. */
+double statistics_correlation_length(const double *x, size_t count, size_t memory);
 
 /* Where the initial transient of a series ends: the cut that minimises the marginal standard error of what
  * remains, in batches of five (MSER-5, White 1997), at most half of the series. */
@@ -40,7 +40,7 @@ typedef struct trend {
     double correlation; /* length, in values, of the residuals */
     double deviation;   /* of the residuals */
 } trend;
-trend statistics_trend(const double *x, const double *y, size_t count, double *residual);
+trend statistics_trend(const double *x, const double *y, size_t count, size_t memory, double *residual);
 
 /* Student's t that 95 of 100 values stay within on either side, of 3 degrees of freedom or more. */
 double statistics_student_95(double freedom);

@@ -54,6 +54,16 @@ static void the_standard_error_of_a_correlated_series_is_the_scatter_of_its_mean
     }
 }
 
+/* Five correlation lengths: covariances about the mean of so short a series sum to some 0.6 of theirs, of which a first-order
+ * correction puts back too little (0.88). */
+static void a_short_series_is_corrected_for_its_own_mean(void **unused)
+{
+    (void)unused;
+    dice d = { 19 };
+    double covered;
+    CHECK_BETWEEN(claimed_over_true(&d, 0.5, 15, &covered), 0.92, 1.0);
+}
+
 /* x_k = x_(k-12)/2 + noise of deviation 1, nothing else: the mean of n has the error 2/sqrt(n), three times the variance of
  * independent values. Two echoes are summed up to lag 24, 2.5 of the 3: 0.91 of the error. A window that ends where the
  * correlation first vanishes sees none, 0.58. 2000 independent means are known to 1.6 %. */
@@ -106,9 +116,9 @@ static void the_correlation_length_of_an_uncorrelated_series_is_near_one_and_gro
     static double x[COUNT];
     dice d = { 41 };
     fill_autoregressive(&d, 0, x, COUNT);
-    CHECK_BETWEEN(statistics_correlation_length(x, COUNT), 1, 1.12); /* three times 2/sqrt(8192), the noise of two lags */
+    CHECK_BETWEEN(statistics_correlation_length(x, COUNT, 0), 1, 1.12); /* three times 2/sqrt(8192), the noise of two lags */
     fill_autoregressive(&d, 0.9, x, COUNT); /* (1+a)/(1-a) = 19; noise of some 60 lags: sqrt(2*61/8192), and three of it */
-    CHECK_BETWEEN(statistics_correlation_length(x, COUNT), 12, 26);
+    CHECK_BETWEEN(statistics_correlation_length(x, COUNT, 0), 12, 26);
 }
 
 static void too_few_values_have_no_standard_error(void **unused)
@@ -218,7 +228,7 @@ static void missing_values_are_left_out_everywhere(void **unused)
     assert_true(isnan(statistics_line(none, none, 2, 1).slope));
 }
 
-UNIT_TESTS(the_standard_error_of_a_correlated_series_is_the_scatter_of_its_mean,
+UNIT_TESTS(the_standard_error_of_a_correlated_series_is_the_scatter_of_its_mean, a_short_series_is_corrected_for_its_own_mean,
            a_series_of_five_correlation_lengths_claims_too_small_an_error, a_series_longer_than_is_summed_over_has_the_same_error,
            the_correlation_length_of_an_uncorrelated_series_is_near_one_and_grows_with_memory,
            an_error_that_remembers_counts_the_echoes_that_a_window_misses, too_few_values_have_no_standard_error,
