@@ -30,6 +30,11 @@ route_handler create_study, list_studies, show_study, remove_study, retry_study,
 route_handler begin_session, end_session;
 /* handlers_query.c */
 route_handler run_query;
+/* handlers_tables.c */
+route_handler show_tables;
+/* "; job has id, ...": what there is instead of the table or column that a problem says there is not; owned by the caller, NULL: the
+ * problem is another. */
+char *names_for_error(api_service *service, const char *sql, const char *problem);
 
 /* For the store's refusals, so that each handler says only what it wanted: "read the job". */
 /* The same of something that was to be added: on a full disk it tells what would make room, and how much. */

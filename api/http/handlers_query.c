@@ -1,5 +1,6 @@
 /* Read-only SQL of a user, as JSON or CSV. */
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "handlers.h"
@@ -61,10 +62,13 @@ static bool take_row(void *context, int64_t row, const query_value *values, int 
     return !table->truncated;
 }
 
-static void respond_query_failure(http_response *response, query_status status, const char *problem)
+static void respond_query_failure(api_service *service, http_response *response, query_status status, const char *sql,
+                                  const char *problem)
 {
     if (status == QUERY_REFUSED) {
-        http_respond_problem(response, 400, NULL, "The query can't be run", "%s", problem);
+        char *names = names_for_error(service, sql, problem);
+        http_respond_problem(response, 400, NULL, "The query can't be run", "%s%s", problem, names ? names : "");
+        free(names);
     } else {
         http_respond_problem(response, 503, NULL, status == QUERY_TOO_SLOW ? "The query takes too long" : "Store not available",
                              "%s", problem);
@@ -77,8 +81,12 @@ void run_query(api_service *service, const http_request *request, http_response 
     const char *sql = http_request_parameter(request, "sql");
     query_table table = { .csv = wants_csv(request) };
     if (!sql) {
-        http_respond_problem(response, 400, NULL, "Bad parameter",
-                             "parameter sql is missing; for example /query?sql=select+friction,angle_deg+from+run_summary");
+        show_tables(service, request, response);
+        return;
+    }
+    const char *form = http_request_parameter(request, http_request_parameter(request, "f") ? "f" : "format");
+    if (form && strcmp(form, "html") == 0) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "html is a form of the list of tables alone, without sql");
         return;
     }
     name_file(response, "query", table.csv ? ".csv" : ".json", table.csv);
@@ -87,7 +95,7 @@ void run_query(api_service *service, const http_request *request, http_response 
     const query_status status = store_query(service->store, sql, &request->client, take_row, &table, problem, sizeof problem);
     if (status != QUERY_OK) {
         text_buffer_clear(&table.out);
-        respond_query_failure(response, status, problem);
+        respond_query_failure(service, response, status, sql, problem);
         return;
     }
     if (table.csv && table.truncated) { /* a table without its end could not be told from a whole one */

@@ -41,7 +41,7 @@ const http_route route_table[] = {
     { "GET", "/studies/{}/results", " format limit f ", show_study_results, .formats = " json csv " },
     { "GET", "/studies/{}/results.csv", "", show_study_csv, .open = false },
     { "GET", "/studies/{}/spec", " f ", show_study_spec, .open = false },
-    { "GET", "/query", " sql format f ", run_query, .formats = " json csv ", .slow = true },
+    { "GET", "/query", " sql format f ", run_query, .formats = " json csv html ", .slow = true },
     { "POST", "/session", "", begin_session, .open = true },
     { "DELETE", "/session", "", end_session, .open = true },
     { "GET", "/healthz", " f ", show_health, .open = false },

@@ -124,6 +124,7 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
         json_t *values = execute_request_inputs(inputs, problems);
         read_inputs(spec, beds ? beds->memory : NULL, values, problems);
         if (beds && advances_a_scene(spec)) spec->inputs.client = beds->client;
+        spec->given = spec_inputs_given(spec->type->inputs, values);
         json_decref(values);
         spec->type->apply_rules(spec, seed_if_missing, problems);
     }
@@ -147,6 +148,7 @@ void job_spec_clear(job_spec *spec)
 {
     json_decref(spec->label);
     json_decref(spec->wanted);
+    json_decref(spec->given);
     json_decref(spec->subscriber);
     if (spec->type) spec_inputs_clear(spec->type->inputs, (char *)spec + spec->type->inputs_at);
     memset(spec, 0, sizeof *spec);

@@ -139,6 +139,7 @@ typedef struct job_spec {
     json_t *label;            /* object of strings and numbers, owned; never NULL */
     int priority;       /* in [-PRIORITY_MOST, PRIORITY_MOST]; no part of the canonical spec, since results do not depend on it */
     json_t *wanted;     /* how its results are wanted (execute_request.h), owned; NULL: as ever. No part of the canonical spec */
+    json_t *given;      /* owned: the inputs that the request had, as "contact/friction" */
     json_t *subscriber; /* who is called back (subscriber.h), owned; NULL: nobody. Likewise */
 
     /* Of all that advance a scene: */

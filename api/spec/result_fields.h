@@ -52,6 +52,7 @@ typedef struct result_table {
     size_t output_count;
     /* Describes members of an output that are not in the table; NULL: there are none. */
     void (*describe_words)(json_t *properties, const char *output);
+    const char *const *other_angles; /* definitions in other_methods of repose, ends with NULL; NULL: there are none */
 } result_table;
 
 /* "outputs" of the process description. New reference. */

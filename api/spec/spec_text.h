@@ -14,6 +14,8 @@ void spec_inputs_read(const spec_table *table, const json_t *object, void *input
 /* Frees what reading allocated: long lists, which stand in the inputs' own struct and not in a list's entries. */
 void spec_inputs_clear(const spec_table *table, void *inputs);
 
+/* ["contact/friction", ...]: those that an object of inputs has. New reference; NULL: no memory. */
+json_t *spec_inputs_given(const spec_table *table, const json_t *inputs);
 /* New reference; NULL: no memory. */
 json_t *spec_inputs_write(const spec_table *table, const void *inputs);
 

@@ -253,6 +253,9 @@ typedef struct query_value {
 /* row 0 holds the column names as texts, the rows follow; another row 0: all of it comes once more, from the beginning.
  * False stops, which is no error. */
 typedef bool query_visitor(void *context, int64_t row, const query_value *values, int count);
+/* The columns of all tables and views that users' SQL may read, those of one table one after the other. False stops, with no error. */
+typedef bool column_visitor(void *context, const char *table, const char *column, const char *type);
+store_status store_list_columns(job_store *store, column_visitor *visit, void *context);
 query_status store_query(job_store *store, const char *sql, const client_watch *client, query_visitor *visit, void *context,
                          char *problem, size_t problem_size);
 

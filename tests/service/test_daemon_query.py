@@ -272,11 +272,6 @@ def test_comments_and_semicolons_are_no_second_statement(filled, sql):
     assert ask(filled, sql).json()["rows"] == [[1]]
 
 
-def test_a_missing_query_is_explained(filled):
-    answer = filled.get("/query")
-    assert answer.status_code == 400 and "/query?sql=" in answer.json()["detail"]
-
-
 def test_the_standard_deviation_is_that_of_a_sample(fake):
     def answer(values):
         sql = f"select stddev(value) from json_each('{json.dumps(values)}')"

@@ -173,6 +173,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call(path, href, 304, headers={"If-None-Match": whole.headers["ETag"]})
     call(path, href, 416, headers={"Range": "bytes=99999999999-"})
     for format in ("json", "csv"):
+        call("/query", f"{url}/query?f={format.replace('csv', 'html')}", 200)
         call("/query", f"{url}/query?sql=select id, angle_deg from run_summary&format={format}", 200)
     call("/jobs/{id}/results", f"{url}/jobs/{endless}/results", 404)
     call("/jobs/{id}", f"{url}/jobs/{endless}?only=delete", 409, "DELETE")
@@ -245,7 +246,7 @@ def test_every_error_is_a_documented_problem(daemon, contract):
         (400, "/jobs", {"url": f"{url}/jobs?colour=red"}),
         (400, jobs, {"url": f"{url}/jobs/{NO_JOB}?wait=forever"}),
         (400, "/query", {"url": f"{url}/query?sql=delete from job"}),
-        (400, "/query", {"url": f"{url}/query"}),
+        (400, "/query", {"url": f"{url}/query?sql=select 1&f=html"}),
         (400, "/studies", {"method": "POST", "url": f"{url}/studies", "json": {"base": {"inputs": {}}, "cases": [1]}}),
         (400, "/studies", {"url": f"{url}/studies?limit=x"}),
         (404, "/studies/{id}", {"url": f"{url}/studies/{NO_JOB}"}),

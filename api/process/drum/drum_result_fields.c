@@ -86,7 +86,7 @@ static const result_field fields[] = {
       .meaning = "largest less smallest of the angles that slumps start and stop at; null: none was seen from beginning to end",
       IN_VIEW(880), IN_STUDY(250) },
     { "repose", NULL, "method", RESULT_WORD, offsetof(drum_result, method), "", LABEL("definition"),
-      .meaning = "how angle_deg was measured", STORED },
+      .meaning = "how angle_deg was measured", IN_VIEW(405), .view_name = "angle_definition" },
 
     { "regime", NULL, "certain", RESULT_MAYBE, offsetof(drum_result, certain), "", LABEL("certain"),
       .meaning = "told alike from either half of a window that is long enough, of a bed of enough particles; null: no regime",
@@ -171,6 +171,8 @@ static const result_output outputs[] = {
     { "run", "how the run went" },
 };
 
+static const char *const other_angles[] = { "center-of-mass", "chord", "theil-sen", "upper-chord", "lower-chord", NULL };
+
 static void describe_words(json_t *properties, const char *output)
 {
     if (strcmp(output, "repose") == 0) describe_angle_methods(properties);
@@ -182,4 +184,5 @@ const result_table drum_result_fields = {
     .output = outputs,
     .output_count = sizeof outputs / sizeof outputs[0],
     .describe_words = describe_words,
+    .other_angles = other_angles,
 };

@@ -64,6 +64,8 @@ static const result_output outputs[] = {
     { "fill", "where all particles are" }, { "run", "how the run went" },
 };
 
+static const char *const other_angles[] = { "center-to-wall", "area-fit", NULL };
+
 static void describe_words(json_t *properties, const char *output)
 {
     if (strcmp(output, "repose") == 0) describe_angle_methods(properties);
@@ -81,4 +83,5 @@ const result_table fill_result_fields = {
     .output = outputs,
     .output_count = sizeof outputs / sizeof outputs[0],
     .describe_words = describe_words,
+    .other_angles = other_angles,
 };

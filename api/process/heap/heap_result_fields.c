@@ -59,6 +59,8 @@ static const result_output outputs[] = {
     { "heap", "where all particles are" },  { "run", "how the run went" },
 };
 
+static const char *const other_angles[] = { "apex-to-base", "equal-volume-cone", "silhouette", NULL };
+
 static void describe_words(json_t *properties, const char *output)
 {
     if (strcmp(output, "repose") == 0) describe_angle_methods(properties);
@@ -73,4 +75,5 @@ const result_table heap_result_fields = {
     .output = outputs,
     .output_count = sizeof outputs / sizeof outputs[0],
     .describe_words = describe_words,
+    .other_angles = other_angles,
 };

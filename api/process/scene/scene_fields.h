@@ -61,6 +61,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
 #define FIELDS_OF_CONTACT \
     { SPEC_INPUTS, "contact", FIELD_OBJECT, SPEC_CONTACT, .meaning = "contact between particles" }, \
     { SPEC_CONTACT, "law", FIELD_CHOICE, .unit = "", .choices = contact_law_names, AT(contact_law), \
+      COLUMN("law", WORD, inputs.contact_law), IN_VIEW(215), \
       .meaning = "walton-braun: latching spring and incremental friction; spring-dashpot: linear springs and dashpots; " \
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
@@ -147,6 +148,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     { SPEC_INTEGRATION, "corrector_passes", FIELD_INTEGER, .unit = "", RANGE(1, 10), .fallback = 1, AT(corrector_passes), \
       .meaning = "corrector passes of Euler's equations for the spin of clusters (Eqns 9-10); more do not raise the order" }, \
     { SPEC_INPUTS, "precision", FIELD_CHOICE, .unit = "", .choices = precision_choices, AT(precision), \
+      COLUMN("precision", WORD, inputs.precision), IN_VIEW(305), \
       .meaning = "of contacts; positions, velocities and their integration are double always. single is as good for every " \
                  "angle, and faster" }
 /* clang-format on */

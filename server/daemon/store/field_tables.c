@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "database.h"
+#include "field_views.h"
 #include "text_buffer.h"
 
 enum { LONGEST_STATEMENT = 32768 };
@@ -243,43 +244,40 @@ bool field_tables_make(const field_tables *tables, sqlite3 *writer)
     return good && sqlite3_exec(writer, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
 }
 
-/* --- the view --- */
+/* --- the views --- */
 
-static bool write_view(const field_columns *columns, text_buffer *sql)
+/* Of failed runs what was given, and nothing that came out. */
+static void write_run_summary(const field_columns *columns, text_buffer *sql)
 {
     const field_column **list = calloc(columns->count, sizeof *list);
-    if (!list) return false;
+    sql->failed = sql->failed || !list;
+    if (!list) return;
     const size_t count = field_columns_select(columns, COLUMNS_IN_VIEW, list);
     text_buffer_print(sql, "CREATE VIEW run_summary AS SELECT job.id, job.process, job.label, job.status, job.created, job.started,"
-                           " job.finished, job.attempt, job.priority");
+                           " job.finished, job.attempt, job.priority, study.id AS study, job.study_case, job.study_repeat,"
+                           " job.message");
     write_columns(sql, list, count);
-    text_buffer_print(sql, " FROM job JOIN run_result ON run_result.job=job.number");
-    write_joins(sql, list, count, "run_result");
-    text_buffer_print(sql, " WHERE job.status='successful'");
+    field_views_add_angles(sql);
+    text_buffer_print(sql, " FROM job LEFT JOIN study ON study.number=job.study LEFT JOIN result ON result.job=job.number");
+    write_joins(sql, list, count, "");
+    text_buffer_print(sql, " WHERE job.status IN ('successful','failed')");
     free(list);
-    return !sql->failed;
-}
-
-static bool view_is(sqlite3 *writer, const char *sql)
-{
-    sqlite3_stmt *row =
-        sql_prepare(writer, "SELECT count(*) FROM sqlite_schema WHERE type='view' AND name='run_summary' AND sql=?", "t", sql);
-    const bool is = row && sqlite3_step(row) == SQLITE_ROW && sqlite3_column_int(row, 0) == 1;
-    sqlite3_finalize(row);
-    return is;
 }
 
 bool field_tables_make_view(const field_tables *tables, sqlite3 *writer)
 {
-    text_buffer sql;
-    text_buffer_init(&sql, LONGEST_STATEMENT);
-    if (write_view(&tables->columns, &sql) && view_is(writer, sql.text)) {
-        text_buffer_clear(&sql);
-        return true;
-    }
-    bool good = sqlite3_exec(writer, "BEGIN IMMEDIATE; DROP VIEW IF EXISTS run_summary", NULL, NULL, NULL) == SQLITE_OK;
-    if (good) good = run_text(writer, &sql);
-    else text_buffer_clear(&sql);
+    text_buffer summary, fields, inputs;
+    text_buffer_init(&summary, LONGEST_STATEMENT);
+    text_buffer_init(&fields, LONGEST_STATEMENT);
+    text_buffer_init(&inputs, LONGEST_STATEMENT);
+    write_run_summary(&tables->columns, &summary);
+    field_views_write_input_field(&fields);
+    field_views_write_job_input(&inputs);
+    /* Takes the lock for writing only when it comes to that. */
+    bool good = sqlite3_exec(writer, "BEGIN", NULL, NULL, NULL) == SQLITE_OK;
+    good = field_view_make(writer, "run_summary", &summary) && good;
+    good = field_view_make(writer, "input_field", &fields) && good;
+    good = field_view_make(writer, "job_input", &inputs) && good;
     return good && sqlite3_exec(writer, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
 }
 

@@ -33,8 +33,9 @@ void field_tables_clear(field_tables *tables);
 /* Makes tables and columns that the database lacks. Writes nothing where it lacks none. Before the migrations, which may
  * fill columns in. False: the connection tells why, and is to be closed, which rolls back; of it too. */
 bool field_tables_make(const field_tables *tables, sqlite3 *writer);
-/* Makes the view run_summary: one row a successful run, with its main inputs and results. Writes nothing where it is as it should
- * be. After the migrations, since it shows columns of `job`. */
+/* Makes the views: run_summary, one row a run that has ended well or failed, with its main inputs and results; input_field and
+ * job_input (field_views.h). Writes nothing where they are as they should be. After the migrations, since they show columns of
+ * `job`. */
 bool field_tables_make_view(const field_tables *tables, sqlite3 *writer);
 
 /* Between begin and end: the main inputs of a job as a row of its process's table. */

@@ -123,7 +123,8 @@ static const char *client_of(const job_spec *spec)
 }
 
 static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *spec, const char *id, const char *text,
-                               const char *label, const char *wanted, const job_place *place, const job_estimate *estimate)
+                               const char *label, const char *wanted, const char *given, const job_place *place,
+                               const job_estimate *estimate)
 {
     char now[JOB_TIME_SIZE];
     time_text(now);
@@ -131,11 +132,12 @@ static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *
         writer, NULL,
         "INSERT INTO "
         "job(number,id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
-        "study,study_case,study_repeat,priority,client,turn,wanted) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted',"
+        "study,study_case,study_repeat,priority,client,turn,wanted,given) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted',"
         "'waiting for a free worker',?5,?6,?7,?8,?8,"
-        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11),?13,?14,?15,?16)",
-        "ttttiddtiiiiitit", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes,
-        now, place->study, place->index, place->repeat, number, (int64_t)spec->priority, client_of(spec), place->turn, wanted);
+        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11),?13,?14,?15,?16,?17)",
+        "ttttiddtiiiiititt", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds, estimate->memory_bytes,
+        now, place->study, place->index, place->repeat, number, (int64_t)spec->priority, client_of(spec), place->turn, wanted,
+        given);
 }
 
 store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,
@@ -143,16 +145,18 @@ store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64
 {
     char *label = json_dumps(spec->label, JSON_COMPACT | JSON_REAL_PRECISION(15)); /* 0.1, not 0.10000000000000001 */
     char *wanted = spec->wanted ? json_dumps(spec->wanted, JSON_COMPACT) : NULL;
+    char *given = spec->given ? json_dumps(spec->given, JSON_COMPACT) : NULL;
     const job_estimate estimate = job_spec_estimate(spec, machine);
     store_status status = !label || (spec->wanted && !wanted)
                               ? STORE_FAILED
-                              : insert_row(writer, number, spec, id, text, label, wanted, place, &estimate);
+                              : insert_row(writer, number, spec, id, text, label, wanted, given, place, &estimate);
     if (number == 0) number = sqlite3_last_insert_rowid(writer);
     if (status == STORE_OK) status = field_tables_insert_inputs(fields, writer, number, spec);
     if (status == STORE_OK) status = store_insert_load(writer, number, &estimate, machine);
     if (status == STORE_OK) status = store_insert_subscriber(writer, number, spec->subscriber);
     free(label);
     free(wanted);
+    free(given);
     return status;
 }
 

@@ -318,3 +318,30 @@ store_status store_list_snapshots(job_store *store, const char *id, int64_t afte
         " ORDER BY number LIMIT ?",
         id, after, limit, take_snapshot, &to);
 }
+
+typedef struct column_walk {
+    column_visitor *visit;
+    void *context;
+} column_walk;
+
+static bool take_column(sqlite3_stmt *row, void *context)
+{
+    const column_walk *to = context;
+    const char *type = (const char *)sqlite3_column_text(row, 2);
+    return to->visit(to->context, (const char *)sqlite3_column_text(row, 0), (const char *)sqlite3_column_text(row, 1),
+                     type ? type : "");
+}
+
+store_status store_list_columns(job_store *store, column_visitor *visit, void *context)
+{
+    column_walk to = { visit, context };
+    sqlite3 *reader = store_borrow_reader(store);
+    return store_walk(
+        store, reader,
+        sql_prepare(reader,
+                    "SELECT one.name, column.name, column.type FROM sqlite_schema one, pragma_table_xinfo(one.name) column"
+                    " WHERE one.type IN ('table','view') AND one.name NOT LIKE 'sqlite_%'"
+                    " ORDER BY one.type DESC, one.name, column.cid",
+                    ""),
+        take_column, &to);
+}

@@ -23,7 +23,8 @@ static const char functions[] =
     " abs avg ceil ceiling coalesce count cume_dist date datetime degrees dense_rank exp first_value floor format glob"
     " group_concat hex ifnull iif instr json json_array json_array_length json_extract json_group_array json_group_object"
     " json_object json_type json_valid julianday lag last_value lead length like ln log log10 log2 lower ltrim max min mod"
-    " nth_value ntile nullif percent_rank pi pow power printf quote radians rank replace round row_number rtrim sign sin stddev"
+    " nth_value ntile nullif percent_rank pi pow power printf quantile quote radians rank replace round row_number rtrim sign sin "
+    "stddev"
     " cos tan asin acos atan atan2 sqrt strftime substr substring sum time total trim trunc typeof unicode unixepoch upper"
     " -> ->> current_date current_time current_timestamp ";
 

@@ -129,7 +129,7 @@ bool query_function_is_ours(const char *name, size_t length)
 
 bool query_functions_install(sqlite3 *database, query_watch *watch)
 {
-    bool good = query_statistics_install(database);
+    bool good = query_statistics_install(database, watch);
     for (size_t i = 0; i < sizeof ours / sizeof ours[0]; i++)
         good = good
                && sqlite3_create_function(database, ours[i].name, ours[i].arguments, SQLITE_UTF8 | SQLITE_DETERMINISTIC, watch,

@@ -5,6 +5,7 @@
 #include <sqlite3.h>
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 #include "client_watch.h"
 
@@ -12,6 +13,7 @@
 typedef struct query_watch {
     double deadline, looked;    /* monotonic s; when the client was last looked at */
     const client_watch *client; /* lent for one statement */
+    int64_t values_held;        /* by the quantiles that it works on */
 } query_watch;
 
 bool query_watch_is_over(query_watch *watch);
@@ -26,7 +28,7 @@ bool query_function_is_ours(const char *name, size_t length);
 bool query_call_is_in_time(sqlite3_context *call);
 
 /* query_statistics.c */
-bool query_statistics_install(sqlite3 *database);
+bool query_statistics_install(sqlite3 *database, query_watch *watch);
 
 /* query_printf.c */
 void query_printf(sqlite3_context *call, int count, sqlite3_value **values);

@@ -205,6 +205,13 @@ static const char subscribers[] =
         }                                                                                                                          \
     }
 
+/* What jobs from before ran with stands in their specifications. given: JSON, the inputs that the request had; NULL: not known. */
+#define WORDS_OF_SPECIFICATIONS(table)                                                                                             \
+    "UPDATE " table " SET law=coalesce((SELECT spec->>'$.inputs.contact.law' FROM job WHERE number=job),law),"                     \
+    " precision=coalesce((SELECT spec->>'$.inputs.precision' FROM job WHERE number=job),precision);"
+static const char given_inputs[] = "ALTER TABLE job ADD COLUMN given TEXT;" WORDS_OF_SPECIFICATIONS("drum_input")
+    WORDS_OF_SPECIFICATIONS("fill_input") WORDS_OF_SPECIFICATIONS("heap_input");
+
 const schema_migration schema_migrations[] = {
     { { job_tables, result_tables } },
     NO_TABLES_OF_ITS_OWN,
@@ -226,5 +233,6 @@ const schema_migration schema_migrations[] = {
     { { request_keys } },
     { { turns_of_clients } },
     { { subscribers } },
+    { { given_inputs } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];
