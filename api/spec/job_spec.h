@@ -95,7 +95,7 @@ typedef struct scene_inputs {
     double latch_damping;
     double unloading;                                  /* 0: constant, 1: variable */
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */
-    double poissons_ratio;
+    double poissons_ratio, steps_per_contact;
     double wall_friction, wall_rolling_friction, end_friction, end_rolling_friction, lining_diameter, lining_pitch;
     double lifter_count, lifter_height, lifter_width, lifter_friction; /* NaN: no lifters */
     double revolutions, seconds, until_standard_error;                 /* one of the three */

@@ -100,7 +100,10 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     { SPEC_CONTACT, "youngs_modulus", FIELD_REAL, .unit = "Pa", RANGE(1e3, 1e13), .fallback = NAN, .excludes = "maximum_overlap", \
       AT(youngs_modulus), .meaning = "of particles and wall, instead of maximum_overlap; for hertz-mindlin alone" }, \
     { SPEC_CONTACT, "poissons_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = 0.3, AT(poissons_ratio), \
-      .meaning = "of particles and wall; used by hertz-mindlin alone" }
+      .meaning = "of particles and wall; used by hertz-mindlin alone" }, \
+    { SPEC_CONTACT, "steps_per_contact", FIELD_REAL, .unit = "", RANGE(10.0, 200.0), .fallback = DEM_STEPS_PER_CONTACT, \
+      AT(steps_per_contact), \
+      .meaning = "time steps in a collision of the two lightest particles, which the time step follows from" }
 
 #define FIELDS_OF_MATERIALS \
     { SPEC_INPUTS, "materials", FIELD_NAMED_LIST, SPEC_MATERIALS, RANGE(0, MOST_MATERIALS), AT(materials), \

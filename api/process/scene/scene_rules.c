@@ -247,7 +247,9 @@ double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem
                          "maximum_overlap; youngs_modulus is for hertz-mindlin",
                          inputs->youngs_modulus);
     const double overlap = (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
-    return pairs_derive(inputs, &worst, overlap, scene, problems);
+    const double largest = pairs_derive(inputs, &worst, overlap, scene, problems);
+    scene->time_step *= DEM_STEPS_PER_CONTACT / inputs->steps_per_contact;
+    return largest;
 }
 
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems)

@@ -1,4 +1,5 @@
 /* Claims about reading, checking and writing a job's specification. */
+#include "dem_rules.h"
 #include "requests.h"
 
 static void a_minimal_request_gets_every_default(void **state)
@@ -287,6 +288,22 @@ static void each_law_takes_its_own_elasticity(void **state)
     job_spec_clear(&spec);
 }
 
+/* Duration of a collision (pi/2) sqrt(m/(2 K1)) (1 + e), of spheres of mass m. */
+static void the_time_step_is_the_share_of_a_collision_that_is_asked_for(void **state)
+{
+    (void)state;
+    const int counts[] = { 10, 20, 50 };
+    for (int k = 0; k < 3; k++) {
+        char contact[80];
+        snprintf(contact, sizeof contact, "{\"stiffness\": 4000, \"restitution\": 0.5, \"steps_per_contact\": %d}", counts[k]);
+        job_spec spec = parse_or_fail(minimal_with("contact", contact));
+        const double collision = DEM_PI / 2 * sqrt(0.5 * dem_species_mass(&spec.scene.species[0]) / 4000) * 1.5;
+        assert_true(fabs(spec.scene.time_step * counts[k] / collision - 1) < 1e-12);
+        job_spec_clear(&spec);
+    }
+    expect_problem("contact", "{\"steps_per_contact\": 9}", "/inputs/contact/steps_per_contact: is 9; must be in [10, 200]\n");
+}
+
 static void one_of_two_alternatives_is_enough_and_both_are_too_much(void **state)
 {
     (void)state;
@@ -513,8 +530,9 @@ UNIT_TESTS(a_minimal_request_gets_every_default, a_canonical_spec_is_read_and_wr
            unknown_members_are_refused_with_the_nearest_name, what_is_not_available_yet_is_refused_with_what_is,
            a_drum_may_have_end_walls_and_lifters_with_frictions_of_their_own, a_cluster_of_named_or_given_spheres_is_one_particle,
            a_cluster_that_is_no_body_is_refused_with_the_sphere_at_fault, a_run_may_be_asked_for_its_answer,
-           each_law_takes_its_own_elasticity, one_of_two_alternatives_is_enough_and_both_are_too_much,
-           all_problems_are_listed_at_once, combinations_that_make_no_sense_are_refused, labels_are_short_texts_and_numbers,
+           each_law_takes_its_own_elasticity, the_time_step_is_the_share_of_a_collision_that_is_asked_for,
+           one_of_two_alternatives_is_enough_and_both_are_too_much, all_problems_are_listed_at_once,
+           combinations_that_make_no_sense_are_refused, labels_are_short_texts_and_numbers,
            a_long_message_is_cut_between_characters, the_estimate_is_near_what_runs_of_few_and_of_many_took,
            the_estimate_of_settling_follows_how_few_grains_there_are, the_estimate_is_near_what_heaps_and_fills_took,
            the_estimate_grows_with_what_is_asked, the_description_has_every_default_and_range_that_the_parser_has)
