@@ -1,6 +1,6 @@
 """In what order jobs run: by priority, and clients take turns; a job that waits says where it stands."""
 import sqlite3
-from datetime import datetime
+from datetime import datetime, timezone
 
 import pytest
 import requests
@@ -102,3 +102,60 @@ def test_jobs_are_found_by_a_member_of_their_label(one):
     assert [job["jobID"] for job in page["jobs"] + second["jobs"]] == jobs[1::-1]
     for query in ("label.=x", "label.project=axial&label.other=axial", "lable.project=axial", "label.project=a&label.project=b"):
         assert one.get(f"/jobs?{query}").status_code == 400, query
+
+
+# --- short jobs do not wait for long ones ---
+
+LONG = SPEC | {"duration": {"seconds": 900.0}, "snapshots": {"interval": 0}}  # takes minutes, by its estimate
+
+
+def post_long(daemon, **label):
+    body = {"inputs": LONG, "label": {"fake": "slow", "seconds": 100} | label}
+    answer = requests.post(f"{daemon.url}/processes/drum/execution", json=body, timeout=30)
+    assert answer.status_code == 201 and answer.json()["estimate"]["wall_seconds"] > 10, answer.text
+    return answer.json()["jobID"]
+
+
+@pytest.fixture
+def two(tmp_path):
+    yield from run_daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "2"])
+
+
+def test_a_short_job_behind_long_ones_starts_soon_and_one_at_a_time(two):
+    long = [post_long(two, client="a") for _ in range(5)]
+    two.until(long[1], lambda job: job["status"] == "running")
+    busy = two.submit(client="b", seconds=3)
+    two.until(busy, lambda job: job["status"] == "running")
+    assert [two.job(job)["status"] for job in long] == ["running"] * 2 + ["accepted"] * 3
+    waiting = {name: post(two, priority, client="b", fake="quick").json()["jobID"]
+               for name, priority in (("first", 0), ("second", 0), ("high", 5))}
+    places = {name: two.job(job) for name, job in waiting.items()}
+    assert [places[name].get("position") for name in ("high", "first", "second")] == [1, 2, 3]
+    starts = [datetime.fromisoformat(places[name]["expected_start"]) for name in ("high", "first", "second")]
+    last_long = two.job(long[4])
+    assert starts == sorted(starts) and (starts[-1] - datetime.now(timezone.utc)).total_seconds() < 10
+    assert (datetime.fromisoformat(last_long["expected_start"]) - starts[-1]).total_seconds() > 60
+    assert last_long["position"] == 6  # two long ones are before it, and the short ones by priority or by turn
+    assert order_of(two, waiting) == ["high", "first", "second"]
+    ended, begun = two.job(busy)["finished"], two.job(waiting["high"])["started"]
+    assert ended <= begun  # one place, for one at a time
+    assert [two.job(job)["status"] for job in long] == ["running"] * 2 + ["accepted"] * 3
+
+
+def test_short_jobs_that_overtake_put_nobody_back(two):
+    """Many of one client run beside the long ones; the turn of another client's long job is not behind theirs."""
+    for _ in range(2):
+        post_long(two, client="a")
+    waiting = [post_long(two, client="a") for _ in range(3)]
+    short = [two.submit(client="c") for _ in range(8)]
+    for job in short:
+        assert two.ended(job)["status"] == "successful"
+    late = post_long(two, client="b")
+    assert [two.job(job)["position"] for job in (waiting[0], late, waiting[1], waiting[2])] == [1, 2, 3, 4]
+
+
+def test_the_lane_stays_shut_while_a_short_job_has_a_place(one):
+    first = one.submit(seconds=6)
+    one.until(first, lambda job: job["status"] == "running")
+    second = one.submit()
+    assert one.ended(second)["started"] >= one.job(first)["finished"]

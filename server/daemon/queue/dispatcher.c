@@ -17,9 +17,10 @@
 #include "log.h"
 #include "worker_ends.h"
 
-#define SECONDS_TO_LEAVE 5.0    /* between SIGTERM and SIGKILL */
-#define SECONDS_TO_RECORD 10.0  /* after which the daemon leaves although the store refuses */
-#define SECONDS_OF_SILENCE 15.0 /* workers report every second, but for some steps that may take long */
+#define SECONDS_TO_LEAVE 5.0        /* between SIGTERM and SIGKILL */
+#define SECONDS_TO_RECORD 10.0      /* after which the daemon leaves although the store refuses */
+#define SECONDS_OF_SILENCE 15.0     /* workers report every second, but for some steps that may take long */
+#define SECONDS_OF_A_SHORT_JOB 30.0 /* after which it is none, whatever was expected */
 #define GIGABYTE 1073741824.0
 
 enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8 };
@@ -39,11 +40,12 @@ void dispatcher_end_signals(sigset_t *ends)
 bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job,
                      int signals)
 {
-    *dispatcher =
-        (job_dispatcher){ .store = store, .executor = executor, .workers = workers, .threads = workers * threads_per_job };
+    *dispatcher = (job_dispatcher){
+        .store = store, .executor = executor, .workers = workers, .slots = workers + 1, .threads = workers * threads_per_job
+    };
     dispatcher->signals = signals;
     dispatcher->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    dispatcher->slot = calloc((size_t)workers, sizeof dispatcher->slot[0]);
+    dispatcher->slot = calloc((size_t)dispatcher->slots, sizeof dispatcher->slot[0]);
     dispatcher->last_round = monotonic_seconds();
     return dispatcher->slot && dispatcher->wake >= 0;
 }
@@ -113,23 +115,47 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
 static bool may_start(const job_dispatcher *dispatcher)
 {
     if (!dispatcher->recovered || queue_pause_holds(&dispatcher->pause, monotonic_seconds())) return false;
-    for (int i = 0; i < dispatcher->workers; i++) {
+    for (int i = 0; i < dispatcher->slots; i++) {
         const worker_slot *slot = &dispatcher->slot[i];
         if (slot->state != SLOT_FREE && queue_pause_is_trying(&dispatcher->pause, slot->started)) return false;
     }
     return true;
 }
 
-/* False: no job waits that fits, or the store refuses. */
+/* A short job does not wait for long ones: where nothing else is at work, one of them runs beside these. It is a place of its own,
+ * since one kept free of long jobs would stand empty most of the time; and what it takes from the others is two seconds now
+ * and then. A job that should have been short and is not counts as long after a while. */
+static worker_slot *free_lane(job_dispatcher *dispatcher)
+{
+    const double now = monotonic_seconds();
+    worker_slot *lane = &dispatcher->slot[dispatcher->workers];
+    if (lane->state != SLOT_FREE || dispatcher->pause.setbacks > 0) return NULL;
+    for (int i = 0; i < dispatcher->workers; i++) {
+        const worker_slot *slot = &dispatcher->slot[i];
+        if (slot->state == SLOT_FREE) continue;
+        if (slot->claim.estimated_seconds < SHORT_JOB && now - slot->started < SECONDS_OF_A_SHORT_JOB) return NULL;
+    }
+    return lane;
+}
+
+/* The slot that has got a job; NULL: no job waits that fits, or the store refuses. */
+static worker_slot *claim_next_job(job_dispatcher *dispatcher, job_claim *claim)
+{
+    /* One that tries after a pause is the least suspect: a few that this machine can't run would be in all others' way. */
+    const queue_order order = dispatcher->pause.setbacks > 0 ? QUEUE_BY_SETBACKS : QUEUE_BY_TURN;
+    const int all = dispatcher->threads, left = all - threads_in_use(dispatcher);
+    worker_slot *slot = free_slot(dispatcher);
+    if (slot && store_claim_job(dispatcher->store, order, left, all, claim) == STORE_OK) return slot;
+    worker_slot *lane = free_lane(dispatcher);
+    return lane && store_claim_job(dispatcher->store, QUEUE_SHORT, all, all, claim) == STORE_OK ? lane : NULL;
+}
+
+/* False: none was started. */
 static bool start_next_job(job_dispatcher *dispatcher)
 {
-    worker_slot *slot = may_start(dispatcher) ? free_slot(dispatcher) : NULL;
-    if (!slot) return false;
-    /* One that tries after a pause is the least suspect: a few that this machine can't run would be in all others' way. */
-    const bool tries = dispatcher->pause.setbacks > 0;
-    const int free_threads = dispatcher->threads - threads_in_use(dispatcher);
     job_claim claim;
-    if (store_claim_job(dispatcher->store, tries, free_threads, dispatcher->threads, &claim) != STORE_OK) return false;
+    worker_slot *slot = may_start(dispatcher) ? claim_next_job(dispatcher, &claim) : NULL;
+    if (!slot) return false;
     const double now = monotonic_seconds();
     *slot = (worker_slot){ .state = SLOT_WORKING,
                            .claim = claim,
@@ -210,23 +236,23 @@ static store_status record_events_of(job_dispatcher *dispatcher, worker_slot *sl
 /* One transaction for what all workers wrote. If it fails nothing is forgotten: the files still have it. */
 static void record_events(job_dispatcher *dispatcher)
 {
-    int64_t before[CONFIG_MOST_WORKERS] = { 0 };
+    int64_t before[CONFIG_MOST_WORKERS + 1] = { 0 };
     bool any = false;
-    for (int i = 0; i < dispatcher->workers; i++) {
+    for (int i = 0; i < dispatcher->slots; i++) {
         before[i] = dispatcher->slot[i].events_at;
         any = any || (dispatcher->slot[i].state != SLOT_FREE && !dispatcher->slot[i].claim_lost);
     }
     if (!any) return;
     store_status status = store_begin(dispatcher->store);
     if (status == STORE_OK) {
-        for (int i = 0; status == STORE_OK && i < dispatcher->workers; i++)
+        for (int i = 0; status == STORE_OK && i < dispatcher->slots; i++)
             if (dispatcher->slot[i].state != SLOT_FREE && !dispatcher->slot[i].claim_lost)
                 status = record_events_of(dispatcher, &dispatcher->slot[i]);
         status = store_end(dispatcher->store, status);
     }
     if (status == STORE_OK) return;
     dispatcher->store_failures++;
-    for (int i = 0; i < dispatcher->workers; i++) dispatcher->slot[i].events_at = before[i];
+    for (int i = 0; i < dispatcher->slots; i++) dispatcher->slot[i].events_at = before[i];
 }
 
 /* --- stopping and ending --- */
@@ -244,7 +270,7 @@ static void stop_worker(job_dispatcher *dispatcher, worker_slot *slot)
 
 static void stop_unwanted(job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->workers; i++) {
+    for (int i = 0; i < dispatcher->slots; i++) {
         worker_slot *slot = &dispatcher->slot[i];
         if (slot->state != SLOT_WORKING) continue;
         /* Leaving asks nobody: the store may be what hangs. */
@@ -256,7 +282,7 @@ static void stop_unwanted(job_dispatcher *dispatcher)
 
 static void notice_ends(job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->workers; i++) {
+    for (int i = 0; i < dispatcher->slots; i++) {
         worker_slot *slot = &dispatcher->slot[i];
         if (slot->state != SLOT_WORKING || !dispatcher->executor->has_ended(dispatcher->executor, &slot->worker, &slot->end))
             continue;
@@ -275,7 +301,7 @@ static void release_slot(worker_slot *slot)
 
 static void record_ends(job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->workers; i++) {
+    for (int i = 0; i < dispatcher->slots; i++) {
         worker_slot *slot = &dispatcher->slot[i];
         if (slot->state != SLOT_ENDED) continue;
         const store_status status = slot->claim_lost ? STORE_CONFLICT : worker_end_record(dispatcher, slot);
@@ -295,7 +321,7 @@ static void count_work(job_dispatcher *dispatcher)
 {
     double speed = 0.0;
     int running = 0;
-    for (int i = 0; i < dispatcher->workers; i++) {
+    for (int i = 0; i < dispatcher->slots; i++) {
         if (dispatcher->slot[i].state == SLOT_WORKING) running++;
         if (dispatcher->slot[i].state == SLOT_WORKING && isfinite(dispatcher->slot[i].speed)) speed += dispatcher->slot[i].speed;
     }
@@ -306,7 +332,7 @@ static void count_work(job_dispatcher *dispatcher)
 
 static bool is_idle(const job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->workers; i++)
+    for (int i = 0; i < dispatcher->slots; i++)
         if (dispatcher->slot[i].state != SLOT_FREE) return false;
     return true;
 }
@@ -319,10 +345,10 @@ static bool take_signal(job_dispatcher *dispatcher)
 
 static void sleep_until_needed(job_dispatcher *dispatcher)
 {
-    struct pollfd watched[CONFIG_MOST_WORKERS + 2] = { { .fd = dispatcher->wake, .events = POLLIN },
+    struct pollfd watched[CONFIG_MOST_WORKERS + 3] = { { .fd = dispatcher->wake, .events = POLLIN },
                                                        { .fd = dispatcher->signals, .events = POLLIN } };
     nfds_t count = 2;
-    for (int i = 0; i < dispatcher->workers; i++)
+    for (int i = 0; i < dispatcher->slots; i++)
         if (dispatcher->slot[i].state == SLOT_WORKING && dispatcher->slot[i].worker.watch >= 0)
             watched[count++] = (struct pollfd){ .fd = dispatcher->slot[i].worker.watch, .events = POLLIN };
     const bool calm = is_idle(dispatcher) && dispatcher->recovered && dispatcher->pause.setbacks == 0;
@@ -344,7 +370,7 @@ static void record(job_dispatcher *dispatcher, double *recorded)
 {
     bool ended = false;
     notice_ends(dispatcher);
-    for (int i = 0; i < dispatcher->workers; i++) ended = ended || dispatcher->slot[i].state == SLOT_ENDED;
+    for (int i = 0; i < dispatcher->slots; i++) ended = ended || dispatcher->slot[i].state == SLOT_ENDED;
     if (!ended && monotonic_seconds() - *recorded < 0.95) return; /* progress reaches the disk once a second, not at every wake */
     record_events(dispatcher);
     *recorded = monotonic_seconds();
@@ -364,7 +390,7 @@ static bool may_leave(const job_dispatcher *dispatcher)
 {
     if (!dispatcher->stopping) return false;
     if (is_idle(dispatcher)) return true;
-    for (int i = 0; i < dispatcher->workers; i++)
+    for (int i = 0; i < dispatcher->slots; i++)
         if (dispatcher->slot[i].state == SLOT_WORKING) return false;
     if (monotonic_seconds() - dispatcher->stopping_from < SECONDS_TO_RECORD) return false;
     log_line("leaving: what became of the last workers can't be recorded now; the next start does it");

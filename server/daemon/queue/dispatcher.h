@@ -37,9 +37,9 @@ typedef struct worker_slot {
 typedef struct job_dispatcher {
     job_store *store;
     worker_executor *executor;
-    int workers;         /* slots */
-    _Atomic int threads; /* of all workers together */
-    worker_slot *slot;   /* (workers) */
+    int workers, slots;  /* slots: one more, the lane of short jobs */
+    _Atomic int threads; /* of all workers together, but for the lane's */
+    worker_slot *slot;   /* (slots) the last is the lane */
     int wake, signals;   /* eventfds */
     queue_pause pause;
     _Atomic bool recovered; /* jobs that an earlier daemon left running are put back */

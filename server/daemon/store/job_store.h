@@ -107,9 +107,17 @@ typedef struct job_claim {
     int saved_in;       /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
 } job_claim;
 
-/* Takes the oldest job that waits, or the oldest of those with the fewest setbacks, if it needs no more threads than are free
- * (a job of more than `all_threads` counts as that many). STORE_NOT_FOUND: none. */
-store_status store_claim_job(job_store *store, bool by_setbacks, int free_threads, int all_threads, job_claim *claim);
+#define SHORT_JOB 2.0 /* s of estimate: what takes less has a lane */
+/* Which of the jobs that wait comes first. */
+typedef enum queue_order {
+    QUEUE_BY_TURN,     /* by priority, then as clients take turns */
+    QUEUE_BY_SETBACKS, /* the oldest of those with the fewest */
+    QUEUE_SHORT        /* of short jobs alone, by turn; whoever comes later is not put behind it for that */
+} queue_order;
+
+/* Takes the first job that waits, if it needs no more threads than are free (a job of more than `all_threads` counts as that
+ * many). STORE_NOT_FOUND: none. */
+store_status store_claim_job(job_store *store, queue_order order, int free_threads, int all_threads, job_claim *claim);
 
 /* Takes in how far checkpoints have come; the same events again change nothing. */
 void job_claim_note(job_claim *claim, const event_batch *events);

@@ -100,33 +100,50 @@ store_status store_find_job(job_store *store, const char *id, job_record *job)
     return status;
 }
 
-/* One walk over the jobs before it, in their index alone. */
-static const char place_sql[] =
-    "WITH before(jobs, seconds) AS ("
-    " SELECT count(*), total(estimated_seconds) FROM job INDEXED BY job_waiting_turn WHERE status='accepted' AND priority>?1"
-    " UNION ALL SELECT count(*), total(estimated_seconds) FROM job INDEXED BY job_waiting_turn"
-    " WHERE status='accepted' AND priority=?1 AND (turn,number)<(?2,?3)"
-    " UNION ALL SELECT 0, total(coalesce(eta_seconds,estimated_seconds*(1-progress/100))) FROM job WHERE status='running')"
-    "SELECT sum(jobs)+1,"
-    " strftime('%Y-%m-%dT%H:%M:%fZ','now',format('+%.3f seconds',min(1e9,total(seconds)/?4))) FROM before";
+/* One walk over the jobs before it, in their index alone; `and`: what else they are. `running`: of which jobs at work the
+ * rest has to be waited for, at so many places. */
+#define PLACE(index, and, running, places)                                                                                         \
+    "WITH before(jobs, seconds) AS ("                                                                                              \
+    " SELECT count(*), total(estimated_seconds) FROM job INDEXED BY " index " WHERE status='accepted' AND priority>?1"             \
+        and " UNION ALL SELECT count(*), total(estimated_seconds) FROM job INDEXED BY " index                                      \
+            " WHERE status='accepted' AND priority=?1 AND (turn,number)<(?2,?3)"                                                   \
+        and " UNION ALL SELECT 0, total(coalesce(eta_seconds,estimated_seconds*(1-progress/100))) FROM job WHERE "                 \
+            "status='running'" running ")SELECT sum(jobs)+1,"                                                                      \
+            " strftime('%Y-%m-%dT%H:%M:%fZ','now',format('+%.3f seconds',min(1e9,total(seconds)/" places                           \
+            "))) FROM before WHERE ?4>0"
+#define IS_SHORT " AND estimated_seconds<2.0"
+static const char place_sql[] = PLACE("job_waiting_turn", "", "", "?4");
+static const char lane_sql[] = PLACE("job_waiting_short", IS_SHORT, IS_SHORT, "1");
 
+static store_status read_place(sqlite3 *reader, const char *sql, const int64_t key[3], int64_t places, queue_place *place)
+{
+    sqlite3_stmt *row = sql_prepare(reader, sql, "iiii", key[0], key[1], key[2], places);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    if (code == SQLITE_ROW) {
+        place->position = sqlite3_column_int64(row, 0);
+        copy_text(place->expected_start, sizeof place->expected_start, row, 1);
+    }
+    return row ? sql_finish(row, code) : STORE_FAILED;
+}
+
+/* A short job starts by whichever comes first, its turn or the lane; those that it overtakes there are not before it. */
 store_status store_find_place(job_store *store, const char *id, queue_place *place)
 {
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *row = sql_prepare(reader, "SELECT priority, turn, number FROM job WHERE id=? AND status='accepted'", "t", id);
+    sqlite3_stmt *row = sql_prepare(
+        reader, "SELECT priority, turn, number, estimated_seconds<2.0 FROM job WHERE id=? AND status='accepted'", "t", id);
     int code = row ? sqlite3_step(row) : SQLITE_ERROR;
     const bool waits = code == SQLITE_ROW;
-    int64_t key[3] = { 0 };
-    for (int k = 0; waits && k < 3; k++) key[k] = sqlite3_column_int64(row, k);
+    int64_t key[4] = { 0 };
+    for (int k = 0; waits && k < 4; k++) key[k] = sqlite3_column_int64(row, k);
     store_status status = row ? sql_finish(row, code) : STORE_FAILED;
-    if (waits && status == STORE_OK) {
-        row = sql_prepare(reader, place_sql, "iiii", key[0], key[1], key[2], (int64_t)store->places);
-        code = row ? sqlite3_step(row) : SQLITE_ERROR;
-        if (code == SQLITE_ROW) {
-            place->position = sqlite3_column_int64(row, 0);
-            copy_text(place->expected_start, sizeof place->expected_start, row, 1);
-        }
-        status = row ? sql_finish(row, code) : STORE_FAILED;
+    if (waits && status == STORE_OK) status = read_place(reader, place_sql, key, store->places, place);
+    if (waits && status == STORE_OK && key[3]) {
+        queue_place lane;
+        status = read_place(reader, lane_sql, key, store->places, &lane);
+        place->position = lane.position;
+        if (status == STORE_OK && strcmp(lane.expected_start, place->expected_start) < 0)
+            memcpy(place->expected_start, lane.expected_start, sizeof place->expected_start);
     }
     store_return_reader(store, reader);
     return status == STORE_OK && !waits ? STORE_NOT_FOUND : status;

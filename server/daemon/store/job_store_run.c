@@ -44,14 +44,21 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
 
 /* The job that is to be started next, of those that are due: not one that is put off, but if its time is further ahead than
  * any delay the clock was set back since. */
-#define NEXT_JOB(jobs, order)                                                                                                      \
-    "(SELECT number FROM " jobs " WHERE status='accepted' AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY " order " LIMIT 1)"
+#define NEXT_JOB(jobs, and, order)                                                                                                 \
+    "(SELECT number FROM " jobs " WHERE status='accepted'" and " AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY " order " LIMIT 1)"
 #define CLAIM(next)                                                                                                                \
     "UPDATE job SET status='running', message='starting', started=coalesce(started,?1), updated=?1, eta_seconds=NULL"              \
     " WHERE number=" next " AND min(threads,?3)<=?4"                                                                               \
     " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec, study, attempts_before"
 
-store_status store_claim_job(job_store *store, bool by_setbacks, int free_threads, int all_threads, job_claim *claim)
+static const char *const claims[] = {
+    [QUEUE_BY_TURN] = CLAIM(NEXT_JOB("job INDEXED BY job_waiting_turn", "", "priority DESC, turn, number")),
+    [QUEUE_BY_SETBACKS] = CLAIM(NEXT_JOB("job INDEXED BY job_waiting", "", "setbacks, number")),
+    [QUEUE_SHORT] =
+        CLAIM(NEXT_JOB("job INDEXED BY job_waiting_short", " AND estimated_seconds<2.0", "priority DESC, turn, number")),
+};
+
+store_status store_claim_job(job_store *store, queue_order order, int free_threads, int all_threads, job_claim *claim)
 {
     *claim = (job_claim){ 0 };
     char now[JOB_TIME_SIZE];
@@ -59,13 +66,10 @@ store_status store_claim_job(job_store *store, bool by_setbacks, int free_thread
     const double unix = unix_seconds();
     store_status status = store_begin(store);
     if (status != STORE_OK) return status;
-    sqlite3_stmt *statement =
-        sql_prepare(store->writer,
-                    by_setbacks ? CLAIM(NEXT_JOB("job INDEXED BY job_waiting", "setbacks, number"))
-                                : CLAIM(NEXT_JOB("job INDEXED BY job_waiting_turn", "priority DESC, turn, number")),
-                    "tdiid", now, unix, (int64_t)all_threads, (int64_t)free_threads, unix + LONGEST_DELAY);
+    sqlite3_stmt *statement = sql_prepare(store->writer, claims[order], "tdiid", now, unix, (int64_t)all_threads,
+                                          (int64_t)free_threads, unix + LONGEST_DELAY);
     status = statement ? read_claim(statement, claim) : STORE_FAILED;
-    if (status == STORE_OK)
+    if (status == STORE_OK && order != QUEUE_SHORT)
         status = sql_run(store->writer, NULL,
                          "INSERT INTO queue_turn SELECT priority, turn FROM job WHERE number=?"
                          " ON CONFLICT DO UPDATE SET turn=max(turn,excluded.turn)",

@@ -196,6 +196,10 @@ static const char subscribers[] =
     "  AND EXISTS(SELECT 1 FROM subscriber WHERE job=new.number) BEGIN"
     "  DELETE FROM callback WHERE job=new.number;" TELL_SUCCESS TELL_FAILURE " END;";
 
+/* A short job must not be looked for among a hundred thousand long ones. The figure is that of SHORT_JOB. */
+static const char short_jobs[] = "CREATE INDEX job_waiting_short ON job(priority DESC, turn, number, estimated_seconds)"
+                                 " WHERE status='accepted' AND estimated_seconds<2.0;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -234,5 +238,6 @@ const schema_migration schema_migrations[] = {
     { { turns_of_clients } },
     { { subscribers } },
     { { given_inputs } },
+    { { short_jobs } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];
