@@ -26,6 +26,8 @@ route_handler send_fields, send_walls, send_snapshot_series, send_archive;
 /* handlers_studies.c */
 route_handler create_study, list_studies, show_study, remove_study, retry_study, show_study_results, show_study_csv,
     show_study_spec;
+/* handlers_continue.c */
+route_handler continue_job;
 /* handlers_session.c */
 route_handler begin_session, end_session;
 /* handlers_query.c */
@@ -35,6 +37,10 @@ route_handler show_tables;
 /* "; job has id, ...": what there is instead of the table or column that a problem says there is not; owned by the caller, NULL: the
  * problem is another. */
 char *names_for_error(api_service *service, const char *sql, const char *problem);
+
+/* handlers_processes.c: adds the job of this request, and answers with it; or there are problems, and nothing is answered. */
+void execute_document(api_service *service, const http_request *request, http_response *response, json_t *document,
+                      problem_list *problems);
 
 /* For the store's refusals, so that each handler says only what it wanted: "read the job". */
 /* The same of something that was to be added: on a full disk it tells what would make room, and how much. */

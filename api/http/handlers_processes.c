@@ -137,6 +137,27 @@ static bool fits_service(api_service *service, const job_spec *spec, problem_lis
     return problem_list_is_empty(problems);
 }
 
+/* False: there are problems, or it is answered that there is no memory. */
+static bool read_document(api_service *service, const process_type *type, const http_request *request, http_response *response,
+                          json_t *document, job_spec *spec, problem_list *problems)
+{
+    errno = 0;
+    set_default_threads(service, type, document);
+    start_source beds = store_beds(service->store);
+    beds.client = &request->client;
+    bool good = job_spec_parse_with(&beds, type->name, document, choose_seed(), spec, problems);
+    if (good && !fits_service(service, spec, problems)) {
+        job_spec_clear(spec);
+        good = false;
+    }
+    /* What was left out for want of memory is nobody's fault, and nothing else may be run in its place. */
+    if (errno != ENOMEM) return good;
+    if (good) job_spec_clear(spec);
+    json_array_clear(problems->errors);
+    respond_without_memory(response);
+    return false;
+}
+
 static bool read_spec(api_service *service, const process_type *type, const http_request *request, http_response *response,
                       job_spec *spec)
 {
@@ -153,21 +174,8 @@ static bool read_spec(api_service *service, const process_type *type, const http
     if (!problem_list_init(&problems)) {
         respond_without_memory(response);
     } else {
-        errno = 0;
-        set_default_threads(service, type, document);
-        start_source beds = store_beds(service->store);
-        beds.client = &request->client;
-        good = job_spec_parse_with(&beds, type->name, document, choose_seed(), spec, &problems);
-        if (good && !fits_service(service, spec, &problems)) {
-            job_spec_clear(spec);
-            good = false;
-        }
-        /* What was left out for want of memory is nobody's fault, and nothing else may be run in its place. */
-        const bool has_memory = errno != ENOMEM;
-        if (good && !has_memory) job_spec_clear(spec);
-        good = good && has_memory;
-        if (!has_memory) respond_without_memory(response);
-        else if (!good)
+        good = read_document(service, type, request, response, document, spec, &problems);
+        if (!problem_list_is_empty(&problems))
             http_respond_problems(response, 400, "The specification can't be run",
                                   "each entry of errors names a member, what it is and what it may be", &problems);
         problem_list_clear(&problems);
@@ -265,6 +273,22 @@ static void respond_to_wait(api_service *service, const http_request *request, h
     job_record_clear(&job);
 }
 
+/* Waits for it where the client prefers that and it may be waited for here. */
+static void add_job(api_service *service, const http_request *request, http_response *response, const job_spec *spec, bool may_wait)
+{
+    char id[JOB_ID_SIZE];
+    if (spec->subscriber) json_object_set_new(spec->subscriber, "base", json_string(response->base));
+    const store_status status = store_add_job(service->store, spec, id);
+    if (status != STORE_OK) {
+        respond_not_kept(service, response, status, "keep the job");
+        return;
+    }
+    response->wait = may_wait ? read_preference(request->prefer).seconds : 0.0;
+    if (response->wait > 0.0) snprintf(response->made, sizeof response->made, "%s", id);
+    else respond_created(service, request, response, spec, id); /* first, so that it shows the job as accepted */
+    service->jobs_changed(service->daemon);
+}
+
 void execute_process(api_service *service, const http_request *request, http_response *response)
 {
     const process_type *type = process_type_find(request->segment[0]);
@@ -278,16 +302,16 @@ void execute_process(api_service *service, const http_request *request, http_res
     }
     job_spec spec;
     if (!read_spec(service, type, request, response, &spec)) return;
-    char id[JOB_ID_SIZE];
-    if (spec.subscriber) json_object_set_new(spec.subscriber, "base", json_string(response->base));
-    const store_status status = store_add_job(service->store, &spec, id);
-    if (status == STORE_OK) {
-        response->wait = read_preference(request->prefer).seconds;
-        if (response->wait > 0.0) snprintf(response->made, sizeof response->made, "%s", id);
-        else respond_created(service, request, response, &spec, id); /* first, so that it shows the job as accepted */
-        service->jobs_changed(service->daemon);
-    } else {
-        respond_not_kept(service, response, status, "keep the job");
-    }
+    add_job(service, request, response, &spec, true);
+    job_spec_clear(&spec);
+}
+
+void execute_document(api_service *service, const http_request *request, http_response *response, json_t *document,
+                      problem_list *problems)
+{
+    const process_type *type = process_type_find(json_string_value(json_object_get(document, "process")));
+    job_spec spec;
+    if (!read_document(service, type, request, response, document, &spec, problems)) return;
+    add_job(service, request, response, &spec, false);
     job_spec_clear(&spec);
 }

@@ -21,6 +21,7 @@ const problem_kind problem_kinds[] = {
     { "job-not-ended", "The job has not ended", "What was asked for can be done to ended jobs only." },
     { "job-ended", "The job has ended", "What was asked for can be done to jobs only that wait or run." },
     { "job-not-retried", "The job can't be tried again", "Only failed and dismissed jobs can." },
+    { "job-not-continued", "The job can't be continued", "There is no state of it from which another could go on." },
     { "no-such-output", "No such output", "The results have no output of this name." },
     { "no-such-snapshot", "No such snapshot", "The job has no snapshot of this number." },
     { "no-such-file", "No such file", "The job does not have this file, or not yet." },

@@ -20,6 +20,7 @@ const http_route route_table[] = {
     { "GET", "/jobs/{}", " wait f ", show_job, .formats = " json html " },
     { "DELETE", "/jobs/{}", " only f ", remove_job, .open = false },
     { "POST", "/jobs/{}/retry", " f ", retry_job, .bodiless = true },
+    { "POST", "/jobs/{}/continue", " f ", continue_job, .slow = true },
     { "POST", "/jobs/{}/pin", " f ", pin_job, .bodiless = true },
     { "POST", "/jobs/{}/unpin", " f ", unpin_job, .bodiless = true },
     { "GET", "/jobs/{}/results", " f profile ", show_results, .open = false },

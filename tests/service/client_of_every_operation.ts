@@ -53,6 +53,7 @@ await say('POST /jobs/{id}/pin', POST('/jobs/{id}/pin', { params: id }));
 await say('POST /jobs/{id}/unpin', POST('/jobs/{id}/unpin', { params: id }));
 await say('DELETE /jobs/{id}', DELETE('/jobs/{id}', { params: { path: { id: running }, query: { only: 'dismiss' } } }));
 await say('POST /jobs/{id}/retry', POST('/jobs/{id}/retry', { params: { path: { id: running } } }));
+await say('POST /jobs/{id}/continue', POST('/jobs/{id}/continue', { params: id, body: { revolutions: 1 } }));
 await say('GET /query', GET('/query', { params: { query: { sql: 'select count(*) from job', f: 'json' } } }));
 
 const study = await POST('/studies', { body: { name: 'typed', base: { inputs }, vary: { '/inputs/contact/friction': [0.1, 0.2] } } });

@@ -184,6 +184,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/jobs/{id}/pin", f"{url}/jobs/{done}/pin", 200, "POST")
     call("/jobs/{id}/unpin", f"{url}/jobs/{done}/unpin", 200, "POST")
     call("/jobs/{id}/retry", f"{url}/jobs/{done}/retry", 409, "POST")
+    call("/jobs/{id}/continue", f"{url}/jobs/{done}/continue", 400, "POST", json={"revolutions": -1})
     for what in ("cancel", "delete"):
         call(f"/jobs/{what}", f"{url}/jobs/{what}?type=process&dry_run=true", 200, "POST")
         call(f"/jobs/{what}", f"{url}/jobs/{what}?q=nothing&value.friction=0.1..0.2", 200, "POST")
