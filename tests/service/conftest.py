@@ -41,12 +41,14 @@ def compiled_shim(name, folder):
 
 @pytest.fixture(scope="session", autouse=True)
 def cache(tmp_path_factory):
-    """A user's cache that is the tests' own, one for all that run at once: the cache of whoever runs them stays as it is."""
+    """A user's cache that is the tests' own, one for all that run at once: the cache of whoever runs them stays as it is. And
+    threads that sleep when they wait: where more run than there are cores, others wait for those that spin."""
     folder = tmp_path_factory.getbasetemp()
     folder = (folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) / "cache"
     folder.mkdir(exist_ok=True)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("XDG_CACHE_HOME", str(folder))
+        patch.setenv("OMP_WAIT_POLICY", "passive")
         yield
 
 

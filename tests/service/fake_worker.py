@@ -1,4 +1,4 @@
-#!/usr/bin/python3
+#!/usr/bin/python3 -SE
 """Stands in for `repose run SPEC --out DIR`: keeps the contract of the job folder and does what the spec's label
 "fake" says, so that tests of the daemon can have any end of a worker at once."""
 import json
