@@ -253,3 +253,25 @@ def test_snapshots_go_before_results_the_oldest_first(ended):
 def test_what_is_to_be_kept_must_be_said_plainly(tmp_path, options, says):
     refused = reposed("prune", *options, data=tmp_path)
     assert refused.returncode == 2 and says in refused.stderr
+
+
+def test_results_that_were_damaged_in_the_database_are_sent_from_the_folder_and_mended(ended):
+    """SQLite has no checksums: a changed digit, a row of its own accord."""
+    daemon, (one, two) = ended
+    right = {job: (daemon.data / "jobs" / job / "result.json").read_bytes() for job in (one, two)}
+    change(daemon, "UPDATE result SET document=replace(document, '2', '3')")
+    (daemon.data / "jobs" / two / "result.json").unlink()
+    daemon.start()
+    assert daemon.get(f"/jobs/{one}/results").content == right[one]
+    assert daemon.get(f"/jobs/{two}/results").status_code == 503
+    daemon.stop()
+    told = reposed("check", data=daemon.data)
+    assert told.returncode == 1 and told.stdout.count("its results in the database do not fit their checksum") == 2
+    assert reposed("check", "--repair", data=daemon.data).returncode == 0
+    daemon.start()
+    assert daemon.get(f"/jobs/{one}/results").content == right[one]
+    assert daemon.job(two)["status"] == "failed"  # to be tried again
+    daemon.stop()
+    with sqlite3.connect(daemon.data / "reposed.sqlite") as database:
+        row, = database.execute("SELECT document FROM result")
+    assert row[0].encode() == right[one]

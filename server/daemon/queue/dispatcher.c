@@ -100,6 +100,7 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
     const job_claim *claim = &slot->claim;
     char folder[4096];
     snprintf(folder, sizeof folder, "%s/jobs/%s", data->path, claim->id);
+    job_folder_tidy(data, claim->id);
     /* Somebody may have tidied the folder away while the job waited. */
     const bool is_there = job_folder_create(data, claim->id, claim->spec) && job_folder_sync(data, claim->id);
     const int file = is_there ? job_folder_open(data, claim->id) : -1;

@@ -170,6 +170,30 @@ static void check_result(look *l, const char *id)
     free(sound);
 }
 
+/* A database of an earlier program has no such checksums. */
+static void check_document(look *l, const char *id)
+{
+    static const char has_sums[] = "SELECT count(*)>0 FROM pragma_table_info('result') WHERE name='checksum'";
+    if (!is_true(l, has_sums, id)) return;
+    sqlite3_stmt *row = sql_prepare(
+        l->database, "SELECT document, checksum FROM result WHERE job=(SELECT number FROM job WHERE id=?) AND checksum IS NOT NULL",
+        "t", id);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    const char *text = code == SQLITE_ROW ? (const char *)sqlite3_column_text(row, 0) : NULL;
+    const bool sound = !text || checksum_of(text, strlen(text)) == (uint64_t)sqlite3_column_int64(row, 1);
+    if (row) sql_finish(row, code);
+    if (sound) return;
+    char *kept = job_result_read(&l->data, id, NULL);
+    static const char gone[] = "DELETE FROM result WHERE job=(SELECT number FROM job WHERE id=?)";
+    static const char again[] = "UPDATE result SET document=?, checksum=? WHERE job=(SELECT number FROM job WHERE id=?)";
+    const char *done = kept ? NULL : run(l, gone, id, "its row is removed");
+    if (kept && l->repair
+        && sql_run(l->database, NULL, again, "tit", kept, (int64_t)checksum_of(kept, strlen(kept)), id) == STORE_OK)
+        done = "those of its folder are in their place now";
+    tell(l, done, "job %s: its results in the database do not fit their checksum", id);
+    free(kept);
+}
+
 /* --- what the tables say of a job's files --- */
 
 static void check_snapshots(look *l, const char *id)
@@ -198,6 +222,7 @@ static void check_job(look *l, const char *id)
     l->jobs++;
     check_hdfs(l, id, JOB_SNAPSHOT_FOLDER);
     check_hdfs(l, id, NULL);
+    check_document(l, id);
     check_result(l, id);
     check_snapshots(l, id);
     static const char lost[] = "SELECT status='successful' AND number NOT IN (SELECT job FROM result) FROM job WHERE id=?";

@@ -129,6 +129,32 @@ bool job_folder_create(const data_folder *data, const char *id, const char *spec
     return good;
 }
 
+static void remove_strangers(int folder, const char *id)
+{
+    DIR *list = folder >= 0 ? fdopendir(folder) : NULL;
+    for (const struct dirent *entry; list && (entry = readdir(list)) != NULL;) {
+        struct stat found;
+        if (fstatat(dirfd(list), entry->d_name, &found, AT_SYMLINK_NOFOLLOW) != 0) continue;
+        if (S_ISREG(found.st_mode) || S_ISDIR(found.st_mode) || unlinkat(dirfd(list), entry->d_name, 0) != 0) continue;
+        log_line("job %s: %s in its folder was %s, and is removed", id, entry->d_name,
+                 S_ISLNK(found.st_mode) ? "a symbolic link" : "no file");
+    }
+    if (list) closedir(list);
+    else if (folder >= 0) close(folder);
+}
+
+void job_folder_tidy(const data_folder *data, const char *id)
+{
+    struct stat found;
+    if (fstatat(data->jobs, id, &found, AT_SYMLINK_NOFOLLOW) != 0) return;
+    if (!S_ISDIR(found.st_mode) && unlinkat(data->jobs, id, 0) == 0) log_line("job %s: its folder was none, and is removed", id);
+    const int folder = job_folder_open(data, id);
+    if (folder < 0) return;
+    const int snapshots = openat(folder, JOB_SNAPSHOT_FOLDER, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    remove_strangers(folder, id);
+    remove_strangers(snapshots, id);
+}
+
 bool job_folder_sync(const data_folder *data, const char *id)
 {
     const int folder = job_folder_open(data, id);

@@ -20,6 +20,9 @@ void data_folder_close(data_folder *data);
 /* Makes jobs/<id> with this spec.json; keeps a folder that has it already, but not a spec.json that says something else. What a
  * crash of the machine takes of it is made again from the table at the next start. False: errno says why. */
 bool job_folder_create(const data_folder *data, const char *id, const char *spec);
+/* Removes what nobody of ours put there, links above all, from the folder and that of its snapshots: a worker would use none, and
+ * could not go on. What a link leads to stays as it is. */
+void job_folder_tidy(const data_folder *data, const char *id);
 /* From now on the folder, and the files in it that are safe by themselves, are there for good. False: errno says why. */
 bool job_folder_sync(const data_folder *data, const char *id);
 /* Gives jobs/<id>, which is made where it is missing, the file `name` of job `from` as start.hdf: by a second name for that file, or

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "checksum.h"
 #include "database.h"
 #include "field_views.h"
 #include "text_buffer.h"
@@ -352,7 +353,9 @@ store_status field_tables_insert_results(const field_tables *tables, sqlite3 *wr
                                          const json_t *results)
 {
     store_status status = STORE_FAILED;
-    if (results) status = sql_run(writer, NULL, "INSERT OR REPLACE INTO result(job, document) VALUES(?,?)", "it", job, document);
+    if (results)
+        status = sql_run(writer, NULL, "INSERT OR REPLACE INTO result(job, document, checksum) VALUES(?,?,?)", "iti", job, document,
+                         (int64_t)checksum_of(document, strlen(document)));
     for (size_t i = 0; status == STORE_OK && i < tables->insert_count; i++) {
         const result_field *field = tables->columns.column[tables->insert[i].first].result;
         const json_t *output = field ? json_object_get(results, field->output) : NULL;

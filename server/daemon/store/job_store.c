@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "callbacks.h"
+#include "checksum.h"
 #include "database.h"
 #include "job_folder.h"
 #include "log.h"
@@ -322,9 +323,28 @@ store_status store_read_spec(job_store *store, const char *id, char **text)
     return status;
 }
 
+/* A document that was damaged in the table is in the job's folder, too. */
 store_status store_read_results(job_store *store, const char *id, char **text)
 {
-    return store_read_text(store, "SELECT document FROM result JOIN job ON result.job=job.number WHERE job.id=?", id, text);
+    *text = NULL;
+    sqlite3 *reader = store_borrow_reader(store);
+    sqlite3_stmt *row =
+        sql_prepare(reader, "SELECT document, checksum FROM result JOIN job ON result.job=job.number WHERE job.id=?", "t", id);
+    const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
+    const char *document = code == SQLITE_ROW ? (const char *)sqlite3_column_text(row, 0) : NULL;
+    const bool is_sealed = document && sqlite3_column_type(row, 1) != SQLITE_NULL;
+    const bool sound = !is_sealed || (uint64_t)sqlite3_column_int64(row, 1) == checksum_of(document, strlen(document));
+    if (document && sound) *text = strdup(document);
+    store_status status = row ? sql_finish(row, code) : STORE_FAILED;
+    store_return_reader(store, reader);
+    if (status == STORE_OK && !sound) {
+        *text = job_result_read(store->data, id, NULL);
+        log_line("job %s: its results in the database are damaged; %s", id,
+                 *text ? "those of its folder are sent" : "ask reposed check");
+        return *text ? STORE_OK : STORE_FAILED;
+    }
+    if (status == STORE_OK && !*text) status = code == SQLITE_ROW ? STORE_FAILED : STORE_NOT_FOUND;
+    return status;
 }
 
 store_status store_read_wanted(job_store *store, const char *id, char **text)

@@ -199,6 +199,8 @@ static const char subscribers[] =
 /* A short job must not be looked for among a hundred thousand long ones. The figure is that of SHORT_JOB. */
 static const char short_jobs[] = "CREATE INDEX job_waiting_short ON job(priority DESC, turn, number, estimated_seconds)"
                                  " WHERE status='accepted' AND estimated_seconds<2.0;";
+/* SQLite keeps no checksums of its own: one of each document that is sent as it was written; NULL: of a program from before. */
+static const char checksums_of_results[] = "ALTER TABLE result ADD COLUMN checksum INTEGER;";
 
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
@@ -239,5 +241,6 @@ const schema_migration schema_migrations[] = {
     { { subscribers } },
     { { given_inputs } },
     { { short_jobs } },
+    { { checksums_of_results } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];
