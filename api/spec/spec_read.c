@@ -205,7 +205,7 @@ static void set_nothing_given(const spec_table *table, spec_group group, char *p
 static void read_entry(const spec_table *table, const spec_field *field, const json_t *object, const char *pointer, char *entry,
                        problem_list *problems)
 {
-    if (field->kind != FIELD_LIST) set_nothing_given(table, field->child, entry);
+    set_nothing_given(table, field->child, entry);
     if (json_is_object(object)) {
         read_group(table, field->child, object, pointer, entry, problems);
         return;
@@ -268,8 +268,12 @@ static void read_list(const spec_table *table, const spec_field *field, const js
         problem_list_add(problems, pointer, "could not be read: out of memory");
         return;
     }
-    for (size_t s = 0; s < count && !problem_list_is_full(problems); s++) {
+    for (size_t s = 0; s < count; s++) {
         char entry[LONGEST_POINTER];
+        if (problem_list_is_full(problems)) { /* nobody reads on */
+            set_nothing_given(table, field->child, first + s * field->entry_size);
+            continue;
+        }
         snprintf(entry, sizeof entry, "%.200s/%zu", pointer, s);
         read_entry(table, field, json_array_get(list, s), entry, first + s * field->entry_size, problems);
     }
@@ -453,8 +457,8 @@ static void set_nothing_given(const spec_table *table, spec_group group, char *p
         else if (field->kind < FIELD_LIST) set_nothing_given(table, field->child, place);
         else {
             *(size_t *)(place + field->count_offset) = 0;
-            for (size_t s = 0; s < (size_t)field->maximum; s++)
-                set_nothing_given(table, field->child, place + field->offset + s * field->entry_size);
+            /* The others as they are read: most lists are short, and have room for many. */
+            set_nothing_given(table, field->child, place + field->offset);
         }
     }
 }

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """bench_service.py BUILD [JOBS]: how fast the daemon answers among so many jobs (100,000). Prints JSON lines: times of starting,
-lists, submissions, studies and queries, and the memory it takes. The one worker sleeps, so that the jobs stay where they are."""
+lists, submissions, studies and queries, and the memory it takes, each with its target beside it, whether that is met, and how
+many others wanted the processors meanwhile (the machine's load). The one worker sleeps, so that the jobs stay where they are."""
 import contextlib
 import json
 import os
 import pathlib
+import random
 import selectors
 import signal
 import socket
+import sqlite3
 import statistics
 import subprocess
 import sys
@@ -20,10 +23,14 @@ SPEC = {"inputs": {"drum": {"diameter": 0.06, "length": 0.012, "rotation_rate": 
 HEAVY = "SELECT count(*) FROM job a, job b WHERE a.estimated_seconds < b.estimated_seconds"
 
 
-def say(figure, unit, values):
+def say(figure, unit, values, **target):
+    """target: what median, p99, maximum or minimum are to stay below, minimum above."""
     values = sorted(values)
-    print(json.dumps({"figure": figure, "unit": unit, "median": statistics.median(values), "p99": values[int(0.99 * (len(values) - 1))],
-                      "maximum": values[-1], "count": len(values)}), flush=True)
+    told = {"median": statistics.median(values), "p99": values[int(0.99 * (len(values) - 1))], "maximum": values[-1],
+            "minimum": values[0], "count": len(values)}
+    met = [told[name] >= bound if name == "minimum" else told[name] <= bound for name, bound in target.items()]
+    print(json.dumps({"figure": figure, "unit": unit} | told | {"target": target, "met": all(met) if met else None,
+                                                                "load": os.getloadavg()[0]}), flush=True)
 
 
 def request(method, path, body=None):
@@ -37,8 +44,8 @@ def request(method, path, body=None):
 class Client:
     """A connection that is kept open, and what has come of the answer."""
 
-    def __init__(self, port):
-        self.socket = socket.create_connection(("127.0.0.1", port))
+    def __init__(self, port, address="127.0.0.1"):
+        self.socket = socket.create_connection(("127.0.0.1", port), source_address=(address, 0))
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def send(self, data):
@@ -106,7 +113,20 @@ def fill(service, jobs):
         if status != 201:
             sys.exit(f"a study was refused: {body[:500]}")
         seconds.append(client.seconds)
-    say(f"study of {CASES} jobs", "s", seconds)
+    say(f"study of {CASES} jobs", "s", seconds, median=1.0)
+
+
+def fill_in_results(folder):
+    """Every second job that waits has ended, so that there is something to sort and to filter by."""
+    chance = random.Random(1)
+    with sqlite3.connect(folder / "data" / "reposed.sqlite") as database:
+        waiting = database.execute("SELECT number FROM job WHERE status='accepted' AND number%2 ORDER BY number").fetchall()
+        for number, in waiting:
+            database.execute("INSERT INTO repose_result(job,angle_deg,verdict) VALUES(?,?,?)",
+                             (number, chance.uniform(5, 45), chance.choice(["steady", "drifting", "too-short"])))
+            database.execute("INSERT INTO run_result(job,particles,steps,wall_seconds) VALUES(?,100,1000,?)", (number, chance.uniform(1, 9)))
+            database.execute("UPDATE job SET status=?, started=created, finished=updated, progress=100 WHERE number=?",
+                             (chance.choice(["successful"] * 5 + ["failed"]), number))
 
 
 def times(port, path, count):
@@ -138,15 +158,39 @@ def submissions(service, clients, seconds):
             took.append(1000 * key.data.seconds)
             key.data.send(bodies[len(took) % 64])
     say(f"submission by {clients} clients at once", "ms", took)
-    say(f"submissions acknowledged by {clients} clients", "1/s", [len(took) / (time.perf_counter() - begin)])
+    say(f"submissions acknowledged by {clients} clients", "1/s", [len(took) / (time.perf_counter() - begin)],
+        **({"minimum": 1000} if clients == 16 else {}))
     say(f"processor time of a submission, {clients} clients", "ms", [1000 * (service.processor_seconds() - used) / len(took)])
 
 
+def query(sql):
+    return "/query?sql=" + sql.replace(" ", "%20").replace("<", "%3C").replace("%'", "%25'")
+
+
 def among_heavy_queries(service):
+    """They wait their turn in a lane, each for 2 s; what reads otherwise does not. A short query comes behind them."""
     busy = [Client(service.port) for _ in range(5)]
     for client in busy:
-        client.send(request("GET", "/query?sql=" + HEAVY.replace(" ", "%20").replace("<", "%3C")))
-    say("GET /jobs among five of the heaviest queries", "ms", times(service.port, "/jobs", 200))
+        client.send(request("GET", query(HEAVY)))
+    say("GET /jobs among five of the heaviest queries", "ms", times(service.port, "/jobs", 200), median=3.0, p99=20.0)
+    say("GET /jobs?q=filling among them", "ms", times(service.port, "/jobs?q=filling", 200), median=3.0, p99=20.0)
+    client = Client(service.port)
+    client.ask(request("GET", query("SELECT count(*) FROM study")))
+    say("a short query behind five of the heaviest", "s", [client.seconds], maximum=20.0)
+
+
+def churn(service, seconds):
+    """Jobs come and go; the memory it takes before and after."""
+    control, before, jobs = Client(service.port), service.megabytes(), 0
+    end = time.perf_counter() + seconds
+    while time.perf_counter() < end:
+        for k in range(200):
+            control.ask(request("POST", "/processes/drum/execution", {"inputs": {**SPEC["inputs"], "seed": k}, "label": {"churn": str(jobs)}}))
+            jobs += 1
+        control.ask(request("GET", "/jobs?q=churn&sort=-created&limit=5"))
+        control.ask(request("POST", "/jobs/cancel?q=churn"))
+        control.ask(request("POST", "/jobs/delete?q=churn"))
+    say(f"memory gained while {jobs} jobs came and went", "MB", [service.megabytes() - before], maximum=4.0)
 
 
 def until_running(build, folder):
@@ -164,7 +208,7 @@ def until_running(build, folder):
             time.sleep(0.01)
         time.sleep(0.2)
     service.stop()
-    say("from a submission to the running job", "ms", seconds)
+    say("from a submission to the running job", "ms", seconds, median=50.0, p99=50.0)
 
 
 def main():
@@ -179,20 +223,28 @@ def main():
         (folder / "empty" / "sleeper").symlink_to(sleeper)
         until_running(build, folder / "empty")
         service = Service(build, folder, sleeper)
-        say("start with an empty folder", "s", [service.start()])
+        say("start with an empty folder", "s", [service.start()], maximum=0.2)
         at_end.callback(lambda: service.process.poll() is None and service.process.kill())
         submissions(service, 1, 5)
         submissions(service, 16, 5)
         fill(service, jobs)
         service.stop()
-        say(f"start with {jobs} jobs", "s", [service.start()])
-        for path in ("/jobs", "/jobs?status=running", "/jobs?status=accepted", "/jobs?processID=drum", "/jobs?q=filling", "/jobs?q=nothing",
-                     "/jobs?limit=1", "/studies"):
-            say(f"GET {path}, {jobs} jobs", "ms", times(service.port, path, 300))
+        fill_in_results(folder)
+        factor = 2.0 if jobs > 100_000 else 1.0
+        say(f"start with {jobs} jobs", "s", [service.start()], maximum=0.2 * factor)
+        time.sleep(jobs / 50_000)  # what lists are made of is being read
+        for path in ("/jobs", "/jobs?limit=1", "/jobs?status=running", "/jobs?status=accepted", "/jobs?status=failed,running",
+                     "/jobs?processID=drum", "/jobs?processID=granule,heap", "/jobs?q=filling", "/jobs?q=nothing", "/jobs?q=2",
+                     "/jobs?q=ab1", "/jobs?sort=created", "/jobs?sort=-angle_deg", "/jobs?sort=verdict&status=successful&q=filling",
+                     "/jobs?value.angle_deg=30..31&sort=friction"):
+            say(f"GET {path}, {jobs} jobs", "ms", times(service.port, path, 300), median=3.0 * factor, p99=20.0 * factor)
+        say(f"GET /studies, {jobs} jobs", "ms", times(service.port, "/studies", 300))
+        say(f"short /query, {jobs} jobs", "ms", times(service.port, query("SELECT angle_deg FROM run_summary LIMIT 10"), 300), p99=20.0 * factor)
         submissions(service, 16, 5)
         among_heavy_queries(service)
-        idle = [Client(service.port) for _ in range(300)]
-        say(f"memory with {jobs} jobs and {len(idle)} connections", "MB", [service.megabytes()])
+        churn(service, 30)
+        idle = [Client(service.port, f"127.0.0.{1 + k % 2}") for k in range(500)]
+        say(f"memory with {jobs} jobs and {len(idle)} connections", "MB", [service.megabytes()], maximum=40.0)
         service.stop()
 
 

@@ -61,7 +61,7 @@ static sqlite3 *open_stage(study_stage *stage)
                                 SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_EXRESCODE, NULL)
                     == SQLITE_OK
                 && sqlite3_exec(database,
-                                "PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; PRAGMA cache_size=-4000;"
+                                "PRAGMA journal_mode=OFF; PRAGMA synchronous=OFF; PRAGMA cache_size=-12000;"
                                 "CREATE TABLE start(id TEXT NOT NULL, job TEXT NOT NULL, snapshot REAL);",
                                 NULL, NULL, NULL)
                        == SQLITE_OK;
