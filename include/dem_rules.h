@@ -116,6 +116,18 @@ double dem_time_step(double stiffness, double lightest_mass, double restitution)
 
 double dem_latching_time_step(double stiffness, double lightest_mass, double restitution);
 
+/* Pa, E* of two materials: 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2. */
+double dem_effective_modulus(dem_elasticity a, dem_elasticity b);
+
+/* N: the largest pull that a contact of this effective radius (m) bears; 0 of sjkr, whose pull goes with the overlap. */
+double dem_pull_off(dem_cohesion_law law, const dem_cohesion *cohesion, double radius);
+
+/* m: the gap up to which contacts hold that have touched. effective_modulus: Pa, E*, of jkr alone. */
+double dem_cohesive_gap(dem_cohesion_law law, const dem_cohesion *cohesion, double effective_modulus, double radius);
+
+/* m: radius of the contact at which jkr breaks, (pi w R^2/(8 E*))^(1/3). */
+double dem_jkr_least_contact(double surface_energy, double effective_modulus, double radius);
+
 /* Share of a unit circle's area below the height y. */
 double dem_circle_below(double y);
 

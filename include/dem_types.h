@@ -56,6 +56,23 @@ typedef enum dem_contact_law {
     DEM_HERTZ_MINDLIN   /* Hertz, Mindlin's no-slip stiffness, damping set from restitution (Tsuji et al. 1992) */
 } dem_contact_law;
 
+/* What pulls spheres together: equations and sources in core/NUMERICS.md, "Cohesion". */
+typedef enum dem_cohesion_law {
+    DEM_NO_COHESION,
+    DEM_CONSTANT_PULL, /* the same while they touch */
+    DEM_SJKR,          /* an energy density times the area in which the spheres cut each other */
+    DEM_SJKR2,         /* the same times 4 pi R* alpha */
+    DEM_JKR,           /* Johnson, Kendall & Roberts (1971), in the place of Hertz: of Hertz-Mindlin alone */
+    DEM_LIQUID_BRIDGE  /* forms at a touch, breaks at a gap */
+} dem_cohesion_law;
+
+/* Of one pair of materials; all 0: none. */
+typedef struct dem_cohesion {
+    double strength;      /* constant: N; sjkr: J/m3; jkr: J/m2, work of adhesion of the two surfaces; bridge: N/m, surface tension */
+    double liquid_volume; /* m3, of one bridge */
+    double contact_angle; /* rad, of the bridge, below pi/2 */
+} dem_cohesion;
+
 typedef struct dem_elasticity {
     double youngs_modulus; /* Pa; infinite: rigid */
     double poissons_ratio;
@@ -73,6 +90,8 @@ typedef struct dem_contact_parameters {
     double tangential_stiffness_ratio; /* K_T0/K1 */
     double rolling_friction;           /* mu_r between particles: a contact bears a moment of mu_r R* N; 0: none */
     double wall_rolling_friction;      /* likewise, particle against all that is the container's but ends, floor and plate */
+    dem_cohesion_law cohesion_law;     /* of all contacts that cohere */
+    dem_cohesion cohesion, wall_cohesion; /* between particles; with all that is the container's */
 } dem_contact_parameters;
 
 /* What a container shows to particles, as far as each may be of another material. */
@@ -90,6 +109,7 @@ typedef struct dem_pair {
     double friction, rolling_friction, restitution;
     double stiffness, unloading_slope; /* N/m, 1/m: as there; the slope is more than 0 for all pairs or for none */
     dem_elasticity elasticity[2];      /* Hertz-Mindlin */
+    dem_cohesion cohesion;
 } dem_pair;
 
 /* Spheres glued to the inner wall, turning with it. diameter 0: no lining, a smooth wall. */

@@ -31,6 +31,12 @@ typedef struct species_inputs {
     dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
 } species_inputs;
 
+/* What pulls; NaN: not given. */
+typedef struct cohesion_inputs {
+    double law; /* index into the choices, a dem_cohesion_law less 1; NaN: no cohesion */
+    double pull_off, bond_number, energy_density, surface_energy, liquid_volume, surface_tension, contact_angle_deg;
+} cohesion_inputs;
+
 /* NaN: as the contact has it. */
 typedef struct material_inputs {
     spec_name name;
@@ -42,6 +48,7 @@ typedef struct material_inputs {
 typedef struct pair_inputs {
     spec_name between[2];
     double friction, rolling_friction, restitution, stiffness;
+    cohesion_inputs cohesion;
 } pair_inputs;
 
 /* A particle of a bed that is given particle by particle. */
@@ -89,6 +96,7 @@ typedef struct scene_inputs {
     material_inputs *materials; /* (material_count) owned */
     pair_inputs *pairs;         /* (pair_count) owned */
     spec_name wall_material, plate_material;
+    cohesion_inputs cohesion, wall_cohesion;
     double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
     double contact_law, friction, rolling_friction, tangential_stiffness_ratio;
     double restitution, unloading_slope; /* one of the two */
@@ -148,6 +156,7 @@ typedef struct job_spec {
     bool is_mirrored;            /* rotation_rate is below 0: the scene is the mirror image, x for -x, of what was asked for */
     double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
     double expected_overlap;     /* of the hardest impact, likewise; follows from the stiffness where that was given */
+    double bond_number;          /* largest pull-off between particles over the weight of the mean one; NaN: nothing coheres */
     double duration;             /* s from when rotation, filling or lifting starts; at most, where the run ends by itself */
     double until_standard_error; /* degrees; 0: none asked for */
     double sample_interval;      /* s between frames of measurement */

@@ -29,7 +29,10 @@ typedef enum spec_group {
     SPEC_START,
     SPEC_PLACED,
     SPEC_MATERIALS,
-    SPEC_PAIRS
+    SPEC_PAIRS,
+    SPEC_CONTACT_COHESION,
+    SPEC_WALL_COHESION,
+    SPEC_PAIR_COHESION
 } spec_group;
 
 typedef enum field_kind {
@@ -102,6 +105,8 @@ typedef struct spec_field {
     double list_factor;
     const char *list_after; /* NULL: the unit, as is usual for it */
     double list_above;      /* shown only where it is more than this */
+
+    bool is_left_out_where_null; /* an object or null, which is not written where it is null */
 
     bool is_free_of_bed; /* of a drum: may be another than in the run that made the bed which it starts from */
 } spec_field;

@@ -46,6 +46,7 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
     for (size_t f = 0; object && f < table->count; f++) {
         const spec_field *field = &table->field[f];
         if (field->group != group) continue;
+        if (field->is_left_out_where_null && isnan(*(const double *)(place + field->offset))) continue;
         json_t *member;
         if (field->kind == FIELD_TEXT) {
             if (!place[field->offset]) continue;

@@ -19,13 +19,15 @@ typedef enum dimension {
     ANGLE,
     STIFFNESS,
     PRESSURE,
+    FORCE,
+    VOLUME,
     INVERSE_LENGTH,
     PURE
 } dimension;
 
-static const char *const dimension_names[] = { "length",    "time",           "speed",      "acceleration", "density",
-                                               "mass rate", "frequency",      "rotation",   "angle",        "stiffness",
-                                               "pressure",  "inverse length", "pure number" };
+static const char *const dimension_names[] = { "length",    "time",      "speed",    "acceleration",   "density",
+                                               "mass rate", "frequency", "rotation", "angle",          "stiffness",
+                                               "pressure",  "force",     "volume",   "inverse length", "pure number" };
 _Static_assert(sizeof dimension_names / sizeof *dimension_names == PURE + 1, "each dimension has a name");
 
 typedef struct unit {
@@ -97,12 +99,24 @@ static const unit units[] = {
     { .of = STIFFNESS, "N/mm", 3 },
     { .of = STIFFNESS, "N/cm", 2 },
     { .of = STIFFNESS, "mN/m", -3 },
+    { .of = STIFFNESS, "J/m2", 0 }, /* a surface energy, which is a surface tension */
+    { .of = STIFFNESS, "mJ/m2", -3 },
     { .of = PRESSURE, "Pa", 0 },
     { .of = PRESSURE, "kPa", 3 },
     { .of = PRESSURE, "MPa", 6 },
     { .of = PRESSURE, "GPa", 9 },
     { .of = PRESSURE, "N/mm2", 6 },
     { .of = PRESSURE, "bar", 5 },
+    { .of = PRESSURE, "J/m3", 0 },
+    { .of = PRESSURE, "kJ/m3", 3 },
+    { .of = FORCE, "N", 0 },
+    { .of = FORCE, "mN", -3 },
+    { .of = FORCE, "uN", -6 },
+    { .of = VOLUME, "m3", 0 },
+    { .of = VOLUME, "mm3", -9 },
+    { .of = VOLUME, "ml", -6 },
+    { .of = VOLUME, "ul", -9 },
+    { .of = VOLUME, "nl", -12 },
     { .of = INVERSE_LENGTH, "1/m", 0 },
     { .of = INVERSE_LENGTH, "1/cm", 2 },
     { .of = INVERSE_LENGTH, "1/mm", 3 },

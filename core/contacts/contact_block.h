@@ -36,6 +36,8 @@ typedef struct contact_block {
     /* where contacts resist rolling: */
     real spin[3][BLOCK];   /* rad/s, first less second */
     real moment[3][BLOCK]; /* N m, of rolling friction on the first */
+    /* where contacts cohere beyond touch: */
+    real joined[BLOCK]; /* 1: they hold together; 0: they do not */
     /* as wide_store_rows leaves them: what the contacts give their first ends, and their second ones but for the force's sign */
     contact_row row[BLOCK];
     contact_row second_row[BLOCK]; /* the latter where ends differ */
@@ -58,5 +60,10 @@ void contact_block_damped_springs(contact_block *block, contact_list *list, size
 /* Rolling friction of a block, right after its law, which has left stiffnesses in the block: sets the moments
  * (contact_rolling.c). */
 void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, double dt);
+/* `joined` becomes what it was a step ago: to be called before the law (contact_cohesion.c). */
+void contact_block_recall(contact_block *block, const contact_list *list, size_t start);
+/* What pulls beside the law's own force, which the law's friction does not feel: subtracts it from f_n. Keeps in alpha_0
+ * who is joined. */
+void contact_block_cohere(contact_block *block, contact_list *list, size_t start, dem_cohesion_law law, bool is_wall);
 
 #endif

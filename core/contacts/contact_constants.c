@@ -39,10 +39,94 @@ static void pair_numbers_set(pair_numbers *numbers, const dem_scene_definition *
     law_numbers_set(numbers->law, &contact, true, d->time_step);
 }
 
+/* What contact_cohesion.c and jkr_normals read of a contact of this effective radius. JKR's least contact is kept above 1e-5 of the
+ * radius, where nothing is felt of it: so a pair without surface energy is Hertz's, to rounding. */
+static void cohesion_numbers(dem_cohesion_law law, const pair_numbers *pair, double radius, bool is_wall,
+                             real numbers[COHESION_NUMBERS])
+{
+    const dem_cohesion *const c = &pair->pull;
+    const double w = fmax(c->strength, 8e-15 / DEM_PI * pair->effective_modulus * radius);
+    const double a_f = dem_jkr_least_contact(w, pair->effective_modulus, radius);
+    switch (law) {
+    case DEM_SJKR2: numbers[0] = (real)((is_wall ? 2 : 4) * DEM_PI * radius * c->strength); break;
+    case DEM_JKR:
+        numbers[0] = (real)(radius / (a_f * a_f));
+        numbers[1] = (real)(DEM_PI / 6 * w * radius);
+        numbers[2] = (real)a_f;
+        break;
+    case DEM_LIQUID_BRIDGE:
+        numbers[0] = (real)dem_pull_off(law, c, radius);
+        numbers[1] = (real)(c->liquid_volume / (DEM_PI * radius));
+        numbers[2] = (real)dem_cohesive_gap(law, c, pair->effective_modulus, radius);
+        break;
+    default: numbers[0] = (real)c->strength;
+    }
+}
+
+/* A surface, but the lining, whose spheres are spheres. */
+static bool is_flat(size_t partner) { return partner >= DEM_MAXIMUM_SPECIES && partner != DEM_MAXIMUM_SPECIES + DEM_LINING; }
+
+void contact_constants_of_cohesion(contact_list *list, size_t slot, const pair_table *table, size_t species, size_t partner)
+{
+    const pair_numbers *pair = &table->of[species][partner];
+    real numbers[COHESION_NUMBERS] = { 0 };
+    memcpy(numbers, pair->cohesion, sizeof numbers);
+    if (list->radius[slot] != pair->radius)
+        cohesion_numbers(table->cohesion, pair, (double)list->radius[slot], is_flat(partner), numbers);
+    for (int c = 0; c < COHESION_NUMBERS; c++) list->cohesion[c][slot] = numbers[c];
+}
+
+/* m: radius of the species' largest sphere. */
+static double radius_of(const dem_scene_definition *d, size_t species)
+{
+    return 0.5 * dem_species_largest_sphere(&d->species[species]);
+}
+
+static void set_cohesion(pair_table *table, const dem_scene_definition *d, size_t a, size_t partner)
+{
+    pair_numbers *const numbers = &table->of[a][partner];
+    const bool is_species = partner < DEM_MAXIMUM_SPECIES, is_lining = partner == DEM_MAXIMUM_SPECIES + DEM_LINING;
+    const dem_pair *pair = &d->pair[a][partner];
+    const double r = radius_of(d, a), other = is_species ? radius_of(d, partner) : is_lining ? 0.5 * d->lining.diameter : 0;
+    const double radius = other > 0 ? r * other / (r + other) : r;
+    numbers->pull = d->has_pairs ? pair->cohesion : is_species ? d->contact.cohesion : d->contact.wall_cohesion;
+    numbers->effective_modulus =
+        d->has_pairs ? dem_effective_modulus(pair->elasticity[0], pair->elasticity[1])
+                     : dem_effective_modulus(d->contact.particle, is_species ? d->contact.particle : d->contact.wall);
+    numbers->radius = (real)radius;
+    cohesion_numbers(table->cohesion, numbers, radius, is_flat(partner), numbers->cohesion);
+    if (numbers->pull.strength > 0)
+        table->gap = fmax(table->gap, dem_cohesive_gap(table->cohesion, &numbers->pull, numbers->effective_modulus, radius));
+}
+
+static bool coheres(const pair_table *table, const dem_scene_definition *d, size_t from, size_t to)
+{
+    bool found = false;
+    for (size_t a = 0; table->cohesion && a < d->species_count; a++)
+        for (size_t b = from; b < to; b++) found = found || table->of[a][b].pull.strength > 0;
+    return found;
+}
+
+bool pair_table_spheres_cohere(const pair_table *table, const dem_scene_definition *d)
+{
+    const size_t lining = DEM_MAXIMUM_SPECIES + DEM_LINING;
+    return coheres(table, d, 0, d->species_count) || (d->lining.diameter > 0 && coheres(table, d, lining, lining + 1));
+}
+
+bool pair_table_walls_cohere(const pair_table *table, const dem_scene_definition *d)
+{
+    return coheres(table, d, DEM_MAXIMUM_SPECIES, DEM_MAXIMUM_SPECIES + DEM_SURFACES);
+}
+
 void pair_table_set(pair_table *table, const dem_scene_definition *d)
 {
     memset(table, 0, sizeof *table);
     table->is_given = d->has_pairs;
+    table->cohesion = d->contact.cohesion_law;
+    for (size_t a = 0; table->cohesion && a < d->species_count; a++) {
+        for (size_t b = 0; b < d->species_count; b++) set_cohesion(table, d, a, b);
+        for (size_t s = DEM_MAXIMUM_SPECIES; s < DEM_MAXIMUM_SPECIES + DEM_SURFACES; s++) set_cohesion(table, d, a, s);
+    }
     for (size_t a = 0; d->has_pairs && a < d->species_count; a++) {
         for (size_t b = 0; b < d->species_count; b++) pair_numbers_set(&table->of[a][b], d, &d->pair[a][b]);
         for (size_t s = DEM_MAXIMUM_SPECIES; s < DEM_MAXIMUM_SPECIES + DEM_SURFACES; s++)
@@ -93,9 +177,10 @@ void contact_constants_of_pair(contact_list *list, size_t slot, const pair_table
 static void set_pairs(contact_list *pairs, const spheres *s, const pair_table *table, size_t from, size_t to)
 {
     for (size_t k = from; k < to; k++) {
-        const size_t second = (size_t)pairs->second[k];
+        const size_t first = (size_t)s->species[pairs->first[k]], second = (size_t)pairs->second[k];
         const size_t partner = second < s->mobile_count ? (size_t)s->species[second] : DEM_MAXIMUM_SPECIES + DEM_LINING;
-        contact_constants_of_pair(pairs, k, table, (size_t)s->species[pairs->first[k]], partner);
+        if (table->is_given) contact_constants_of_pair(pairs, k, table, first, partner);
+        if (pairs->coheres) contact_constants_of_cohesion(pairs, k, table, first, partner);
     }
 }
 
@@ -117,7 +202,7 @@ void contact_constants_of_each(contact_list *pairs, const spheres *s, const dem_
         pairs->root_mass[k] = roots->of[s->species[first[k]]][second[k] < mobile ? s->species[second[k]] : DEM_MAXIMUM_SPECIES];
     if (pairs->has_rolling)
         for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
-    if (table->is_given) set_pairs(pairs, s, table, from, to);
+    if (table->is_given || pairs->coheres) set_pairs(pairs, s, table, from, to);
 }
 
 void contact_constants_of_all(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact, const pair_table *table)
@@ -130,5 +215,6 @@ void contact_constants_of_all(contact_list *pairs, const spheres *s, const dem_c
         pairs->radius[k] = s->full_radius[0] / 2;
         if (pairs->has_rolling) pairs->rolling_friction[k] = (real)contact->rolling_friction;
         if (table->is_given) contact_constants_of_pair(pairs, k, table, species, species);
+        if (pairs->coheres) contact_constants_of_cohesion(pairs, k, table, species, species);
     }
 }

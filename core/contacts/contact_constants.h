@@ -14,12 +14,18 @@ typedef struct species_roots {
 /* What contacts of two materials have as constants. */
 typedef struct pair_numbers {
     real friction, rolling_friction, law[LAW_NUMBERS];
+    /* Cohesion: what a contact of this effective radius has; of other radii it is computed from the rest. */
+    real radius, cohesion[COHESION_NUMBERS];
+    dem_cohesion pull;
+    double effective_modulus; /* Pa */
 } pair_numbers;
 
 /* The same for each pair of a definition; where it has none, everything is as `contact` and the walls say. */
 typedef struct pair_table {
     bool is_given;
     bool has_friction; /* else the present phase has none */
+    dem_cohesion_law cohesion;
+    double gap; /* m: the largest at which contacts hold that have touched */
     pair_numbers of[DEM_MAXIMUM_SPECIES][DEM_MAXIMUM_SPECIES + DEM_SURFACES];
 } pair_table;
 
@@ -35,6 +41,11 @@ void contact_constants_of_each(contact_list *pairs, const spheres *spheres, cons
 /* Of a block of pairs, which are all alike. */
 void contact_constants_of_all(contact_list *pairs, const spheres *spheres, const dem_contact_parameters *contact,
                               const pair_table *table);
+/* Whether contacts between spheres cohere, or those with walls. */
+bool pair_table_spheres_cohere(const pair_table *table, const dem_scene_definition *definition);
+bool pair_table_walls_cohere(const pair_table *table, const dem_scene_definition *definition);
+/* Of one contact of a list, whose effective radius is set: its cohesion. */
+void contact_constants_of_cohesion(contact_list *list, size_t slot, const pair_table *table, size_t species, size_t partner);
 /* Of one contact of a list: what it has by its two materials. partner: index into the table's second. */
 void contact_constants_of_pair(contact_list *list, size_t slot, const pair_table *table, size_t species, size_t partner);
 

@@ -206,9 +206,12 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
     if (list->laws_differ && !is_damped) displacements_of_materials(block, radius, list->law[LAW_PUSH] + constants_of(list, start));
     else if (radius) displacements(block, radius, factor, NULL);
     else displacements(block, NULL, factor, NULL);
+    const dem_cohesion_law cohesion = list->coheres ? contact->cohesion_law : DEM_NO_COHESION;
+    if (cohesion) contact_block_recall(block, list, start);
     if (!is_damped) contact_block_walton_braun(block, list, start, contact);
     else contact_block_damped_springs(block, list, start, contact, dt);
     if (list->has_rolling) contact_block_roll(block, list, start, contact, dt);
+    if (cohesion) contact_block_cohere(block, list, start, cohesion, is_wall);
     const real *force[3];
     for (int c = 0; c < 3; c++) force[c] = is_damped ? block->force[c] : list->t[c] + start;
     if (list->has_rolling) make_rows(block, force, first_radius, true, list->ends_differ);

@@ -7,6 +7,7 @@ dem_status contact_list_init(contact_list *list, int extras, contact_constants c
     memset(list, 0, sizeof *list);
     list->has_rolling = (extras & CONTACTS_ROLL) != 0;
     list->laws_differ = (extras & CONTACT_LAWS_DIFFER) != 0;
+    list->coheres = (extras & CONTACTS_COHERE) != 0;
     list->constants = constants;
     return contact_list_reserve(list, BLOCK);
 }

@@ -25,14 +25,16 @@ typedef enum contact_constants { CONSTANTS_OF_NONE, CONSTANTS_OF_ALL, CONSTANTS_
  * over a step. */
 enum { LAW_K_N, LAW_K_T, LAW_DAMPING, LAW_LAG, LAW_PUSH, LAW_NUMBERS, LAW_K_2 = LAW_DAMPING, LAW_LATCH = LAW_LAG };
 
-enum { CONSTANTS_OF_ANY = 4, CONTACT_CONSTANTS = CONSTANTS_OF_ANY + LAW_NUMBERS + 1 };
+enum { COHESION_NUMBERS = 3 }; /* what they are of each law: contact_constants.c */
+enum { CONSTANTS_OF_ANY = 4, CONTACT_CONSTANTS = CONSTANTS_OF_ANY + LAW_NUMBERS + COHESION_NUMBERS + 1 };
 
 /* What contacts of a list may have beside the rest: then it has the arrays for it. */
-enum { CONTACTS_ROLL = 1, CONTACT_LAWS_DIFFER = 2 };
+enum { CONTACTS_ROLL = 1, CONTACT_LAWS_DIFFER = 2, CONTACTS_COHERE = 4 };
 
 typedef struct contact_list {
     bool has_rolling; /* contacts resist rolling; else the arrays that only rolling friction needs are NULL */
     bool laws_differ; /* from contact to contact in the numbers of the law; else these arrays are NULL */
+    bool coheres;     /* some contacts do; likewise */
     contact_constants constants;
     /* Arrays are (capacity), a multiple of BLOCK. The slots from count to the end of the block are padding: a pair of spheres
      * that exist, whose result is never read. */
@@ -61,6 +63,7 @@ typedef struct contact_list {
             real *root_mass; /* kg^(1/2), root of the effective mass m_i m_j/(m_i + m_j); of the first's where the other is fixed */
             real *radius;    /* m, effective: R_i R_j/(R_i + R_j), of the first alone to a wall */
             real *law[LAW_NUMBERS];
+            real *cohesion[COHESION_NUMBERS];
             real *rolling_friction; /* mu_r */
         };
     };
@@ -87,7 +90,8 @@ static inline int contact_list_numbers(const contact_list *list)
 static inline bool contact_list_keeps(const contact_list *list, int constant)
 {
     if (constant < CONSTANTS_OF_ANY) return true;
-    return constant < CONSTANTS_OF_ANY + LAW_NUMBERS ? list->laws_differ : list->has_rolling;
+    if (constant < CONSTANTS_OF_ANY + LAW_NUMBERS) return list->laws_differ;
+    return constant < CONTACT_CONSTANTS - 1 ? list->coheres : list->has_rolling;
 }
 /* Index, in the arrays of constants, of the first constant of the block of contacts that begins at `start`. */
 static inline size_t constants_of(const contact_list *list, size_t start)
@@ -108,7 +112,8 @@ static inline real latch_damping_of(const dem_contact_parameters *c)
 dem_status contact_list_init(contact_list *list, int extras, contact_constants constants);
 static inline int contact_list_extras(const contact_list *list)
 {
-    return (list->has_rolling ? CONTACTS_ROLL : 0) + (list->laws_differ ? CONTACT_LAWS_DIFFER : 0);
+    return (list->has_rolling ? CONTACTS_ROLL : 0) + (list->laws_differ ? CONTACT_LAWS_DIFFER : 0)
+           + (list->coheres ? CONTACTS_COHERE : 0);
 }
 void contact_list_clear(contact_list *list);
 /* Room for count contacts; what was in the list is lost. */

@@ -12,9 +12,7 @@ static double damping_ratio(double restitution)
 /* 1/E* = (1 - nu1^2)/E1 + (1 - nu2^2)/E2, 1/G* = (2 - nu1)/G1 + (2 - nu2)/G2, G = E/(2 (1 + nu)). */
 static damped_law law_of_materials(dem_elasticity a, dem_elasticity b, double restitution, double dt)
 {
-    const double e_star = 1
-                          / ((1 - a.poissons_ratio * a.poissons_ratio) / a.youngs_modulus
-                             + (1 - b.poissons_ratio * b.poissons_ratio) / b.youngs_modulus);
+    const double e_star = dem_effective_modulus(a, b);
     const double shear = 2 * (2 - a.poissons_ratio) * (1 + a.poissons_ratio) / a.youngs_modulus
                          + 2 * (2 - b.poissons_ratio) * (1 + b.poissons_ratio) / b.youngs_modulus;
     const double damping = 2 * sqrt(5.0 / 6.0) * damping_ratio(restitution) * sqrt(2 * e_star);
@@ -143,6 +141,57 @@ static void friction_forces(contact_block *restrict block, real *restrict t_x, r
     }
 }
 
+/* What a contact of Johnson, Kendall & Roberts' is made of: R/a_f^2, pi w R/6 and a_f (core/NUMERICS.md, "Cohesion"). */
+enum { JKR_PER_OVERLAP, JKR_FORCE, JKR_LEAST_CONTACT };
+
+/* y^2 = a/a_f of the overlap alpha: y^4 - 4 y = D, D = alpha R/a_f^2 >= -3. With z = y - 1 that is z sqrt(z^2 + 4 z + 6) = s,
+ * s^2 = D + 3, which is nearly a line for small z and nearly a parabola for large: from the root of z^2 + sqrt(6) z = s, three percent
+ * off at most, three of Newton's steps come to rounding. Returns z. */
+WIDE_INLINE wide jkr_opening(wide s)
+{
+    const wide two = wide_all(2), four = wide_all(4), six = wide_all(6);
+    const wide half_root_6 = wide_all((real)1.22474487139158905), q_0 = s + wide_all((real)1.5);
+    wide z = s / (half_root_6 + q_0 * wide_inverse_root(q_0));
+    for (int k = 0; k < 3; k++) {
+        const wide q = wide_fused(z, z + four, six), per_root = wide_inverse_root(q), root = q * per_root;
+        const wide slope = wide_fused(z * (z + two), per_root, root);
+        z = z - wide_fused(z, root, -s) / slope;
+    }
+    return z;
+}
+
+/* jkr_springs of contact_law.h, LANES at a time, in the place of hertz_mindlin_normals. law, of_each: as there. A contact that is not
+ * joined has none of it. */
+WIDE_INLINE void jkr_normals(contact_block *restrict block, const contact_list *list, size_t at, const real *const of_each[],
+                             real inverse_time_step)
+{
+    const wide damping = wide_all(list->damped.damping), lag = wide_all(list->damped.lag), zero = wide_all(0), one = wide_all(1);
+    const wide eight_g_of_all = wide_all(8 * list->damped.k_t), half_per_dt = wide_all(inverse_time_step / 2), three = wide_all(3);
+    const real *const per_overlap = list->cohesion[JKR_PER_OVERLAP] + at, *const force = list->cohesion[JKR_FORCE] + at;
+    const real *const least = list->cohesion[JKR_LEAST_CONTACT] + at;
+    for (int k = 0; k < BLOCK; k += LANES) {
+        const wide alpha = wide_load(block->overlap + k), d = wide_fused(alpha, wide_load(per_overlap + k), three);
+        const wide_mask holds = wide_both(wide_exceeds(wide_load(block->joined + k), zero), wide_exceeds(d, zero));
+        const wide joined = wide_greater(wide_where(holds, one), wide_where(wide_exceeds(alpha, zero), one));
+        const wide_mask is_joined = wide_exceeds(joined, zero);
+        const wide s2 = wide_greater(d, wide_all((real)1e-12)), y = one + jkr_opening(s2 * wide_inverse_root(s2));
+        const wide yyy = y * y * y, spring = wide_load(force + k) * (yyy * (yyy - wide_all(6)));
+        const wide a_f = wide_load(least + k), a = a_f * (y * y), root_a = a_f * wide_inverse_root(a_f) * y;
+        const wide c_n = law_number(of_each[LAW_DAMPING], k, damping) * root_a
+                         * wide_minus_product(wide_load(list->root_mass + at + k), law_number(of_each[LAW_LAG], k, lag), root_a);
+        const wide f_n = wide_where(is_joined, wide_minus_product(spring, c_n, wide_load(block->parting + k)));
+        const wide k_t = (of_each[LAW_K_T] ? wide_all(8) * wide_load(of_each[LAW_K_T] + k) : eight_g_of_all) * a;
+        /* Thornton (1991): friction bears mu (N + 2 F_c), F_c = 9 pi w R/6 */
+        const wide pressed = wide_fused(wide_all(18), wide_load(force + k), f_n);
+        wide_store(block->joined + k, joined);
+        wide_store(block->f_n + k, f_n);
+        wide_store(block->mu_n + k, wide_where(is_joined, wide_load(list->friction + at + k) * wide_greater(pressed, zero)));
+        wide_store(block->k_t + k, k_t);
+        wide_store(block->compliance + k, one / k_t);
+        wide_store(block->dashpot + k, c_n * half_per_dt);
+    }
+}
+
 /* The normal forces of either law. of_each: as above. */
 WIDE_INLINE void damped_normals(contact_block *block, const contact_list *list, size_t at, const real *const of_each[],
                                 bool is_linear, real inverse_dt)
@@ -165,13 +214,26 @@ static void normals_of_materials(contact_block *block, const contact_list *list,
     damped_normals(block, list, at, of_each, is_linear, inverse_dt);
 }
 
+static void jkr_normals_of_list(contact_block *block, const contact_list *list, size_t at, real inverse_dt)
+{
+    const real *const none[LAW_NUMBERS] = { NULL };
+    if (!list->laws_differ) {
+        jkr_normals(block, list, at, none, inverse_dt);
+        return;
+    }
+    const real *const of_each[LAW_NUMBERS] = { NULL, list->law[LAW_K_T] + at, list->law[LAW_DAMPING] + at, list->law[LAW_LAG] + at };
+    jkr_normals(block, list, at, of_each, inverse_dt);
+}
+
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
                                   double dt)
 {
     const size_t at = constants_of(list, start);
     const real inverse_dt = dt > 0 ? (real)(1 / dt) : 0;
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
-    (list->laws_differ ? normals_of_materials : normals_of_all)(block, list, at, contact->law == DEM_SPRING_DASHPOT, inverse_dt);
+    const bool is_jkr = contact->cohesion_law == DEM_JKR && list->coheres;
+    if (is_jkr) jkr_normals_of_list(block, list, at, inverse_dt);
+    else (list->laws_differ ? normals_of_materials : normals_of_all)(block, list, at, contact->law == DEM_SPRING_DASHPOT, inverse_dt);
     rotate_stretch(block, t_x, t_y, t_z);
     friction_forces(block, t_x, t_y, t_z);
 }

@@ -24,17 +24,18 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_s
     list->picked_velocity = array_create(n, sizeof *list->picked_velocity);
     list->wall_start = array_create(n + 1, sizeof *list->wall_start);
     contact_parts_init(&list->parts, n);
-    bool enough =
-        outer_list_init(&list->outer, s, SKIN * s->smallest_diameter) == DEM_OK && list->picked_velocity && list->wall_start;
-    contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
     pair_table_set(&list->table, definition);
+    bool enough =
+        outer_list_init(&list->outer, s, SKIN * s->smallest_diameter + list->table.gap) == DEM_OK && list->picked_velocity && list->wall_start;
+    contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
     const bool spheres_differ = pair_table_spheres_differ(&list->table, definition);
     const bool walls_differ = pair_table_walls_differ(&list->table, definition);
     alike = alike && !spheres_differ;
     const contact_constants constants[] = { alike ? CONSTANTS_OF_ALL : CONSTANTS_OF_EACH, CONSTANTS_OF_EACH };
     for (int k = 0; k < 4; k++) {
         const bool laws_differ = k % 2 == 0 ? spheres_differ : walls_differ;
-        const int extras = (has_rolling ? CONTACTS_ROLL : 0) + (laws_differ ? CONTACT_LAWS_DIFFER : 0);
+        const bool coheres = (k % 2 == 0 ? pair_table_spheres_cohere : pair_table_walls_cohere)(&list->table, definition);
+        const int extras = (has_rolling ? CONTACTS_ROLL : 0) + (laws_differ ? CONTACT_LAWS_DIFFER : 0) + (coheres ? CONTACTS_COHERE : 0);
         enough = contact_list_init(all[k], extras, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
     }
     list->pairs.ends_differ = ends_differ;
@@ -136,7 +137,7 @@ static outlook outlook_since(const neighbor_list *list, double time_step)
 /* Steps for which every pair outside the outer list stays apart, at most HORIZON; 0: not even now. */
 static int safe_steps(const neighbor_list *list, const outlook *now, double time_step)
 {
-    const double room = 0.5 * list->outer.skin - list->margin - now->largest_displacement;
+    const double room = 0.5 * (list->outer.skin - list->table.gap) - list->margin - now->largest_displacement;
     if (!(room > 0)) return 0;
     return (int)fmin(HORIZON, 1 + room / (now->largest_speed * time_step + 1e-300));
 }

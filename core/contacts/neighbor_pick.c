@@ -15,7 +15,7 @@ static size_t begin_of_part(const neighbor_list *list, const spheres *s, int par
  * `apart` (m) from where they are at one moment (waves).
  *
  * With the centres r apart now, the distance never becomes less than r + duration * (parting speed); the pair can touch only if
- * that is at most the reach, the sum of the radii plus twice the margin. Multiplied by r, and with r * reach replaced by its
+ * that is at most the reach, the sum of the radii and of the gap that cohesion bridges, plus twice the margin. Multiplied by r, and with r * reach replaced by its
  * bound (r^2 + reach^2)/2 to avoid a root, the condition is r^2 + 2 duration (dv.x) <= reach^2, in ring units. It is computed
  * with the rounding of contacts, for which the reach is widened. */
 static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size_t pair, double duration, double apart)
@@ -35,7 +35,7 @@ static uint32_t pairs_in_reach(const neighbor_list *list, const spheres *s, size
                            ? wide_all((real)(2 * units * (double)s->full_radius[0]))
                            : (wide_rests_load(s->rest, first).radius + wide_rests_load(s->rest, second).radius)
                                  * wide_all((real)(units / s->scale));
-    const wide reach = radii + wide_all((real)(2 * units * (list->margin + apart)));
+    const wide reach = radii + wide_all((real)(units * (2 * (list->margin + apart) + list->table.gap)));
     return wide_mask_bits(wide_exceeds(reach * reach, nearest2));
 }
 
@@ -183,7 +183,7 @@ dem_status neighbor_list_pick(neighbor_list *list, spheres *s, const container *
 {
     const int parts = team_parts(threads);
     const double duration = list->safe_steps * time_step;
-    pick_work work = { .list = list, .spheres = s, .vessel = vessel, .contact = contact, .ahead = { duration, list->margin } };
+    pick_work work = { .list = list, .spheres = s, .vessel = vessel, .contact = contact, .ahead = { duration, list->margin + list->table.gap } };
     if (list->pairs.constants == CONSTANTS_OF_EACH) species_roots_set(&work.roots, s);
     work.apart = list->steps_apart * time_step * list->at_pick.largest_speed;
     work.same_outer = list->picked_of == list->outer.builds;

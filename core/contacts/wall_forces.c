@@ -99,6 +99,7 @@ static void set_aside(contacts_aside *aside, const contact_list *walls, size_t f
     memset(aside->constant, 0, sizeof aside->constant);
     *list = (contact_list){ .has_rolling = walls->has_rolling,
                             .laws_differ = walls->laws_differ,
+                            .coheres = walls->coheres,
                             .constants = CONSTANTS_OF_EACH,
                             .count = to - from,
                             .capacity = BLOCK,

@@ -72,8 +72,9 @@ void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres
         walls->first_radius[slot] = s->full_radius[i];
         walls->root_mass[slot] = (real)(1 / sqrt(sphere_inverse_mass(s, i)));
         walls->radius[slot] = s->full_radius[i];
-        if (table->is_given)
-            contact_constants_of_pair(walls, slot, table, (size_t)s->species[i], DEM_MAXIMUM_SPECIES + (size_t)c->wall[k].surface);
+        const size_t species = (size_t)s->species[i], partner = DEM_MAXIMUM_SPECIES + (size_t)c->wall[k].surface;
+        if (table->is_given) contact_constants_of_pair(walls, slot, table, species, partner);
+        if (walls->coheres) contact_constants_of_cohesion(walls, slot, table, species, partner);
         slot++;
     }
 }

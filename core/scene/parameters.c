@@ -37,6 +37,14 @@ static bool is_not_negative(double x) { return x >= 0 && isfinite(x); }
 
 static bool are_frictions(double sliding, double rolling) { return is_not_negative(sliding) && is_not_negative(rolling); }
 
+static bool is_cohesion(const dem_scene_definition *d, const dem_cohesion *c)
+{
+    return is_not_negative(c->strength) && is_not_negative(c->liquid_volume) && c->contact_angle >= 0
+           && c->contact_angle < DEM_PI / 2
+           && (d->contact.cohesion_law == DEM_NO_COHESION ? c->strength == 0 : d->contact.cohesion_law <= DEM_LIQUID_BRIDGE)
+           && (d->contact.cohesion_law != DEM_JKR || d->contact.law == DEM_HERTZ_MINDLIN);
+}
+
 static bool is_pair(const dem_pair *p, const dem_scene_definition *d)
 {
     dem_contact_parameters c = d->contact;
@@ -44,7 +52,8 @@ static bool is_pair(const dem_pair *p, const dem_scene_definition *d)
     c.particle = p->elasticity[0];
     c.wall = p->elasticity[1];
     return is_law(&c) && are_frictions(p->friction, p->rolling_friction) && p->restitution > 0 && p->restitution <= 1
-           && is_not_negative(p->unloading_slope) && (p->unloading_slope > 0) == (d->contact.unloading_slope > 0);
+           && is_not_negative(p->unloading_slope) && (p->unloading_slope > 0) == (d->contact.unloading_slope > 0)
+           && is_cohesion(d, &p->cohesion);
 }
 
 /* The contact of two is the same seen from either. */
@@ -103,7 +112,8 @@ static dem_status parameters_check(const dem_scene_definition *d)
                 && d->species_count >= 1 && d->species_count <= DEM_MAXIMUM_SPECIES && d->corrector_passes >= 0;
     good = good && is_law(c) && c->unloading_slope >= 0 && isfinite(c->unloading_slope) && c->restitution > 0 && c->restitution <= 1
            && is_not_negative(c->latch_damping) && is_not_negative(c->friction) && is_not_negative(c->wall_friction)
-           && is_not_negative(c->rolling_friction) && is_not_negative(c->wall_rolling_friction);
+           && is_not_negative(c->rolling_friction) && is_not_negative(c->wall_rolling_friction) && is_cohesion(d, &c->cohesion)
+           && is_cohesion(d, &c->wall_cohesion);
     double shares = 0.0, largest = 0.0;
     for (size_t k = 0; good && k < d->species_count; k++) {
         const dem_species *s = &d->species[k];

@@ -55,10 +55,11 @@ void scene_enter_phase(dem_scene *scene, dem_phase phase)
     const dem_scene_definition *definition = &scene->definition;
     scene->phase = phase;
     scene->contact = definition->contact;
-    /* Grown without friction, spheres slip into place instead of locking each other. */
+    /* Grown without friction and cohesion, spheres slip into place instead of locking each other. */
     if (phase == DEM_PHASE_GROWING) {
         scene->contact.friction = scene->contact.wall_friction = 0.0;
         scene->contact.rolling_friction = scene->contact.wall_rolling_friction = 0.0;
+        scene->contact.cohesion_law = DEM_NO_COHESION;
     }
     container_set_friction(&scene->container, definition, phase != DEM_PHASE_GROWING);
     scene->neighbors.table.has_friction = phase != DEM_PHASE_GROWING;

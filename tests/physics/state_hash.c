@@ -12,7 +12,8 @@ enum { CASE, STEPS, THREADS, SETTLING };
 
 static named_number asked[] = {
     { "case", 0 }, /* 0: spheres, 1: two sizes, 2: tetrahedra, 3: spring-dashpot with lifters, 4: Hertz-Mindlin, end walls,
-                      5: rolling friction, two sizes, 6: two materials and a third of the walls */
+                      5: rolling friction, two sizes, 6: two materials and a third of the walls,
+                      7: jkr, two sizes, 8: liquid bridges of latching springs */
     { "steps", 2000 }, { "threads", 1 }, { "settling", 1 }, /* 0: the steps begin with the growing, 1: with the rotation */
     { NULL, 0 },
 };
@@ -37,11 +38,23 @@ static void set_pairs(dem_scene_definition *d)
                                         .stiffness = d->contact.stiffness * (1 - 0.05 * (double)(a * b % 3)) };
 }
 
+static void set_cohesion(dem_scene_definition *d, bool is_jkr)
+{
+    if (is_jkr) {
+        d->contact.law = DEM_HERTZ_MINDLIN;
+        d->contact.particle = d->contact.wall = (dem_elasticity){ 2e6, 0.3 };
+    }
+    d->contact.cohesion_law = is_jkr ? DEM_JKR : DEM_LIQUID_BRIDGE;
+    d->contact.cohesion = is_jkr ? (dem_cohesion){ .strength = 0.05 }
+                                 : (dem_cohesion){ .strength = 0.03, .liquid_volume = 1e-11, .contact_angle = 0.3 };
+    d->contact.wall_cohesion = d->contact.cohesion;
+}
+
 static dem_scene_definition drum_asked(void)
 {
     const int number = (int)of(CASE);
     dem_scene_definition d = small_drum();
-    if (number == 1 || number == 5) {
+    if (number == 1 || number == 5 || number == 7) {
         d.species_count = 2;
         d.species[0].share = 0.7;
         d.species[1] = (dem_species){ .diameter = 0.004, .density = 2500, .share = 0.3 };
@@ -65,6 +78,7 @@ static dem_scene_definition drum_asked(void)
         d.ends = (dem_drum_ends){ .are_walls = true, .friction = 0.3 };
     }
     if (number == 6) set_materials(&d);
+    if (number == 7 || number == 8) set_cohesion(&d, number == 7);
     if (number == 5) d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.05;
     d.contact.latch_damping = 0.3;
     d.threads = (int)of(THREADS);

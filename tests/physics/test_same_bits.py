@@ -10,7 +10,7 @@ from conftest import BUILD, program
 SECTION = "The same bits"
 WHY = "every operation rounds alike: fused products are written out, and sums have one order"
 CASES = ["spheres", "two sizes", "tetrahedra", "spring-dashpot, lifters", "hertz-mindlin, end walls",
-         "rolling friction, two sizes", "materials"]
+         "rolling friction, two sizes", "materials", "jkr, two sizes", "liquid bridges"]
 KEPT = json.loads((Path(__file__).parent / "state_hashes.json").read_text())
 
 

@@ -110,6 +110,7 @@ static const spec_field fields[] = {
       AT(at_most_revolutions), .meaning = "where until_standard_error_deg gives up. Default: 10" },
 
     FIELDS_OF_MATERIALS,
+    FIELDS_OF_COHESIONS,
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
       SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),

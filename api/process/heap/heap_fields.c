@@ -59,6 +59,7 @@ static const spec_field fields[] = {
                  "fill_height, and 3 s" },
 
     FIELDS_OF_MATERIALS,
+    FIELDS_OF_COHESIONS,
     FIELDS_OF_OUTPUT_AND_RUN,
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
       SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),

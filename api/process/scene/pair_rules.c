@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cohesion_rules.h"
 #include "dem_rules.h"
 #include "pair_names.h"
 
@@ -153,12 +154,14 @@ static dem_pair pair_of_contact(const dem_scene_definition *scene)
                        .rolling_friction = c->rolling_friction,
                        .restitution = c->restitution,
                        .stiffness = c->stiffness,
-                       .unloading_slope = c->unloading_slope };
+                       .unloading_slope = c->unloading_slope,
+                       .cohesion = c->cohesion };
 }
 
-static void set_surface_friction(const dem_scene_definition *scene, dem_surface surface, dem_pair *pair)
+static void set_surface(const dem_scene_definition *scene, dem_surface surface, dem_pair *pair)
 {
     pair->friction = scene->contact.wall_friction;
+    pair->cohesion = scene->contact.wall_cohesion;
     pair->rolling_friction = scene->contact.wall_rolling_friction;
     if (surface == DEM_LIFTERS) pair->friction = scene->lifters.friction;
     if (surface == DEM_ENDS) pair->friction = scene->ends.friction, pair->rolling_friction = scene->ends.rolling_friction;
@@ -181,6 +184,7 @@ static void apply_pair(const scene_inputs *inputs, const dem_scene_definition *s
         override(&pair->rolling_friction, p->rolling_friction);
         override(&pair->restitution, p->restitution);
         override(&pair->stiffness, p->stiffness);
+        if (!isnan(p->cohesion.law)) pair->cohesion = cohesion_of(&p->cohesion, scene);
     }
 }
 
@@ -214,7 +218,7 @@ static dem_pair pair_with_surface(const scene_inputs *inputs, const collision *w
     const dem_pair base = pair;
     const char *name = surface == DEM_PLATE ? inputs->plate_material : inputs->wall_material;
     const int material = material_index(inputs, inputs->species[a].material), first = (int)inputs->material_count;
-    set_surface_friction(scene, surface, &pair);
+    set_surface(scene, surface, &pair);
     pair.elasticity[0] = elasticity_of(inputs, inputs->species[a].material, scene->contact.particle);
     pair.elasticity[1] = pair.elasticity[0]; /* a surface without a material has the particle's */
     if (*name) pair.elasticity[1].poissons_ratio = inputs->poissons_ratio;
@@ -280,8 +284,8 @@ static void add_outcome(outcome *all, const dem_scene_definition *scene, const c
     const bool is_species = partner < DEM_MAXIMUM_SPECIES;
     const bodies b = bodies_of(&scene->species[a], is_species ? &scene->species[partner] : NULL);
     const dem_pair *p = &scene->pair[a][partner];
-    all->overlap = fmax(all->overlap, overlap_of(p, worst, &b, scene->contact.law));
-    all->time_step = fmin(all->time_step, step_of(p, worst, &b, scene->contact.law));
+    all->overlap = larger_of(all->overlap, overlap_of(p, worst, &b, scene->contact.law));
+    all->time_step = smaller_of(all->time_step, step_of(p, worst, &b, scene->contact.law));
 }
 
 static void set_pairs(const scene_inputs *inputs, const collision *worst, dem_scene_definition *scene, outcome *all)
@@ -308,6 +312,7 @@ static void contact_of_one_species(dem_scene_definition *scene)
     c->restitution = p->restitution;
     c->stiffness = p->stiffness;
     c->unloading_slope = p->unloading_slope;
+    c->cohesion = p->cohesion;
     c->particle = c->wall = p->elasticity[0];
 }
 

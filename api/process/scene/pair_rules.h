@@ -2,6 +2,8 @@
 #ifndef PAIR_RULES_H
 #define PAIR_RULES_H
 
+#include <math.h>
+
 #include "job_spec.h"
 
 #define MOST_OVERLAP 0.25 /* of the smallest diameter: beyond half a radius a run is stopped */
@@ -12,7 +14,12 @@ typedef struct collision {
     double smallest, largest;  /* m, diameters of spheres, also those of clusters */
     double speed;              /* m/s */
     double fastest;            /* m/s, that or what two particles of the start can meet at: the step must do for it */
+    double pull;               /* N, the largest that cohesion bears without pairs */
 } collision;
+
+/* Of two numbers, of which either may follow from what was refused: then it is not a number either. */
+static inline double larger_of(double a, double b) { return isnan(a) || isnan(b) ? NAN : fmax(a, b); }
+static inline double smaller_of(double a, double b) { return isnan(a) || isnan(b) ? NAN : fmin(a, b); }
 
 /* One spelling of each material's members, and whether the names that particles and walls give are there. */
 void materials_complete(scene_inputs *inputs, problem_list *problems);

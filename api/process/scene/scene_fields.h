@@ -8,6 +8,7 @@
 #include "dem_cluster.h"
 #include "input_rows.h"
 
+static const char *const cohesion_choices[] = { "constant", "sjkr", "sjkr2", "jkr", "liquid-bridge", NULL }; /* dem_cohesion_law */
 enum { MOST_MATERIALS = 32, MOST_PAIRS = 400 };
 static const char *const shape_choices[] = { "sphere", "dumbbell", "tetrahedron", "cube", NULL }; /* as dem_shape counts them */
 static const char *const unloading_choices[] = { "constant", "variable", NULL };
@@ -131,6 +132,41 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "coefficient of normal restitution; with variable unloading: of the hardest impact. Default: the contact's" }, \
     { SPEC_PAIRS, "stiffness", FIELD_REAL, .unit = "N/m", RANGE(1e-3, 1e9), .fallback = NAN, AT_PAIR(stiffness), \
       .meaning = "normal loading stiffness; not for hertz-mindlin. Default: the contact's" }
+
+/* The rows of one `cohesion`: group: its members'; at: where its struct begins in what offsets count from. */
+#define AT_COHESION(at, member) .offset = (at) + offsetof(cohesion_inputs, member)
+#define FIELDS_OF_COHESION(group, at) \
+    { group, "law", FIELD_CHOICE, .unit = "", .choices = cohesion_choices, AT_COHESION(at, law), \
+      .meaning = "constant: the same pull while they touch; sjkr, sjkr2: an energy density times the area of contact, in which two " \
+                 "spheres cut each other, or 4 pi R* times the overlap; jkr: Johnson, Kendall & Roberts; liquid-bridge: formed at a " \
+                 "touch, broken at a gap. sjkr and jkr are for hertz-mindlin. One law for all that coheres" }, \
+    { group, "pull_off", FIELD_REAL, .unit = "N", RANGE(0.0, 1e6), .fallback = NAN, .excludes_too = "bond_number", \
+      AT_COHESION(at, pull_off), .meaning = "of constant: the pull" }, \
+    { group, "bond_number", FIELD_REAL, .unit = "", RANGE(0.0, 1e4), .fallback = NAN, AT_COHESION(at, bond_number), \
+      .meaning = "of constant, instead of pull_off: the pull over the weight of the mean particle" }, \
+    { group, "energy_density", FIELD_REAL, .unit = "J/m3", RANGE(0.0, 1e9), .fallback = NAN, AT_COHESION(at, energy_density), \
+      .meaning = "of sjkr and sjkr2" }, \
+    { group, "surface_energy", FIELD_REAL, .unit = "J/m2", RANGE(0.0, 1e3), .fallback = NAN, AT_COHESION(at, surface_energy), \
+      .meaning = "of jkr: the work that parts an area of the two surfaces, w; the pull-off is 3/2 pi w R*" }, \
+    { group, "liquid_volume", FIELD_REAL, .unit = "m3", OPEN_RANGE(0.0, 1e-3), .fallback = NAN, AT_COHESION(at, liquid_volume), \
+      .meaning = "of liquid-bridge: volume of each bridge" }, \
+    { group, "surface_tension", FIELD_REAL, .unit = "N/m", RANGE(0.0, 10.0), .fallback = NAN, AT_COHESION(at, surface_tension), \
+      .meaning = "of liquid-bridge" }, \
+    { group, "contact_angle_deg", FIELD_REAL, .unit = "degrees", RANGE(0.0, 89.0), .fallback = NAN, \
+      AT_COHESION(at, contact_angle_deg), .meaning = "of liquid-bridge: between liquid and solid. Default: 0" }
+
+#define FIELDS_OF_COHESIONS \
+    { SPEC_CONTACT, "cohesion", FIELD_OBJECT_OR_NULL, SPEC_CONTACT_COHESION, .is_left_out_where_null = true, AT(cohesion.law), \
+      COLUMN("bond_number", REAL, bond_number), .column_may_miss = true, IN_VIEW(285), .unit = "", \
+      .meaning = "what pulls particles together; null: nothing. The column has the Bond number: the largest pull-off between " \
+                 "particles over the weight of the mean one" }, \
+    FIELDS_OF_COHESION(SPEC_CONTACT_COHESION, offsetof(scene_inputs, cohesion)), \
+    { SPEC_WALL, "cohesion", FIELD_OBJECT_OR_NULL, SPEC_WALL_COHESION, .is_left_out_where_null = true, AT(wall_cohesion.law), \
+      FREE_OF_BED, .meaning = "what pulls particles to all that is the container's; null: nothing" }, \
+    FIELDS_OF_COHESION(SPEC_WALL_COHESION, offsetof(scene_inputs, wall_cohesion)), \
+    { SPEC_PAIRS, "cohesion", FIELD_OBJECT_OR_NULL, SPEC_PAIR_COHESION, .is_left_out_where_null = true, AT_PAIR(cohesion.law), \
+      .meaning = "what pulls the two together; null: as without the pair" }, \
+    FIELDS_OF_COHESION(SPEC_PAIR_COHESION, offsetof(pair_inputs, cohesion))
 
 #define FIELDS_OF_OUTPUT_AND_RUN \
     { SPEC_INPUTS, "snapshots", FIELD_OBJECT, SPEC_SNAPSHOTS, .meaning = "files of all particles, for ParaView" }, \

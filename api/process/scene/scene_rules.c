@@ -7,6 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "cohesion_rules.h"
 #include "dem_cluster.h"
 #include "dem_rules.h"
 #include "pair_rules.h"
@@ -168,7 +169,8 @@ static double derive_linear(const scene_inputs *inputs, const collision *worst, 
     scene->contact.stiffness =
         isnan(inputs->maximum_overlap)
             ? inputs->stiffness
-            : dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest);
+            : larger_of(dem_stiffness_for_overlap(worst->speed, worst->heaviest, inputs->maximum_overlap * worst->smallest),
+                        cohesion_stiffness(worst, inputs->maximum_overlap));
     if (inputs->unloading == 1.0 && scene->contact.law == DEM_WALTON_BRAUN) derive_unloading(inputs, worst, scene, problems);
     if (scene->contact.law == DEM_SPRING_DASHPOT)
         scene->time_step = dem_time_step(scene->contact.stiffness, worst->lightest, scene->contact.restitution);
@@ -191,10 +193,11 @@ static double derive_hertzian(const scene_inputs *inputs, const collision *worst
                          "is %g Pa, too soft: overlaps would pass %g of the "
                          "smallest diameter; must be at least %.3g Pa here",
                          inputs->youngs_modulus, MOST_OVERLAP, least);
-    const double effective =
-        isnan(inputs->youngs_modulus)
-            ? dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius, inputs->maximum_overlap * worst->smallest)
-            : inputs->youngs_modulus / plane_strain;
+    const double effective = isnan(inputs->youngs_modulus)
+                                 ? larger_of(dem_hertz_modulus_for_overlap(worst->speed, worst->heaviest, radius,
+                                                                           inputs->maximum_overlap * worst->smallest),
+                                             cohesion_modulus(worst, inputs->maximum_overlap))
+                                 : inputs->youngs_modulus / plane_strain;
     const double overlap = worst->smallest * MOST_OVERLAP * pow(least / (effective * plane_strain), 0.4);
     scene->contact.particle = scene->contact.wall = (dem_elasticity){ effective * plane_strain, inputs->poissons_ratio };
     scene->contact.stiffness = 4.0 / 3.0 * effective * sqrt(radius * overlap);
@@ -219,12 +222,13 @@ double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem
 {
     const dem_contact_law law =
         inputs->contact_law > 0.0 ? (dem_contact_law)inputs->contact_law : DEM_WALTON_BRAUN; /* not of NaN */
-    const collision worst = { scene_of_species(scene, dem_species_mass, true),
-                              scene_of_species(scene, dem_species_contact_mass, false),
-                              scene_of_species(scene, dem_species_smallest_sphere, false),
-                              scene_of_species(scene, dem_species_largest_sphere, true),
-                              impact_speed,
-                              fmax(impact_speed, fastest_meeting(&inputs->start)) };
+    collision worst = { scene_of_species(scene, dem_species_mass, true),
+                        scene_of_species(scene, dem_species_contact_mass, false),
+                        scene_of_species(scene, dem_species_smallest_sphere, false),
+                        scene_of_species(scene, dem_species_largest_sphere, true),
+                        impact_speed,
+                        fmax(impact_speed, fastest_meeting(&inputs->start)),
+                        0.0 };
     scene->contact = (dem_contact_parameters){
         .law = law,
         .restitution = inputs->restitution,
@@ -236,6 +240,7 @@ double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem
         .wall_rolling_friction = inputs->wall_rolling_friction,
     };
     check_unloading(inputs, problems);
+    worst.pull = cohesion_derive(inputs, scene, problems);
     if (law == DEM_HERTZ_MINDLIN && !isnan(inputs->stiffness))
         problem_list_add(problems, "/inputs/contact/stiffness",
                          "is %g N/m, but hertz-mindlin takes youngs_modulus (Pa) or "
@@ -247,7 +252,8 @@ double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem
                          "maximum_overlap; youngs_modulus is for hertz-mindlin",
                          inputs->youngs_modulus);
     const double overlap = (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
-    const double largest = pairs_derive(inputs, &worst, overlap, scene, problems);
+    const double with_pairs = pairs_derive(inputs, &worst, overlap, scene, problems);
+    const double largest = cohesion_complete(inputs, &worst, with_pairs, scene, problems);
     scene->time_step *= DEM_STEPS_PER_CONTACT / inputs->steps_per_contact;
     return largest;
 }
@@ -292,5 +298,6 @@ void scene_set_common(job_spec *spec)
     spec->sample_interval = inputs->sample_interval;
     spec->snapshot_interval = inputs->snapshot_interval;
     spec->threads = spec->scene.threads;
+    spec->bond_number = spec->scene.contact.cohesion_law ? cohesion_bond_number(&spec->scene) : NAN;
     spec->scene.corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes;
 }

@@ -32,6 +32,7 @@ void scene_understand(const job_spec *spec, json_t *words)
 {
     json_object_set_new(words, "diameter_ratio", json_real(diameter_ratio(spec)));
     json_object_set_new(words, "expected_overlap", json_real(spec->expected_overlap));
+    if (!isnan(spec->bond_number)) json_object_set_new(words, "bond_number", json_real(spec->bond_number));
 }
 
 void scene_warn(const job_spec *spec, const char *container, problem_list *warnings)

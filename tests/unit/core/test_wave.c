@@ -5,7 +5,7 @@
 #include "small_drum.h"
 #include "wave.h"
 
-enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 360 /* species apart */ };
+enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 424 /* species and pairs apart */ };
 
 /* Eight diameters across and a hundred long: some 3000 spheres, so that steps follow each other along it. */
 static dem_scene_definition slender_drum(void)
@@ -179,6 +179,26 @@ static void end_walls(dem_scene_definition *d) { d->ends = (dem_drum_ends){ true
 static void rolling(dem_scene_definition *d) { d->contact.rolling_friction = d->contact.wall_rolling_friction = 0.1; }
 static void variable_unloading(dem_scene_definition *d) { d->contact.unloading_slope = 1e3; }
 static void latch_damping(dem_scene_definition *d) { d->contact.latch_damping = 0.3; }
+static void materials(dem_scene_definition *d)
+{
+    d->species_count = 2;
+    d->species[0].share = 0.6;
+    d->species[1] = (dem_species){ .diameter = 0.003, .density = 1500, .share = 0.4 };
+    d->has_pairs = true;
+    for (size_t a = 0; a < 2; a++)
+        for (size_t b = 0; b < DEM_MAXIMUM_SPECIES + DEM_SURFACES; b++)
+            d->pair[a][b] = (dem_pair){ .friction = 0.2 + 0.1 * (double)(a + b % 3),
+                                        .restitution = 0.8 - 0.1 * (double)a,
+                                        .stiffness = 3000 + 300 * (double)a };
+    for (size_t a = 0; a < 2; a++)
+        for (size_t b = 0; b < 2; b++) d->pair[a][b].friction = 0.2 + 0.1 * (double)(a + b);
+}
+static void liquid_bridges(dem_scene_definition *d)
+{
+    d->contact.cohesion_law = DEM_LIQUID_BRIDGE;
+    d->contact.cohesion = d->contact.wall_cohesion =
+        (dem_cohesion){ .strength = 0.02, .liquid_volume = 1e-11, .contact_angle = 0.3 };
+}
 static void other_sense(dem_scene_definition *d) { d->rotation_rate = -d->rotation_rate; }
 static void standing_still(dem_scene_definition *d) { d->rotation_rate = 0; }
 static void threads(dem_scene_definition *d) { d->threads = 2; }
@@ -240,6 +260,8 @@ static const effect effects[] = {
     { "rolling friction", rolling, NULL, true },
     { "variable unloading", variable_unloading, NULL, true },
     { "latch damping", latch_damping, NULL, true },
+    { "materials", materials, NULL, true },
+    { "cohesion beyond touch", liquid_bridges, NULL, true },
     { "the other sense", other_sense, NULL, true },
     { "standing still", standing_still, NULL, true },
     { "threads", threads, NULL, false },
@@ -255,7 +277,9 @@ static const effect effects[] = {
 
 /* A definition with a new member does not have this size: say in `effects` what the member switches on in a step, and
  * whether waves foresee it (is_possible in wave.c). */
-_Static_assert(sizeof(dem_scene_definition) - sizeof(((dem_scene_definition *)NULL)->species) == DEFINITION_BYTES,
+_Static_assert(sizeof(dem_scene_definition) - sizeof(((dem_scene_definition *)NULL)->species)
+                       - sizeof(((dem_scene_definition *)NULL)->pair)
+                   == DEFINITION_BYTES,
                "each member that acts in a step has a row in effects");
 _Static_assert(sizeof(energy_audit) == 3 * sizeof(double), "what the audit counts is compared below");
 
