@@ -1,6 +1,7 @@
 # reposed: virtual rotary-drum tests. `make help` lists the targets.
 
-PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev libseccomp-dev libcurl4-openssl-dev
+PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev libseccomp-dev libcurl4-openssl-dev \
+            nettle-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core python3-owslib
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
@@ -126,7 +127,7 @@ $(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_S
 	@rm -f $$@ && ar rcs $$@ $$^
 $(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/commit.o $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a $(RULES)
 	$(SAY) link $$@
-	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -ljansson -lseccomp -lm
+	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -lnettle -ljansson -lseccomp -lm
 endef
 $(foreach v,$(VARIANTS),$(eval $(call core,$(v))))
 # The rules, which the core and the daemon have in common, are compiled once, for any processor.
@@ -153,7 +154,7 @@ $(BUILD)/libapi.a: $(API)
 	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/commit.o $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm
+	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lnettle -lm
 # The commit that programs were made from, for --version; COMMIT=... where the sources are no clone.
 COMMIT = $(shell [ ! -e .git ] || git describe --always --dirty --abbrev=12 --exclude '*' 2>/dev/null)
 $(BUILD)/commit.c: FORCE
@@ -184,19 +185,19 @@ $(BUILD)/tests/unit/core/test_allocations: LDFLAGS += $(patsubst %,-Wl$(,)--wrap
 $(BUILD)/tests/unit/api/%: tests/unit/api/%.c $(BUILD)/libapi.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) -Itests/unit $< $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -lcmocka -ljansson -lm -o $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) -Itests/unit $< $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -lcmocka -ljansson -lnettle -lm -o $@
 $(BUILD)/libworker.a: $(filter-out $(BUILD)/server/worker/main.o,$(WORKER))
 	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD)/libapi.a $(BUILD)/core/single-plain/libdem.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) -Itests/unit $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
-	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -ljansson -lseccomp -lm -o $@
+	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -lnettle -ljansson -lseccomp -lm -o $@
 $(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD)/libapi.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(API_SEES) $(addprefix -I,$(server/daemon_SEES)) -Itests/unit $< $(BUILD)/libdaemon.a \
-	  $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lm -o $@
+	  $(BUILD)/libapi.a $(RULES) $(LDFLAGS) -pthread -lcmocka -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lnettle -lm -o $@
 # Fuzzers are linked with what they read alone: those of the worker's files with the core, those of what comes in with the daemon.
 FUZZ_HEADERS := $(wildcard tests/fuzz/*.h)
 WORKER_FILES := $(filter $(BUILD)/server/worker/files/%,$(WORKER))
@@ -207,10 +208,10 @@ $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(BUILD)/libapi.a $(RULES)
 	$(call fuzz_link)
 $(BUILD)/fuzz_checkpoint $(BUILD)/fuzz_start: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(WORKER_FILES) $(BUILD)/libapi.a $(RULES) $(DEM)
 	$(SAY) link $@
-	$(call fuzz_link,$(HDF5_CFLAGS) $(addprefix -I,$(server/worker/files_SEES)),$(WORKER_FILES),$(DEM) -lgomp $(HDF5_LIBS))
+	$(call fuzz_link,$(HDF5_CFLAGS) $(addprefix -I,$(server/worker/files_SEES)),$(WORKER_FILES),$(DEM) -lgomp $(HDF5_LIBS) -lnettle)
 $(BUILD)/fuzz_events $(BUILD)/fuzz_request $(BUILD)/fuzz_result: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(DAEMON_PARTS) $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
-	$(call fuzz_link,$(addprefix -I,$(server/daemon_SEES)),$(DAEMON_PARTS),-pthread -lmicrohttpd -lsqlite3 -lyaml -lz)
+	$(call fuzz_link,$(addprefix -I,$(server/daemon_SEES)),$(DAEMON_PARTS),-pthread -lmicrohttpd -lsqlite3 -lyaml -lz -lnettle)
 # Programs that drive the core's own step for the physics tests, which compare what they print.
 # $(call variant_tests,VARIANT): those, and the unit tests of what differs from variant to variant.
 define variant_tests

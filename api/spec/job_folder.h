@@ -1,6 +1,8 @@
 /* The names of what a job folder holds: the whole contract between the daemon and a worker.
  *
  *   spec.json        canonical spec, written by the daemon before the worker starts
+ *   start.hdf.sha256 the SHA-256 of start.hdf, in hexadecimal and a newline, which the daemon took when it gave the job that
+ *                    file: a worker reads no other bytes
  *   start.hdf        where the run starts from another's bed: that run's snapshot or checkpoint, under a name of its own
  *   events.ndjson    append-only, one JSON object a line; every line ends in \n (a last line without it is not
  *                    yet written). Each has "event" and, but for start, "step" and "time" (s since rotation
@@ -37,6 +39,7 @@
 #define JOB_FOLDER_H
 
 #define JOB_START_FILE "start.hdf"
+#define JOB_START_HASH_FILE JOB_START_FILE ".sha256"
 #define JOB_SPEC_FILE "spec.json"
 #define JOB_EVENTS_FILE "events.ndjson"
 #define JOB_SNAPSHOT_FOLDER "snapshots"

@@ -40,7 +40,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     hostile_sealed(JOB_START_FILE, bytes, size);
     look();
     CLAIM(dem_scene_create(&spec.scene, &scene) == DEM_OK);
-    if (start_scene(&spec, scene) == DEM_OK) dem_scene_advance(scene, 2);
+    char why_not[300];
+    if (start_scene(&spec, scene, why_not, sizeof why_not) == DEM_OK) dem_scene_advance(scene, 2);
     dem_scene_free(scene);
     CLAIM(hostile_hdf_open() == open_before);
     return 0;

@@ -1,6 +1,8 @@
 """Runs that start from a bed made before: a file, a job of the daemon, or particles one by one."""
 import copy
+import hashlib
 import json
+import os
 import shutil
 import subprocess
 
@@ -180,6 +182,47 @@ def test_jobs_start_from_jobs_and_need_them_no_more(daemon):
         assert daemon.get(f"/jobs/{job}/results").json()["run"]["settling_seconds"] == 0
         assert daemon.get(f"/jobs/{job}/spec").json()["inputs"]["start"]["job"] == first
     assert len(counts) == 1
+
+
+def sealed_again(path):
+    """The file's last line made to fit what is before it: CRC-64 of ECMA-182, reflected."""
+    table = []
+    for byte in range(256):
+        for _ in range(8):
+            byte = byte >> 1 ^ (0xC96C5795D7870F42 if byte & 1 else 0)
+        table.append(byte)
+    text, crc = path.read_bytes()[:-23], 0xFFFFFFFFFFFFFFFF
+    for byte in text:
+        crc = table[(crc ^ byte) & 255] ^ crc >> 8
+    path.write_bytes(text + f"crc64 {crc ^ 0xFFFFFFFFFFFFFFFF:016x}\n".encode())
+
+
+def test_a_bed_that_was_changed_after_it_was_given_is_refused_whatever_its_checksum_says(daemon):
+    first = daemon.submit()
+    assert daemon.ended(first)["status"] == "successful"
+    mine = daemon.data / "jobs" / first / "checkpoint.hdf"
+    before = mine.read_bytes()
+    sealed_again(mine)
+    assert mine.read_bytes() == before  # so it is the checksum that is written
+    blockers = [daemon.submit({**SPEC, "duration": {"seconds": 40}}) for _ in range(os.cpu_count() + 2)]
+    try:
+        changed = daemon.submit(without_fill(start={"job": first}, duration={"seconds": 40}))  # a short one would not wait
+        folder = daemon.data / "jobs" / changed
+        assert (folder / "start.hdf.sha256").read_text() == hashlib.sha256(before).hexdigest() + "\n"
+        assert daemon.job(changed)["status"] == "accepted"
+        at = before.index(b"walton-braun")
+        with open(mine, "r+b") as file:  # as only the first job's worker could: in place
+            file.seek(at)
+            file.write(b"W")
+        sealed_again(mine)
+        assert os.path.samefile(mine, folder / "start.hdf")
+    finally:
+        for job in blockers:
+            requests.delete(f"{daemon.url}/jobs/{job}", timeout=30)
+    ended = daemon.ended(changed)
+    assert ended["status"] == "failed" and "SHA-256" in ended["message"] and hashlib.sha256(before).hexdigest() in ended["message"]
+    again = daemon.submit(without_fill(start={"job": first}))  # given as it is now, it is refused by nothing but what is in it
+    assert "SHA-256" not in daemon.ended(again)["message"]
 
 
 def test_what_a_job_can_not_start_from_is_told(daemon):

@@ -16,6 +16,7 @@
 #include "checksum.h"
 #include "job_folder.h"
 #include "log.h"
+#include "sha256.h"
 
 /* Of the disk, for what has been begun; of a small one a share. */
 #define KEPT_BYTES 64e6
@@ -186,6 +187,33 @@ static bool copy_durably(int from, int folder, const char *name)
     return good && renameat(folder, temporary, folder, name) == 0;
 }
 
+/* The jobs of a study start from the same file, whose hash is taken once. A file that was changed so that this does not show is
+ * refused by the workers. */
+static bool hash_of(int file, char hex[SHA256_HEX_SIZE])
+{
+    static _Thread_local struct stat last;
+    static _Thread_local char hash[SHA256_HEX_SIZE];
+    struct stat facts;
+    if (fstat(file, &facts) != 0) return false;
+    const bool is_known = hash[0] && facts.st_dev == last.st_dev && facts.st_ino == last.st_ino && facts.st_size == last.st_size
+                          && facts.st_mtim.tv_sec == last.st_mtim.tv_sec && facts.st_mtim.tv_nsec == last.st_mtim.tv_nsec;
+    if (!is_known && !sha256_of_file(file, hash)) {
+        hash[0] = '\0';
+        return false;
+    }
+    last = facts;
+    memcpy(hex, hash, sizeof hash);
+    return true;
+}
+
+static bool write_hash(int file, int folder)
+{
+    char line[SHA256_HEX_SIZE + 1];
+    if (!hash_of(file, line)) return false;
+    memcpy(line + SHA256_HEX_SIZE - 1, "\n", 2);
+    return write_whole(folder, JOB_START_HASH_FILE, line);
+}
+
 bool job_folder_add_start(const data_folder *data, const char *id, const char *from, const char *folder, const char *name)
 {
     if (mkdirat(data->jobs, id, 0700) != 0 && errno != EEXIST) return false;
@@ -193,6 +221,7 @@ bool job_folder_add_start(const data_folder *data, const char *id, const char *f
     snprintf(path, sizeof path, "%s%s%s/%s", from, folder ? "/" : "", folder ? folder : "", name);
     const int file = job_file_open(data, from, folder, name), to = job_folder_open(data, id);
     bool good = file >= 0 && to >= 0;
+    if (good) good = write_hash(file, to);
     if (good && linkat(data->jobs, path, to, JOB_START_FILE, 0) != 0 && errno != EEXIST)
         good = copy_durably(file, to, JOB_START_FILE);
     const int reason = errno;
@@ -210,6 +239,8 @@ void job_folder_discard(const data_folder *data, const char *id)
     unlinkat(folder, JOB_SPEC_FILE ".tmp", 0);
     unlinkat(folder, JOB_START_FILE, 0);
     unlinkat(folder, JOB_START_FILE ".tmp", 0);
+    unlinkat(folder, JOB_START_HASH_FILE, 0);
+    unlinkat(folder, JOB_START_HASH_FILE ".tmp", 0);
     close(folder);
     unlinkat(data->jobs, id, AT_REMOVEDIR); /* refuses unless empty */
 }

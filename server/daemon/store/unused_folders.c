@@ -17,7 +17,7 @@ static bool is_of_a_post(const data_folder *data, const char *id)
     if (!list && folder >= 0) close(folder);
     for (const struct dirent *entry; known && (entry = readdir(list)) != NULL;)
         known = strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0 || strcmp(entry->d_name, JOB_SPEC_FILE) == 0
-                || strcmp(entry->d_name, JOB_START_FILE) == 0;
+                || strcmp(entry->d_name, JOB_START_FILE) == 0 || strcmp(entry->d_name, JOB_START_HASH_FILE) == 0;
     if (list) closedir(list);
     return known;
 }

@@ -75,6 +75,14 @@ enum worker_exit failure_report(event_log *events, dem_status status, const dem_
     return event_log_add(events, event) || kind.code == WORKER_MACHINE ? kind.code : WORKER_DISK;
 }
 
+enum worker_exit failure_report_as(event_log *events, dem_status status, const char *message)
+{
+    const failure_kind kind = kind_of(status);
+    json_t *event = json_pack("{s:s, s:s, s:s}", "event", "failure", "status", kind.name, "message", message);
+    worker_warn("failed: %s", message);
+    return event_log_add(events, event) ? kind.code : WORKER_DISK;
+}
+
 enum worker_exit failure_report_disk(event_log *events, const char *name)
 {
     event_log_add(events, json_pack("{s:s, s:s, s:o}", "event", "failure", "status", "disk", "message",

@@ -10,6 +10,9 @@
  * status. */
 enum worker_exit failure_report(event_log *events, dem_status status, const dem_failure *failure);
 
+/* The same in other words than the core's. */
+enum worker_exit failure_report_as(event_log *events, dem_status status, const char *message);
+
 /* A file of the job folder could not be written: the failure event says so, for whoever reads the events alone. */
 enum worker_exit failure_report_disk(event_log *events, const char *name);
 

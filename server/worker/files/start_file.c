@@ -17,6 +17,7 @@
 #include "job_folder.h"
 #include "json_text.h"
 #include "mirror.h"
+#include "sha256.h"
 #include "worker_log.h"
 
 /* --- a file named in a spec --- */
@@ -184,9 +185,29 @@ static dem_status place_snapshot(const snapshot_arrays *s, const job_spec *spec,
     return status;
 }
 
-static dem_status start_from_file(const job_spec *spec, dem_scene *scene)
+/* Whether the file is that which the daemon gave to this job, where one did; it has been another job's to write. */
+static bool is_what_was_given(char *why_not, size_t size)
+{
+    size_t length = 0;
+    errno = 0;
+    char hex[SHA256_HEX_SIZE] = "", *given = file_read(JOB_START_HASH_FILE, SHA256_HEX_SIZE, &length);
+    const int file = given ? open(JOB_START_FILE, O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW) : -1;
+    const bool good =
+        given ? length == SHA256_HEX_SIZE && file >= 0 && sha256_of_file(file, hex) && strncmp(hex, given, SHA256_HEX_SIZE - 1) == 0
+              : errno == ENOENT;
+    if (!good)
+        snprintf(why_not, size,
+                 "the bed to start from, " JOB_START_FILE ", is not that which the job was given: its SHA-256 is %s, and was %.64s",
+                 *hex ? hex : "not to be had", given ? given : "recorded in a file that can't be read");
+    if (file >= 0) close(file);
+    free(given);
+    return good;
+}
+
+static dem_status start_from_file(const job_spec *spec, dem_scene *scene, char *why_not, size_t size)
 {
     file_state found;
+    if (!is_what_was_given(why_not, size)) return DEM_STATE_MISMATCH;
     const hid_t file = hdf_open_sealed(JOB_START_FILE, &found);
     dem_status status = DEM_STATE_MISMATCH;
     if (file < 0) {
@@ -227,7 +248,8 @@ static dem_status start_from_list(const job_spec *spec, dem_scene *scene)
     return status;
 }
 
-dem_status start_scene(const job_spec *spec, dem_scene *scene)
+dem_status start_scene(const job_spec *spec, dem_scene *scene, char *why_not, size_t size)
 {
-    return spec->inputs.start.particle_count ? start_from_list(spec, scene) : start_from_file(spec, scene);
+    *why_not = '\0';
+    return spec->inputs.start.particle_count ? start_from_list(spec, scene) : start_from_file(spec, scene, why_not, size);
 }

@@ -13,7 +13,8 @@ extern const start_source start_files;
  * absolute. False: logged. */
 bool start_file_bring(const char *path);
 
-/* A new scene's particles. DEM_STATE_MISMATCH: the file is not there, not whole, or of other particles (logged). */
-dem_status start_scene(const job_spec *spec, dem_scene *scene);
+/* A new scene's particles. DEM_STATE_MISMATCH: the file is not there, not whole, or of other particles (logged), or not that which
+ * the daemon gave to the job: then why_not says so, else it is "". */
+dem_status start_scene(const job_spec *spec, dem_scene *scene, char *why_not, size_t size);
 
 #endif

@@ -329,7 +329,8 @@ static dem_status prepare_scene(scene_run *r, bool with_start)
     free(r->tally);
     r->frames = r->tally = NULL;
     dem_status status = dem_scene_create(&r->spec->scene, &r->scene);
-    if (status == DEM_OK && r->spec->scene.is_placed && with_start) status = start_scene(r->spec, r->scene);
+    if (status == DEM_OK && r->spec->scene.is_placed && with_start)
+        status = start_scene(r->spec, r->scene, r->start_trouble, sizeof r->start_trouble);
     if (status != DEM_OK) return status;
     r->frame_width = r->test->frame_width(r->scene);
     r->frames = calloc((size_t)r->plan.samples, r->frame_width * sizeof *r->frames);
@@ -367,6 +368,7 @@ static enum worker_exit prepare(scene_run *r, bool *resumed, double *earlier_sec
         if (!*resumed) worker_warn("starting anew%s", k == 0 ? " from the checkpoint before, if there is one" : "");
     }
     if (!*resumed) status = prepare_scene(r, true);
+    if (status != DEM_OK && r->start_trouble[0]) return failure_report_as(r->events, status, r->start_trouble);
     return status == DEM_OK ? WORKER_DONE : fail(r, status);
 }
 

@@ -41,6 +41,7 @@ struct scene_run {
     double *tally; /* (tally_size) */
     size_t tally_size;
     int64_t next_sample, next_snapshot;
+    char start_trouble[300];             /* why it can't start from the bed that it was given; "": none */
     const char *ended_by;                /* NULL: not yet, or by its time */
     double next_checkpoint, last_series; /* s, monotonic */
     dem_phase phase;                     /* the last one logged */
