@@ -2,6 +2,7 @@
 import json
 import os
 import re
+import shutil
 import socket
 import subprocess
 import time
@@ -301,6 +302,13 @@ def test_metrics_count_jobs_requests_and_work(fake):
     assert metrics["reposed_http_request_seconds_count"] >= 4
     fake.get("/nothing")
     assert metrics_of(fake)['reposed_http_requests_total{route="none",method="",code="404"}'] == 1
+
+
+@pytest.mark.skipif(not shutil.which("promtool"), reason="promtool (Debian's package prometheus) is not installed")
+def test_metrics_are_as_prometheus_wants_them(fake):
+    fake.ended(fake.submit())
+    checked = subprocess.run(["promtool", "check", "metrics"], input=fake.get("/metrics").content, capture_output=True, timeout=60)
+    assert checked.returncode == 0 and checked.stderr == b"", checked.stderr.decode()
 
 
 def test_an_idle_daemon_stays_small(fake):
