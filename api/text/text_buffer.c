@@ -22,7 +22,7 @@ static bool make_room(text_buffer *buffer, size_t extra)
     const bool fits = needed - 1 <= buffer->limit;
     if (fits && needed <= buffer->capacity) return true;
     size_t capacity = buffer->capacity ? buffer->capacity : 512;
-    while (capacity < needed) capacity *= 2;
+    while (capacity < needed) capacity += capacity / 2;
     char *text = fits ? realloc(buffer->text, capacity) : NULL;
     if (!text) {
         buffer->failed = true;
