@@ -287,6 +287,7 @@ static void read_object(const spec_table *table, const spec_field *field, const 
     if (field->kind == FIELD_OBJECT_OR_NULL)
         *(double *)(place + field->offset) = 1.0; /* until a member that is kept there says it */
     if (value && !json_is_object(value)) {
+        if (field->is_left_out_where_null) *(double *)(place + field->offset) = NAN; /* refused: none */
         char seen[LONGEST_VALUE];
         json_value_text(value, seen, sizeof seen);
         problem_list_add(problems, pointer, "is %s; must be an object%s", seen,

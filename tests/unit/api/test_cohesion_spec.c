@@ -98,6 +98,7 @@ static void what_can_t_cohere_is_refused_with_the_reason(void **state)
            "contacts softer, and not cohere; must be another, or the contact's law \"hertz-mindlin\"\n");
     expect("{\"contact\": {\"cohesion\": {\"law\": \"liquid-bridge\", \"surface_tension\": 0.07, \"liquid_volume\": 1e-8}}}",
            "/inputs/contact/cohesion: acts over gaps of 0.00215 m; must act over at most 0.001 m, 0.2 of the smallest diameter\n");
+    expect("{\"contact\": {\"cohesion\": 3}}", "/inputs/contact/cohesion: is 3; must be an object or null\n");
     /* what is refused elsewhere is all that is said */
     expect("{\"gravity\": -1, \"contact\": {\"cohesion\": {\"bond_number\": 2}}}",
            "/inputs/gravity: is -1 m/s2; must be in [0.01, 1000] m/s2\n");
