@@ -115,27 +115,30 @@ static void check_law(const cohesion_inputs *c, const dem_scene_definition *scen
                          law_names[scene->contact.cohesion_law]);
 }
 
-/* One of all that may say something of cohesion, by its number; NULL: there are no more. place: becomes where it stands. */
-static const cohesion_inputs *cohesion_by_number(const scene_inputs *inputs, size_t number, char place[LONGEST_PLACE])
+/* One of all that may say something of cohesion: contact and wall, then the pairs. place: becomes where it stands. */
+static cohesion_inputs cohesion_by_number(const scene_inputs *inputs, size_t number, char place[LONGEST_PLACE])
 {
-    const char *const places[] = { "/inputs/contact/cohesion", "/inputs/wall/cohesion" };
-    if (number < 2) snprintf(place, LONGEST_PLACE, "%s", places[number]);
-    if (number < 2) return number == 0 ? &inputs->cohesion : &inputs->wall_cohesion;
-    if (number - 2 >= inputs->pair_count) return NULL;
-    snprintf(place, LONGEST_PLACE, "/inputs/pairs/%zu/cohesion", number - 2);
-    return &inputs->pairs[number - 2].cohesion;
+    if (number >= 2) {
+        snprintf(place, LONGEST_PLACE, "/inputs/pairs/%zu/cohesion", number - 2);
+        return inputs->pairs[number - 2].cohesion;
+    }
+    snprintf(place, LONGEST_PLACE, "/inputs/%s/cohesion", number == 0 ? "contact" : "wall");
+    return number == 0 ? inputs->cohesion : inputs->wall_cohesion;
 }
 
 double cohesion_derive(const scene_inputs *inputs, dem_scene_definition *scene, problem_list *problems)
 {
     char place[LONGEST_PLACE];
-    const cohesion_inputs *c;
-    for (size_t k = 0; (c = cohesion_by_number(inputs, k, place)) != NULL; k++)
-        if (!isnan(c->law) && scene->contact.cohesion_law == DEM_NO_COHESION) scene->contact.cohesion_law = law_of(c);
-    for (size_t k = 0; (c = cohesion_by_number(inputs, k, place)) != NULL && !problem_list_is_full(problems); k++) {
-        if (isnan(c->law)) continue;
-        check_law(c, scene, place, problems);
-        check_members(c, place, problems);
+    const size_t count = 2 + inputs->pair_count;
+    for (size_t k = 0; k < count && scene->contact.cohesion_law == DEM_NO_COHESION; k++) {
+        const cohesion_inputs c = cohesion_by_number(inputs, k, place);
+        scene->contact.cohesion_law = law_of(&c);
+    }
+    for (size_t k = 0; k < count && !problem_list_is_full(problems); k++) {
+        const cohesion_inputs c = cohesion_by_number(inputs, k, place);
+        if (isnan(c.law)) continue;
+        check_law(&c, scene, place, problems);
+        check_members(&c, place, problems);
     }
     if (scene->contact.cohesion_law == DEM_NO_COHESION) return 0.0;
     scene->contact.cohesion = cohesion_of(&inputs->cohesion, scene);

@@ -4,13 +4,13 @@
 #include <string.h>
 
 static const struct {
-    dem_container_kind kind;
     const char *name;
+    dem_container_kind kind;
     dem_surface surface;
 } surface_names[] = {
-    { DEM_DRUM, "wall", DEM_WALL },          { DEM_DRUM, "ends", DEM_ENDS },          { DEM_DRUM, "lifters", DEM_LIFTERS },
-    { DEM_DRUM, "lining", DEM_LINING },      { DEM_CYLINDER, "wall", DEM_WALL },      { DEM_CYLINDER, "floor", DEM_ENDS },
-    { DEM_TUBE_ON_PLATE, "tube", DEM_WALL }, { DEM_TUBE_ON_PLATE, "wall", DEM_WALL }, { DEM_TUBE_ON_PLATE, "plate", DEM_PLATE },
+    { "wall", DEM_DRUM, DEM_WALL },          { "ends", DEM_DRUM, DEM_ENDS },          { "lifters", DEM_DRUM, DEM_LIFTERS },
+    { "lining", DEM_DRUM, DEM_LINING },      { "wall", DEM_CYLINDER, DEM_WALL },      { "floor", DEM_CYLINDER, DEM_ENDS },
+    { "tube", DEM_TUBE_ON_PLATE, DEM_WALL }, { "wall", DEM_TUBE_ON_PLATE, DEM_WALL }, { "plate", DEM_TUBE_ON_PLATE, DEM_PLATE },
 };
 enum { SURFACE_NAMES = sizeof surface_names / sizeof *surface_names };
 
