@@ -15,6 +15,8 @@ route_handler show_api;
 route_handler list_processes, show_process, execute_process;
 /* handlers_jobs.c */
 route_handler list_jobs, show_job, remove_job, retry_job, pin_job, unpin_job;
+/* handlers_jobs_csv.c */
+void respond_jobs_csv(api_service *service, const http_request *request, http_response *response, const job_filter *filter);
 /* handlers_batch.c */
 route_handler cancel_jobs, delete_jobs;
 /* handlers_results.c */

@@ -316,6 +316,7 @@ void list_jobs(api_service *service, const http_request *request, http_response 
     else if (leads_to_list(request, response)) /* at once */
         ;
     else if (!request->in_lane && !store_lists_quickly(service->store, &filter)) response->wants_lane = true;
+    else if (wants_csv(request)) respond_jobs_csv(service, request, response, &filter);
     else respond_list(service, request, response, &filter);
     problem_list_clear(&problems);
 }

@@ -12,7 +12,7 @@ const http_route route_table[] = {
     { "GET", "/processes/{}", " f ", show_process, .open = false },
     { "POST", "/processes/{}/execution", " f ", execute_process, .open = false },
     { "GET", "/jobs", " status* processID* type* datetime minDuration maxDuration q study label. value. limit cursor sort f ",
-      list_jobs, .formats = " json html " },
+      list_jobs, .formats = " json html csv " },
     { "POST", "/jobs/cancel", " status* processID* type* datetime minDuration maxDuration q study label. value. dry_run f ",
       cancel_jobs, .slow = true, .bodiless = true },
     { "POST", "/jobs/delete", " status* processID* type* datetime minDuration maxDuration q study label. value. dry_run f ",

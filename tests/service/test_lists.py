@@ -1,5 +1,7 @@
 """Lists of jobs by what they were given and what came out: filters, orders and pages, beside what SQL and Python make of the same
 tables."""
+import csv
+import io
 import json
 import random
 import sqlite3
@@ -130,6 +132,40 @@ def test_any_piece_of_an_id_finds_its_job(filled):
         piece = chance.choice(ids)[begin:begin + chance.randint(1, 24)]
         expected = [row["id"] for row in rows_of(filled) if has_text(piece)(row)]
         assert pages(filled, f"/jobs?limit=500&q={quote(piece)}")[0] == expected, piece
+
+
+def test_a_list_as_csv_is_whole_or_says_where_it_goes_on(filled):
+    """Also of more jobs than a piece of the answer has."""
+    rows = ordered(rows_of(filled), "sort=-angle_deg")
+    for request in ({"params": {"f": "csv", "sort": "-angle_deg"}}, {"params": {"sort": "-angle_deg"}, "headers": {"Accept": "text/csv"}}):
+        answer = filled.get("/jobs", **request)
+        assert answer.headers["Content-Type"].startswith("text/csv") and "Link" not in answer.headers
+        table = list(csv.DictReader(io.StringIO(answer.text)))
+        assert [row["jobID"] for row in table] == [row["id"] for row in rows]
+        assert [row["angle_deg"] and float(row["angle_deg"]) or None for row in table] == [row["angle_deg"] for row in rows]
+        assert [json.loads(row["label"]) for row in table] == [json.loads(row["label"]) for row in rows]
+        assert [float(row["friction"]) for row in table] == [row["friction"] for row in rows]
+    seen, path = [], "/jobs?f=csv&limit=7&q=axial&status=accepted&sort=friction"
+    while path:
+        answer = filled.get(path)
+        seen += [row["jobID"] for row in csv.DictReader(io.StringIO(answer.text))]
+        path = answer.links["next"]["url"] if "next" in answer.links else None
+    assert seen == pages(filled, "/jobs?limit=7&q=axial&status=accepted&sort=friction")[0] and len(seen) > 7
+
+
+def test_a_long_list_as_csv_is_whole(tmp_path):
+    running = run_daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "1"])
+    one = next(running)
+    one.until(one.submit(seconds=1000), lambda job: job["status"] == "running")
+    study = {"name": "many", "base": {"inputs": SPEC}, "vary": {"/inputs/contact/friction": [0.001 * k for k in range(1, 1202)]}}
+    assert requests.post(f"{one.url}/studies", json=study, timeout=60).status_code == 201
+    for query, count in (("", 1202), ("q=many", 1201), ("sort=friction&value.friction=..0.7005", 701)):
+        table = list(csv.DictReader(io.StringIO(one.get(f"/jobs?f=csv&{query}").text)))
+        assert len(table) == len({row["jobID"] for row in table}) == count
+        if "sort" in query:
+            assert [float(row["friction"]) for row in table] == sorted(float(row["friction"]) for row in table)
+    for _ in running:
+        pass
 
 
 def test_all_that_is_wrong_is_told_at_once(filled):

@@ -60,7 +60,7 @@ def test_an_answer_comes_in_the_form_that_is_preferred(service, path, accept, ex
     assert answer.status_code == 200 and answer.headers["Content-Type"].removesuffix("; charset=utf-8") == expected
 
 
-@pytest.mark.parametrize("path, known", [("/jobs?f=csv", "json html"), ("/?f=xml", "json html"), ("/api?f=html", "json yaml"),
+@pytest.mark.parametrize("path, known", [("/jobs?f=xml", "json html csv"), ("/?f=xml", "json html"), ("/api?f=html", "json yaml"),
                                          ("/conformance?f=html", "json"), ("{job}/samples?format=xls", "json csv"),
                                          ("/api?version=2.0", "3.0 or 3.1"), ("{job}?f=", "json html")])
 def test_a_form_that_there_is_not_is_refused_with_those_that_there_are(service, path, known):

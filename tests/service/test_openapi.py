@@ -190,6 +190,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
         call(f"/jobs/{what}", f"{url}/jobs/{what}?q=nothing&value.friction=0.1..0.2", 200, "POST")
         call(f"/jobs/{what}", f"{url}/jobs/{what}", 400, "POST")
     call("/jobs", f"{url}/jobs?value.friction=0..&sort=-angle_deg&limit=1", 200)
+    call("/jobs", f"{url}/jobs?f=csv&limit=1", 200)
     for once in (200, 200, 404):  # dismissed, deleted, gone
         call("/jobs/{id}", f"{url}/jobs/{endless}", once, "DELETE")
 
