@@ -6,6 +6,7 @@ import os
 import signal
 import sqlite3
 import subprocess
+import threading
 import time
 
 import pytest
@@ -222,6 +223,18 @@ def test_a_second_daemon_on_the_same_folder_is_refused(fake):
     command = [BUILD / "reposed", "serve", "--port", "0", "--data", fake.data]
     second = subprocess.run(command + fake.options, capture_output=True, text=True, timeout=10)
     assert second.returncode == 1 and "in use by another reposed" in second.stderr
+
+
+def test_a_start_waits_for_what_a_killed_daemon_has_left_behind(fake):
+    """Killed in the moment of a fork, it leaves a child that has its lock until it dies, too."""
+    fake.stop(signal.SIGKILL)
+    with open(fake.data / "lock") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        release = threading.Timer(0.5, fcntl.flock, (lock, fcntl.LOCK_UN))
+        release.start()
+        fake.start()
+        release.join()
+    assert fake.get("/healthz").status_code == 200
 
 
 def test_a_newer_database_is_refused(fake):

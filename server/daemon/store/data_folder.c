@@ -11,6 +11,7 @@
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "checksum.h"
@@ -51,12 +52,20 @@ static void sweep_unfinished(int folder, int depth)
     closedir(list);
 }
 
+/* A daemon that was killed in the moment of a fork has left a child that holds the lock until it dies, too: in a moment. */
 static bool take_lock(data_folder *data, const char *path)
 {
+    enum { TRIES = 30 };
+    const struct timespec pause = { .tv_nsec = 100000000 };
     char name[4096];
     snprintf(name, sizeof name, "%s/lock", path);
     data->lock = open(name, O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (data->lock >= 0 && flock(data->lock, LOCK_EX | LOCK_NB) == 0) return true;
+    for (int tries = 0; data->lock >= 0 && tries < TRIES; tries++) {
+        if (flock(data->lock, LOCK_EX | LOCK_NB) == 0) return true;
+        if (errno != EWOULDBLOCK) break;
+        nanosleep(&pause, NULL);
+        errno = EWOULDBLOCK;
+    }
     if (errno == EWOULDBLOCK) log_line("%s is in use by another reposed", path);
     else log_line("%s can't be locked: %s", path, strerror(errno));
     return false;
