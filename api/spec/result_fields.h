@@ -55,6 +55,11 @@ typedef struct result_table {
     const char *const *other_angles; /* definitions in other_methods of repose, ends with NULL; NULL: there are none */
 } result_table;
 
+/* Its rows and its outputs, of two arrays. */
+#define RESULT_TABLE(fields, outputs)                                                                                              \
+    .field = fields, .count = sizeof fields / sizeof fields[0], .output = outputs,                                                 \
+    .output_count = sizeof outputs / sizeof outputs[0]
+
 /* "outputs" of the process description. New reference. */
 json_t *result_outputs_description(const result_table *table);
 

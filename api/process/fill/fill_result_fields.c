@@ -78,10 +78,7 @@ static void describe_words(json_t *properties, const char *output)
 }
 
 const result_table fill_result_fields = {
-    .field = fields,
-    .count = sizeof fields / sizeof fields[0],
-    .output = outputs,
-    .output_count = sizeof outputs / sizeof outputs[0],
+    RESULT_TABLE(fields, outputs),
     .describe_words = describe_words,
     .other_angles = other_angles,
 };

@@ -71,8 +71,5 @@ static const result_output outputs[] = {
 };
 
 const result_table granule_result_fields = {
-    .field = fields,
-    .count = sizeof fields / sizeof fields[0],
-    .output = outputs,
-    .output_count = sizeof outputs / sizeof outputs[0],
+    RESULT_TABLE(fields, outputs),
 };
