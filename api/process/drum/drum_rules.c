@@ -11,6 +11,8 @@
 #include "start_rules.h"
 
 #define SAMPLES_PER_REVOLUTION 40.0
+/* Of a run that ends by what its frames tell: the least window then has the least number of frames. */
+#define SAMPLES_PER_REVOLUTION_TO_END (DEM_LEAST_WINDOW_FRAMES / DEM_LEAST_WINDOW_REVOLUTIONS)
 #define LEAST_DRUM_DIAMETERS 8.0 /* a bed a few particles deep has no surface to speak of */
 /* Of spheres within a lining of their own size 0.65 can be packed, but not 0.7, a tenth of the drum's diameter each. */
 #define MOST_FILL 0.95
@@ -66,9 +68,10 @@ static void set_dependent_defaults(scene_inputs *inputs, double duration, uint64
     if (isnan(inputs->lining_pitch)) inputs->lining_pitch = inputs->lining_diameter;
     if (isnan(inputs->seed)) inputs->seed = (double)(seed_if_missing & LARGEST_WHOLE_NUMBER);
     if (isnan(inputs->sample_interval)) {
+        const double per_revolution = inputs->until_standard_error > 0.0 ? SAMPLES_PER_REVOLUTION_TO_END : SAMPLES_PER_REVOLUTION;
         const double revolution = 2.0 * DEM_PI / fabs(inputs->rotation_rate);
         inputs->sample_interval =
-            fmin(SCENE_SAMPLE_INTERVAL_MOST, fmin(duration / SCENE_SAMPLES_PER_RUN, revolution / SAMPLES_PER_REVOLUTION));
+            fmin(SCENE_SAMPLE_INTERVAL_MOST, fmin(duration / SCENE_SAMPLES_PER_RUN, revolution / per_revolution));
     }
 }
 

@@ -11,7 +11,7 @@
  * run. Counted in frames, so that a run which was interrupted ends at the same one. */
 static dem_status end_when_known(const scene_run *run, const char **ended_by)
 {
-    enum { FRAMES_BETWEEN_LOOKS = 10 };
+    enum { FRAMES_BETWEEN_LOOKS = 4 };
     if (!(run->spec->until_standard_error > 0) || run->next_sample % FRAMES_BETWEEN_LOOKS) return DEM_OK;
     dem_drum_results now;
     const dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &now);
