@@ -52,6 +52,7 @@ static const column_row rows[] = {
     { "snapshot", "bytes", "B", "its length" },
     { "snapshot", "particles", "", "how many it holds" },
     { "result", "document", "", "JSON, as /jobs/{id}/results has it" },
+    { "result", "checksum", "", "of the document, CRC-64 as a signed number; NULL: written by a program from before" },
     { "run_summary", "study", "", "id of the study it belongs to" },
     { "job", "study", "", "number of the study it belongs to" },
     { "input_field", "name", "", "the input's place in the request below inputs" },
