@@ -68,7 +68,7 @@ typedef enum dem_cohesion_law {
 
 /* Of one pair of materials; all 0: none. */
 typedef struct dem_cohesion {
-    double strength;      /* constant: N; sjkr: J/m3; jkr: J/m2, work of adhesion of the two surfaces; bridge: N/m, surface tension */
+    double strength; /* constant: N; sjkr: J/m3; jkr: J/m2, work of adhesion of the two surfaces; bridge: N/m, surface tension */
     double liquid_volume; /* m3, of one bridge */
     double contact_angle; /* rad, of the bridge, below pi/2 */
 } dem_cohesion;
@@ -87,10 +87,10 @@ typedef struct dem_contact_parameters {
     double latch_damping;          /* zeta, Walton-Braun: share of critical damping of K2 while an overlap below the latch grows */
     double friction;               /* mu between particles */
     double wall_friction;          /* mu_w, particle against the cylinder (drum, tube) or its lining */
-    double tangential_stiffness_ratio; /* K_T0/K1 */
-    double rolling_friction;           /* mu_r between particles: a contact bears a moment of mu_r R* N; 0: none */
-    double wall_rolling_friction;      /* likewise, particle against all that is the container's but ends, floor and plate */
-    dem_cohesion_law cohesion_law;     /* of all contacts that cohere */
+    double tangential_stiffness_ratio;    /* K_T0/K1 */
+    double rolling_friction;              /* mu_r between particles: a contact bears a moment of mu_r R* N; 0: none */
+    double wall_rolling_friction;         /* likewise, particle against all that is the container's but ends, floor and plate */
+    dem_cohesion_law cohesion_law;        /* of all contacts that cohere */
     dem_cohesion cohesion, wall_cohesion; /* between particles; with all that is the container's */
 } dem_contact_parameters;
 

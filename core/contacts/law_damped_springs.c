@@ -221,7 +221,8 @@ static void jkr_normals_of_list(contact_block *block, const contact_list *list, 
         jkr_normals(block, list, at, none, inverse_dt);
         return;
     }
-    const real *const of_each[LAW_NUMBERS] = { NULL, list->law[LAW_K_T] + at, list->law[LAW_DAMPING] + at, list->law[LAW_LAG] + at };
+    const real *const of_each[LAW_NUMBERS] = { NULL, list->law[LAW_K_T] + at, list->law[LAW_DAMPING] + at,
+                                               list->law[LAW_LAG] + at };
     jkr_normals(block, list, at, of_each, inverse_dt);
 }
 
@@ -233,7 +234,9 @@ void contact_block_damped_springs(contact_block *block, contact_list *list, size
     real *const t_x = list->t[0] + start, *const t_y = list->t[1] + start, *const t_z = list->t[2] + start;
     const bool is_jkr = contact->cohesion_law == DEM_JKR && list->coheres;
     if (is_jkr) jkr_normals_of_list(block, list, at, inverse_dt);
-    else (list->laws_differ ? normals_of_materials : normals_of_all)(block, list, at, contact->law == DEM_SPRING_DASHPOT, inverse_dt);
+    else
+        (list->laws_differ ? normals_of_materials : normals_of_all)(block, list, at, contact->law == DEM_SPRING_DASHPOT,
+                                                                    inverse_dt);
     rotate_stretch(block, t_x, t_y, t_z);
     friction_forces(block, t_x, t_y, t_z);
 }

@@ -25,8 +25,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_s
     list->wall_start = array_create(n + 1, sizeof *list->wall_start);
     contact_parts_init(&list->parts, n);
     pair_table_set(&list->table, definition);
-    bool enough =
-        outer_list_init(&list->outer, s, SKIN * s->smallest_diameter + list->table.gap) == DEM_OK && list->picked_velocity && list->wall_start;
+    bool enough = outer_list_init(&list->outer, s, SKIN * s->smallest_diameter + list->table.gap) == DEM_OK && list->picked_velocity
+                  && list->wall_start;
     contact_list *const all[] = { &list->pairs, &list->walls, &list->pairs_before, &list->walls_before };
     const bool spheres_differ = pair_table_spheres_differ(&list->table, definition);
     const bool walls_differ = pair_table_walls_differ(&list->table, definition);
@@ -35,7 +35,8 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_s
     for (int k = 0; k < 4; k++) {
         const bool laws_differ = k % 2 == 0 ? spheres_differ : walls_differ;
         const bool coheres = (k % 2 == 0 ? pair_table_spheres_cohere : pair_table_walls_cohere)(&list->table, definition);
-        const int extras = (has_rolling ? CONTACTS_ROLL : 0) + (laws_differ ? CONTACT_LAWS_DIFFER : 0) + (coheres ? CONTACTS_COHERE : 0);
+        const int extras =
+            (has_rolling ? CONTACTS_ROLL : 0) + (laws_differ ? CONTACT_LAWS_DIFFER : 0) + (coheres ? CONTACTS_COHERE : 0);
         enough = contact_list_init(all[k], extras, k < 2 ? constants[k] : CONSTANTS_OF_NONE) == DEM_OK && enough;
     }
     list->pairs.ends_differ = ends_differ;

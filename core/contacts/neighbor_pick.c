@@ -183,7 +183,9 @@ dem_status neighbor_list_pick(neighbor_list *list, spheres *s, const container *
 {
     const int parts = team_parts(threads);
     const double duration = list->safe_steps * time_step;
-    pick_work work = { .list = list, .spheres = s, .vessel = vessel, .contact = contact, .ahead = { duration, list->margin + list->table.gap } };
+    pick_work work = {
+        .list = list, .spheres = s, .vessel = vessel, .contact = contact, .ahead = { duration, list->margin + list->table.gap }
+    };
     if (list->pairs.constants == CONSTANTS_OF_EACH) species_roots_set(&work.roots, s);
     work.apart = list->steps_apart * time_step * list->at_pick.largest_speed;
     work.same_outer = list->picked_of == list->outer.builds;
