@@ -59,7 +59,8 @@ static void warn_of_slip(const json_t *results, problem_list *warnings)
 {
     const double slip = json_number_value(json_object_get(member(results, "regime", "evidence"), "wall_slip"));
     const char *verdict = json_string_value(member(results, "repose", "verdict"));
-    if (slip > DEM_SLIPS_FROM && verdict && strcmp(verdict, "too-short") == 0)
+    const double revolutions = json_number_value(json_object_get(member(results, "repose", "window"), "revolutions"));
+    if (slip > DEM_SLIPS_FROM && revolutions >= DEM_LEAST_REVOLUTIONS && verdict && strcmp(verdict, "too-short") == 0)
         problem_list_add(warnings, "/regime/evidence/wall_slip",
                          "is %.2g: a bed that slips at the wall renews itself so slowly that angle and torque have no error and no "
                          "verdict until it has turned for %d revolutions; give the run that many",

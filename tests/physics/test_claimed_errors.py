@@ -81,7 +81,7 @@ KINDS = {
     "rolling": ("drum", small_bed(0.3, 3.0, revolutions=3), OF_DRUM),
     "rolling or slipping": ("drum", small_bed(0.3, 7.0, revolutions=8), OF_DRUM),
     "cascading": ("drum", small_bed(1.0, 14.0, fill=0.55, revolutions=4), OF_DRUM),
-    "cataracting": ("drum", small_bed(0.8, 17.0, revolutions=6), OF_DRUM),
+    "cataracting": ("drum", small_bed(0.8, 17.0, revolutions=8), OF_DRUM),
     "raining": ("drum", small_bed(0.3, 24.0, revolutions=10), {"torque", "weight_torque"}),  # a ring has no angle
     "centrifuging": ("drum", small_bed(0.3, 40.0, revolutions=16), {"torque", "weight_torque"}),
     "slipping": ("drum", small_bed(0.3, 16.0, revolutions=8), OF_DRUM),

@@ -34,4 +34,4 @@ def test_a_run_ends_as_soon_as_its_angle_is_known_well_enough(tmp_path):
 def test_an_error_out_of_reach_ends_at_the_bound_and_says_so(tmp_path):
     result = answer(tmp_path, "never", until_standard_error_deg=0.01, at_most_revolutions=2)
     assert result["run"]["ended_by"] == "at-most-revolutions"
-    assert result["repose"]["standard_error_deg"] > 0.01
+    assert result["repose"]["standard_error_deg"] is None and result["repose"]["verdict"] == "too-short"  # it slips at the wall

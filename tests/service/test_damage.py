@@ -299,12 +299,13 @@ def test_the_daemon_takes_no_damaged_result_and_keeps_its_own_copy_of_the_specif
     blocker = damaging.submit(SPEC["inputs"] | {"duration": {"seconds": 1.0}})
     job = damaging.submit(SPEC["inputs"])
     spec = damaging.data / "jobs" / job / "spec.json"
-    text = spec.read_bytes()
-    spec.write_bytes(text.replace(b'"friction": 0.3', b'"friction": 0.7'))  # while it waits
+    text = damaging.get(f"/jobs/{job}/spec").content
+    spec.parent.mkdir()  # while it waits
+    spec.write_bytes(text.replace(b'"friction": 0.3', b'"friction": 0.7'))
     damaging.ended(blocker)
     info = damaging.ended(job, 120)
     assert info["status"] == "successful" and info["attempt"] == 2
-    assert spec.read_bytes() == text == spec.with_name("spec.seen.1").read_bytes()
+    assert json.loads(spec.read_bytes()) == json.loads(text) and spec.read_bytes() == spec.with_name("spec.seen.1").read_bytes()
     kept = json.loads(spec.with_name("result.json").read_text())
     answer = damaging.get(f"/jobs/{job}/results").json()
     assert answer == kept and answer["repose"]["angle_deg"] != 89.0

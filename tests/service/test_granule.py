@@ -103,7 +103,7 @@ def test_every_problem_is_named_at_once(daemon):
     assert errors["/inputs/friction"] == "is missing; must be a number in [0.001, 10]"
     assert errors["/inputs/radius"] == "is -1 m; must be in [0.0001, 100] m"
     assert errors["/inputs/rotation_rate"] == 'is "fast"; must be a number in [-10000, 10000] rad/s, and at least 0.001 in size'
-    assert errors["/inputs/revolutions"] == "is 2.5; must be a whole number in [1, 100] revolutions"
+    assert errors["/inputs/revolutions"] == "is 2.5 revolutions; must be a whole number in [1, 100] revolutions"
     assert errors["/inputs/tolerance"] == "is 1; must be in [1e-12, 0.01]"
     assert errors["/inputs/fricton"] == "is not an input; did you mean inputs/friction?"
     assert "friction, radius" in errors["/inputs/threads"]

@@ -3,6 +3,7 @@ import json
 import os
 import signal
 import sqlite3
+import time
 
 import pytest
 import requests
@@ -27,7 +28,11 @@ def options(daemon, tmp_path, text, hang_up=True):
         seen = len(daemon.log())
         daemon.process.send_signal(signal.SIGHUP)
         until(lambda: any(words in daemon.log()[seen:] for words in (" is now ", "stay as they were", "none has changed")), 10)
-        return daemon.log()[seen:]
+        while True:  # a line each option, one after the other
+            told = daemon.log()[seen:]
+            time.sleep(0.1)
+            if daemon.log()[seen:] == told:
+                return told
     return ""
 
 
