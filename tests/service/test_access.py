@@ -2,7 +2,6 @@
 import re
 import signal
 import socket
-import sqlite3
 import subprocess
 import time
 
@@ -10,7 +9,7 @@ import pytest
 import requests
 import yaml
 from conftest import BUILD, FAKE_WORKER, ROOT, run_daemon
-from test_daemon_clients import ENDLESS, ask_and_keep, until
+from test_daemon_clients import ENDLESS, ask_and_keep, job_of_long_specification, until
 from test_daemon_http import head, metrics_of
 
 READER, WRITER, LATER = "reads-only-0123456789", "writes-too-0123456789", "comes-later-0123456789"
@@ -205,12 +204,7 @@ def test_one_address_has_its_share_of_connections_and_no_more(fake):
 
 
 def test_what_one_address_does_not_read_leaves_memory_for_another(fake):
-    job = fake.submit()
-    fake.ended(job)
-    spec = '"' + "x" * 5_000_000 + '"'
-    with sqlite3.connect(f"{fake.data}/reposed.sqlite", timeout=30) as writer:
-        writer.execute("update job set spec=?", (spec,))
-    writer.close()
+    job = job_of_long_specification(fake)
     clients = [ask_and_keep(fake, f"/jobs/{job}/spec", receive_buffer=4096) for _ in range(7)]
     try:
         told = [client.recv(100) for client in clients]  # what is refused is short

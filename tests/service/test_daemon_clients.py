@@ -113,20 +113,28 @@ def resident(daemon):
     return metrics_of(daemon)["process_resident_memory_bytes"]
 
 
-def test_answers_that_nobody_reads_take_bounded_memory(fake):
-    job = fake.submit()
-    fake.ended(job)
-    spec = '"' + "x" * 5000000 + '"'
-    with sqlite3.connect(f"{fake.data}/reposed.sqlite", timeout=30) as writer:
-        writer.execute("update job set spec=?", (spec,))
+LONG_SPECIFICATION = '"' + "x" * 5_000_000 + '"'
+
+
+def job_of_long_specification(daemon):
+    """Its id; GET .../spec sends 5 MB."""
+    job = daemon.submit()
+    daemon.ended(job)
+    with sqlite3.connect(f"{daemon.data}/reposed.sqlite", timeout=30) as writer:
+        writer.execute("update job set spec=?", (LONG_SPECIFICATION,))
     writer.close()
+    return job
+
+
+def test_answers_that_nobody_reads_take_bounded_memory(fake):
+    job = job_of_long_specification(fake)
     before = resident(fake)
     clients = [ask_and_keep(fake, f"/jobs/{job}/spec", receive_buffer=4096) for _ in range(60)]
     try:
         time.sleep(2)
         assert resident(fake) - before < 150e6  # 300 MB, if all were kept
         assert fake.get("/healthz").status_code == 200
-        until(lambda: (answer := fake.get(f"/jobs/{job}/spec")).status_code == 200 and answer.content == spec.encode(), 25)
+        until(lambda: (answer := fake.get(f"/jobs/{job}/spec")).status_code == 200 and answer.content == LONG_SPECIFICATION.encode(), 25)
     finally:
         for client in clients:
             client.close()

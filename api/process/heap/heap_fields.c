@@ -34,23 +34,13 @@ static const spec_field fields[] = {
 
     FIELDS_OF_PARTICLES,
 
-    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height",
-      AT(particle_count), COLUMN("particles", COUNT, scene.particle_count), LISTED, IN_LIST(110, "", 1, NULL),
-      .meaning = "number of particles, instead of fill_height" },
+    FIELD_OF_COUNT,
     { SPEC_INPUTS, "fill_height", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 20.0), .fallback = NAN, AT(fill_height), USUAL(0.0, 3.0),
       SLIP("cm", 0.01), .meaning = "of the bed in the tube, at a solid fraction of 0.6. Default: twice the tube's diameter" },
 
     FIELDS_OF_CONTACT,
 
-    { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = "wall of the tube" },
-    { SPEC_WALL, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT(wall_material),
-      .meaning = "name of the material of the tube, a member of materials: its pairs with others hold there" },
-    { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction), USUAL(0.0, 1.5),
-      COLUMN("wall_friction", REAL, scene.contact.wall_friction), LISTED, IN_VIEW(240),
-      .meaning = "coefficient of friction between a particle and the tube" },
-    { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction),
-      COLUMN("wall_rolling_friction", REAL, scene.contact.wall_rolling_friction), IN_VIEW(260),
-      .meaning = "coefficient of rolling friction between a particle and the tube. Default: none" },
+    FIELDS_OF_STANDING_WALL("wall of the tube", "the tube", "the tube"),
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, COLUMN("duration", REAL, duration), LISTED, IN_VIEW(310), .unit = "s",
       .meaning = "how long the run goes on from when the tube starts to rise" },
@@ -58,11 +48,6 @@ static const spec_field fields[] = {
       .meaning = "it ends as soon as the tube is clear of the heap and the heap at rest. Default: the time to raise the tube by "
                  "fill_height, and 3 s" },
 
-    FIELDS_OF_MATERIALS,
-    FIELDS_OF_COHESIONS,
-    FIELDS_OF_OUTPUT_AND_RUN,
-    { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
-      SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),
-      .meaning = "acceleration of gravity, down the axis" },
+    FIELDS_OF_STANDING_RUN,
 };
 const spec_table heap_fields = { fields, sizeof fields / sizeof fields[0] };

@@ -190,6 +190,29 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       COLUMN("precision", WORD, inputs.precision), IN_VIEW(305), \
       .meaning = "of contacts; positions, velocities and their integration are double always. single is as good for every " \
                  "angle, and faster" }
+
+/* Of processes that stand still, fill and heap. whole, all, one: how the wall is told of. */
+#define FIELD_OF_COUNT \
+    { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height", \
+      AT(particle_count), COLUMN("particles", COUNT, scene.particle_count), LISTED, IN_LIST(110, "", 1, NULL), \
+      .meaning = "number of particles, instead of fill_height" }
+
+#define FIELDS_OF_STANDING_WALL(whole, all, one) \
+    { SPEC_INPUTS, "wall", FIELD_OBJECT, SPEC_WALL, .meaning = whole }, \
+    { SPEC_WALL, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT(wall_material), \
+      .meaning = "name of the material of " all ", a member of materials: its pairs with others hold there" }, \
+    { SPEC_WALL, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.5, AT(wall_friction), USUAL(0.0, 1.5), \
+      COLUMN("wall_friction", REAL, scene.contact.wall_friction), LISTED, IN_VIEW(240), \
+      .meaning = "coefficient of friction between a particle and " one }, \
+    { SPEC_WALL, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(wall_rolling_friction), \
+      COLUMN("wall_rolling_friction", REAL, scene.contact.wall_rolling_friction), IN_VIEW(260), \
+      .meaning = "coefficient of rolling friction between a particle and " one ". Default: none" }
+
+#define FIELDS_OF_STANDING_RUN \
+    FIELDS_OF_MATERIALS, FIELDS_OF_COHESIONS, FIELDS_OF_OUTPUT_AND_RUN, \
+    { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0), \
+      SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160), \
+      .meaning = "acceleration of gravity, down the axis" }
 /* clang-format on */
 
 #endif

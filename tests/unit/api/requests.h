@@ -88,4 +88,20 @@ static inline job_spec parse_or_fail(json_t *request)
     return spec;
 }
 
+/* The minimal request with these members beside its own, or in the place of its own. */
+static inline json_t *request_with(const char *members)
+{
+    json_t *request = load(minimal), *more = load(members);
+    json_object_update(json_object_get(request, "inputs"), more);
+    json_decref(more);
+    return request;
+}
+
+static inline void expect_problems(const char *members, const char *expected)
+{
+    char *problems = problems_of(request_with(members));
+    assert_string_equal(problems, expected);
+    free(problems);
+}
+
 #endif

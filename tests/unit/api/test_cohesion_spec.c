@@ -2,21 +2,6 @@
 #include "dem_rules.h"
 #include "requests.h"
 
-static json_t *request_with(const char *members)
-{
-    json_t *request = load(minimal), *more = load(members);
-    json_object_update(json_object_get(request, "inputs"), more);
-    json_decref(more);
-    return request;
-}
-
-static void expect(const char *members, const char *expected)
-{
-    char *problems = problems_of(request_with(members));
-    assert_string_equal(problems, expected);
-    free(problems);
-}
-
 static void a_spec_without_cohesion_says_nothing_of_it(void **state)
 {
     (void)state;
@@ -82,30 +67,34 @@ static void a_pair_may_cohere_more_or_not_at_all(void **state)
 static void what_can_t_cohere_is_refused_with_the_reason(void **state)
 {
     (void)state;
-    expect("{\"contact\": {\"cohesion\": {\"law\": \"jkr\", \"surface_energy\": 0.01, \"pull_off\": 1}}, \"wall\": {\"cohesion\": "
-           "{\"law\": "
-           "\"liquid-bridge\", \"surface_tension\": -1}}}",
-           "/inputs/wall/cohesion/surface_tension: is -1 N/m; must be in [0, 10] N/m\n"
-           "/inputs/contact/cohesion/law: is \"jkr\", which is the theory of an elastic contact, but springs are linear; must be "
-           "another, or "
-           "the contact's law \"hertz-mindlin\"\n"
-           "/inputs/contact/cohesion/pull_off: is 1, but the law is \"jkr\", which does not take it\n"
-           "/inputs/wall/cohesion/law: is \"liquid-bridge\"; must be \"jkr\", as all that coheres has one law\n"
-           "/inputs/wall/cohesion/liquid_volume: is missing; \"liquid-bridge\" needs it\n");
-    expect("{\"contact\": {\"law\": \"spring-dashpot\", \"cohesion\": {\"law\": \"sjkr\", \"energy_density\": 1000}}}",
-           "/inputs/contact/cohesion/law: is \"sjkr\", whose pull grows as the overlap does, as the push of a linear spring: that "
-           "would make "
-           "contacts softer, and not cohere; must be another, or the contact's law \"hertz-mindlin\"\n");
-    expect("{\"contact\": {\"cohesion\": {\"law\": \"liquid-bridge\", \"surface_tension\": 0.07, \"liquid_volume\": 1e-8}}}",
-           "/inputs/contact/cohesion: acts over gaps of 0.00215 m; must act over at most 0.001 m, 0.2 of the smallest diameter\n");
-    expect("{\"contact\": {\"cohesion\": 3}}", "/inputs/contact/cohesion: is 3; must be an object or null\n");
+    expect_problems(
+        "{\"contact\": {\"cohesion\": {\"law\": \"jkr\", \"surface_energy\": 0.01, \"pull_off\": 1}}, \"wall\": {\"cohesion\": "
+        "{\"law\": "
+        "\"liquid-bridge\", \"surface_tension\": -1}}}",
+        "/inputs/wall/cohesion/surface_tension: is -1 N/m; must be in [0, 10] N/m\n"
+        "/inputs/contact/cohesion/law: is \"jkr\", which is the theory of an elastic contact, but springs are linear; must be "
+        "another, or "
+        "the contact's law \"hertz-mindlin\"\n"
+        "/inputs/contact/cohesion/pull_off: is 1, but the law is \"jkr\", which does not take it\n"
+        "/inputs/wall/cohesion/law: is \"liquid-bridge\"; must be \"jkr\", as all that coheres has one law\n"
+        "/inputs/wall/cohesion/liquid_volume: is missing; \"liquid-bridge\" needs it\n");
+    expect_problems(
+        "{\"contact\": {\"law\": \"spring-dashpot\", \"cohesion\": {\"law\": \"sjkr\", \"energy_density\": 1000}}}",
+        "/inputs/contact/cohesion/law: is \"sjkr\", whose pull grows as the overlap does, as the push of a linear spring: that "
+        "would make "
+        "contacts softer, and not cohere; must be another, or the contact's law \"hertz-mindlin\"\n");
+    expect_problems(
+        "{\"contact\": {\"cohesion\": {\"law\": \"liquid-bridge\", \"surface_tension\": 0.07, \"liquid_volume\": 1e-8}}}",
+        "/inputs/contact/cohesion: acts over gaps of 0.00215 m; must act over at most 0.001 m, 0.2 of the smallest diameter\n");
+    expect_problems("{\"contact\": {\"cohesion\": 3}}", "/inputs/contact/cohesion: is 3; must be an object or null\n");
     /* what is refused elsewhere is all that is said */
-    expect("{\"gravity\": -1, \"contact\": {\"cohesion\": {\"bond_number\": 2}}}",
-           "/inputs/gravity: is -1 m/s2; must be in [0.01, 1000] m/s2\n");
-    expect("{\"contact\": {\"cohesion\": {\"pull_off\": 1, \"bond_number\": 2}}}",
-           "/inputs/contact/cohesion/pull_off: is given beside bond_number; give one of the two\n");
-    expect("{\"contact\": {\"cohesion\": {\"law\": \"glue\"}}}",
-           "/inputs/contact/cohesion/law: is \"glue\"; available: \"constant\", \"sjkr\", \"sjkr2\", \"jkr\", \"liquid-bridge\"\n");
+    expect_problems("{\"gravity\": -1, \"contact\": {\"cohesion\": {\"bond_number\": 2}}}",
+                    "/inputs/gravity: is -1 m/s2; must be in [0.01, 1000] m/s2\n");
+    expect_problems("{\"contact\": {\"cohesion\": {\"pull_off\": 1, \"bond_number\": 2}}}",
+                    "/inputs/contact/cohesion/pull_off: is given beside bond_number; give one of the two\n");
+    expect_problems(
+        "{\"contact\": {\"cohesion\": {\"law\": \"glue\"}}}",
+        "/inputs/contact/cohesion/law: is \"glue\"; available: \"constant\", \"sjkr\", \"sjkr2\", \"jkr\", \"liquid-bridge\"\n");
 }
 
 int main(void)

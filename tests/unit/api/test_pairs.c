@@ -3,26 +3,10 @@
 #include "pair_rules.h"
 #include "requests.h"
 
-/* The minimal request with these members beside its own; particles are replaced. */
-static json_t *request_with(const char *members)
-{
-    json_t *request = load(minimal), *more = load(members);
-    json_object_update(json_object_get(request, "inputs"), more);
-    json_decref(more);
-    return request;
-}
-
 #define TWO_MATERIALS                                                                                                              \
     "\"materials\": {\"glass\": {\"density\": 2500}, \"steel\": {\"density\": 7800}}, "                                            \
     "\"particles\": [{\"diameter\": 0.005, \"material\": \"glass\", \"share\": 0.5}, "                                             \
     "{\"diameter\": 0.004, \"material\": \"steel\", \"share\": 0.5}]"
-
-static void expect(const char *members, const char *expected)
-{
-    char *problems = problems_of(request_with(members));
-    assert_string_equal(problems, expected);
-    free(problems);
-}
 
 static void without_pairs_materials_are_densities_alone(void **state)
 {
@@ -96,17 +80,18 @@ static void each_pair_of_other_restitution_has_a_slope_of_its_own(void **state)
 static void wrong_names_are_told_with_those_there_are(void **state)
 {
     (void)state;
-    expect("{" TWO_MATERIALS ", \"pairs\": [{\"between\": [\"glass\", \"steel\"]}, {\"between\": [\"steel\", \"glass\"]}, "
-           "{\"between\": [\"glas\", \"wall\"]}, {\"between\": [\"wall\", \"wall\"]}, {\"between\": [\"glass\", \"ends\"]}, "
-           "{\"between\": [\"glass\"], \"friction\": -1}, {}]}",
-           "/inputs/pairs/5/between: is a list of 1; must be a list of two names\n"
-           "/inputs/pairs/5/friction: is -1; must be in [0, 5]\n"
-           "/inputs/pairs/6/between: is missing; must be a list of two names\n"
-           "/inputs/pairs/1/between: is \"steel\" and \"glass\", which /inputs/pairs/0 is, too; give a pair once\n"
-           "/inputs/pairs/2/between/0: is \"glas\", a name that nobody has; available: \"glass\", \"steel\", \"wall\"\n"
-           "/inputs/pairs/3/between: is \"wall\" and \"wall\", which never touch; one must be a material of particles\n"
-           "/inputs/pairs/4/between/1: is \"ends\", which this container has not; available: \"glass\", \"steel\", \"wall\"\n");
-    expect(
+    expect_problems(
+        "{" TWO_MATERIALS ", \"pairs\": [{\"between\": [\"glass\", \"steel\"]}, {\"between\": [\"steel\", \"glass\"]}, "
+        "{\"between\": [\"glas\", \"wall\"]}, {\"between\": [\"wall\", \"wall\"]}, {\"between\": [\"glass\", \"ends\"]}, "
+        "{\"between\": [\"glass\"], \"friction\": -1}, {}]}",
+        "/inputs/pairs/5/between: is a list of 1; must be a list of two names\n"
+        "/inputs/pairs/5/friction: is -1; must be in [0, 5]\n"
+        "/inputs/pairs/6/between: is missing; must be a list of two names\n"
+        "/inputs/pairs/1/between: is \"steel\" and \"glass\", which /inputs/pairs/0 is, too; give a pair once\n"
+        "/inputs/pairs/2/between/0: is \"glas\", a name that nobody has; available: \"glass\", \"steel\", \"wall\"\n"
+        "/inputs/pairs/3/between: is \"wall\" and \"wall\", which never touch; one must be a material of particles\n"
+        "/inputs/pairs/4/between/1: is \"ends\", which this container has not; available: \"glass\", \"steel\", \"wall\"\n");
+    expect_problems(
         "{\"materials\": {\"lining\": {}, \"a\": 3, \"b\": {\"density\": 0, \"colour\": 1}}, \"particles\": [{\"diameter\": 0.005, "
         "\"material\": \"c\"}], \"wall\": {\"material\": \"d\"}}",
         "/inputs/materials/a: is 3; must be an object\n"
@@ -115,12 +100,13 @@ static void wrong_names_are_told_with_those_there_are(void **state)
         "/inputs/materials: has a member \"lining\", which is the name of a surface; name it otherwise\n"
         "/inputs/particles/0/material: is \"c\"; available: \"lining\", \"a\", \"b\"\n"
         "/inputs/wall/material: is \"d\"; available: \"lining\", \"a\", \"b\"\n");
-    expect("{\"materials\": {\"a\": {\"youngs_modulus\": 1e7}, \"b\": {}}, \"particles\": [{\"diameter\": 0.005, \"material\": "
-           "\"a\"}, "
-           "{\"diameter\": 0.005, \"material\": \"b\"}], \"contact\": {\"law\": \"hertz-mindlin\"}, "
-           "\"pairs\": [{\"between\": [\"a\", \"b\"], \"stiffness\": 100}]}",
-           "/inputs/pairs/0/stiffness: is 100 N/m, but hertz-mindlin takes the youngs_modulus (Pa) of materials\n"
-           "/inputs/materials/b/youngs_modulus: is missing; must be given beside that of other materials, for particles 1\n");
+    expect_problems(
+        "{\"materials\": {\"a\": {\"youngs_modulus\": 1e7}, \"b\": {}}, \"particles\": [{\"diameter\": 0.005, \"material\": "
+        "\"a\"}, "
+        "{\"diameter\": 0.005, \"material\": \"b\"}], \"contact\": {\"law\": \"hertz-mindlin\"}, "
+        "\"pairs\": [{\"between\": [\"a\", \"b\"], \"stiffness\": 100}]}",
+        "/inputs/pairs/0/stiffness: is 100 N/m, but hertz-mindlin takes the youngs_modulus (Pa) of materials\n"
+        "/inputs/materials/b/youngs_modulus: is missing; must be given beside that of other materials, for particles 1\n");
 }
 
 int main(void)
