@@ -5,18 +5,19 @@ two degrees, a smooth wall from a rough one by as much (core/NUMERICS.md), so an
 direction of the centre of mass is held against an independent code, whose spread from frame to frame is the tolerance.
 """
 import math
+from statistics import mean, stdev
 
 import pytest
 from conftest import drum
 
 SECTION = "Drums: the paper's angles"
 PAPER = "Table 1, whole degrees; definitions of the angle and walls differ by 1 to 2"
-OTHER_CODE = "an independent code, its spread from frame to frame and three standard errors of ours, where the bed does not slip"
+OTHER_CODE = "an independent code, its spread from frame to frame and three standard errors of ours"
 
 
 def record_center_of_mass(record, case, result, other, spread):
     angle, error = result["repose"]["other_methods"]["center-of-mass"], result["repose"]["other_methods_standard_error_deg"]["center-of-mass"]
-    record(f"{case}: centre of mass", angle, other, spread + 3 * (error or 0), OTHER_CODE, "degrees")
+    record(f"{case}: centre of mass", angle, other, spread + 3 * error, OTHER_CODE, "degrees")
 
 
 def test_friction_0_1_gives_the_papers_23_degrees(record, drums):
@@ -34,14 +35,25 @@ def test_friction_0_1_gives_the_papers_23_degrees(record, drums):
 TABLE_1 = [(0.1, math.pi, 25, 25.3, 0.8), (0.2, math.pi / 2, 25, 26.0, 0.7), (1.0, math.pi / 2, 31, 30.9, 0.7), (1.0, math.pi, 35, 34.3, 0.7)]
 
 
+# A bed that slips at the wall has no error of its own so soon: that of the mean over five seeds takes its place.
+SLIPS = [(0.1, math.pi)]
+
+
 @pytest.mark.minutes
 def test_angles_of_table_1(record, drums):
-    results = drums({(mu, rate): drum(mu, rate) for mu, rate, *_ in TABLE_1})
+    seeds = {(mu, rate): range(1, 6) if (mu, rate) in SLIPS else [1] for mu, rate, *_ in TABLE_1}
+    results = drums({(mu, rate, seed): drum(mu, rate, seed=seed) for mu, rate in seeds for seed in seeds[mu, rate]})
     for mu, rate, paper, other, spread in TABLE_1:
-        result, case = results[mu, rate], f"mu {mu}, {rate:.3f} rad/s"
-        record(f"{case}: angle", result["repose"]["angle_deg"], paper, 2, PAPER, "degrees")
-        record_center_of_mass(record, case, result, other, spread)
-        record.same(f"{case}: regime", result["regime"]["name"], "rolling", "the paper")
+        beds, case = [results[mu, rate, seed] for seed in seeds[mu, rate]], f"mu {mu}, {rate:.3f} rad/s"
+        record(f"{case}: angle", mean(bed["repose"]["angle_deg"] for bed in beds), paper, 2, PAPER, "degrees")
+        if len(beds) == 1:
+            record_center_of_mass(record, case, beds[0], other, spread)
+        else:
+            angles = [bed["repose"]["other_methods"]["center-of-mass"] for bed in beds]
+            assert all(bed["repose"]["standard_error_deg"] is None and bed["regime"]["evidence"]["wall_slip"] > 0.15 for bed in beds)
+            record(f"{case}: centre of mass", mean(angles), other, spread + 3 * stdev(angles) / math.sqrt(len(angles)),
+                   "an independent code, its spread from frame to frame and three standard errors of the mean over five seeds", "degrees")
+        record.same(f"{case}: regime", beds[0]["regime"]["name"], "rolling", "the paper")
 
 
 @pytest.mark.minutes
