@@ -61,9 +61,13 @@ def test_results_outlive_the_job_folder(fake):
     assert fake.get(f"/jobs/{job}/snapshots/0.hdf").status_code == 404
 
 
-def test_the_spec_is_on_the_disk_before_the_answer(fake):
+def test_the_spec_is_in_the_database_before_the_answer_and_in_the_folder_when_a_worker_has_it(fake):
     job = fake.submit()
-    assert (fake.data / "jobs" / job / "spec.json").read_text() == fake.get(f"/jobs/{job}/spec").text
+    with sqlite3.connect(f"file:{fake.data}/reposed.sqlite?mode=ro", uri=True, timeout=30) as database:
+        spec, = database.execute("SELECT spec FROM job WHERE id=?", (job,)).fetchone()
+    database.close()
+    fake.ended(job)
+    assert spec == fake.get(f"/jobs/{job}/spec").text == (fake.data / "jobs" / job / "spec.json").read_text()
 
 
 def test_progress_is_told_while_it_runs(fake):
