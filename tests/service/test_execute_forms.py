@@ -2,6 +2,8 @@
 by reference."""
 import email
 import json
+import re
+import signal
 import sqlite3
 import subprocess
 import time
@@ -10,6 +12,7 @@ import jsonschema
 import pytest
 import requests
 from conftest import BUILD, ENDED, FAKE_WORKER, SPEC, Daemon
+from test_daemon_clients import ask_and_keep, job_of_long_specification
 
 EXECUTION = "/processes/drum/execution"
 PROFILE = "http://www.opengis.net/def/profile/OGC/0/ogc-results"
@@ -100,7 +103,22 @@ def test_nobody_is_kept_waiting_by_a_daemon_that_leaves(tmp_path):
         while not daemon.get("/jobs?status=running").json()["jobs"]:
             time.sleep(0.05)
         daemon.stop()
-        assert waiting.result().status_code == 201
+        assert waiting.result().status_code == 201 and waiting.result().json()["jobID"]
+
+
+def test_an_answer_that_is_on_its_way_reaches_its_client_before_the_daemon_ends(tmp_path):
+    daemon = Daemon(tmp_path, worker=FAKE_WORKER).start()
+    job = job_of_long_specification(daemon)
+    client = ask_and_keep(daemon, f"/jobs/{job}/spec", receive_buffer=4096)
+    client.settimeout(20)
+    parts = [client.recv(4096)]
+    daemon.process.send_signal(signal.SIGTERM)
+    time.sleep(0.5)  # the daemon has nothing left to do but this
+    while parts[-1]:
+        parts.append(client.recv(1 << 20))
+    daemon.stop()
+    headers, body = b"".join(parts).split(b"\r\n\r\n", 1)
+    assert len(body) == int(re.search(rb"Content-Length: (\d+)", headers)[1]) > 1 << 20
 
 
 # --- in which form ---

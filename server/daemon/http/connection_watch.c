@@ -51,8 +51,15 @@ bool connection_is_closed(int socket)
 static int count_from(const connection_watch *watch, const watched_connection *address)
 {
     int count = 0;
-    for (const watched_connection *c = watch->first; c; c = c->next) count += connection_is_from(c, address);
+    for (const watched_connection *c = watch->first; c; c = c->next) count += !c->is_going && connection_is_from(c, address);
     return count;
+}
+
+static void let_go(watched_connection *connection)
+{
+    shutdown(connection->socket, SHUT_RDWR);
+    connection->reading_since = connection->stalled_since = 0.0; /* it goes; the next one is another */
+    connection->is_going = true;
 }
 
 /* Of the address that has the most connections, the one that has asked nothing for longest, or else the one that has
@@ -72,22 +79,18 @@ static void make_room(connection_watch *watch)
         victim = c;
         most = count;
     }
-    if (!victim) return;
-    shutdown(victim->socket, SHUT_RDWR);
-    victim->reading_since = victim->stalled_since = 0.0; /* it goes; the next one is another */
+    if (victim) let_go(victim);
 }
 
 /* With the lock held: whether it was so. */
-static bool drop_idle_of(const connection_watch *watch, const watched_connection *address)
+static bool drop_idle_of(connection_watch *watch, const watched_connection *address)
 {
     watched_connection *victim = NULL;
     for (watched_connection *c = watch->first; c; c = c->next)
         if (connection_is_from(c, address) && c->reading_since > 0.0 && (!victim || c->reading_since < victim->reading_since))
             victim = c;
-    if (!victim) return false;
-    shutdown(victim->socket, SHUT_RDWR);
-    victim->reading_since = 0.0;
-    return true;
+    if (victim) let_go(victim);
+    return victim != NULL;
 }
 
 bool connection_watch_admits(connection_watch *watch, const struct sockaddr *address)
@@ -113,6 +116,8 @@ watched_connection *connection_watch_add(connection_watch *watch, int socket, co
     connection->next = watch->first;
     if (watch->first) watch->first->previous = connection;
     watch->first = connection;
+    /* Several threads may have admitted one each while there was room for one. */
+    if (count_from(watch, connection) > watch->most_of_address && !drop_idle_of(watch, connection)) let_go(connection);
     pthread_mutex_unlock(&watch->lock);
     return connection;
 }

@@ -16,6 +16,7 @@ enum { CONNECTION_ADDRESS_SIZE = 16 };
 
 typedef struct watched_connection {
     int socket;
+    bool is_going;                            /* it was shut down, and its place counts as free */
     uint8_t address[CONNECTION_ADDRESS_SIZE]; /* of the client: connection_address */
     size_t held;                              /* bytes of bodies and answers in memory that count */
     double reading_since;                     /* monotonic s; 0: a whole request is being answered */

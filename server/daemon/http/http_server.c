@@ -22,10 +22,11 @@ enum {
     THREAD_STACK = 1 << 20, /* JSON nests up to 2048 deep */
     SILENCE_SECONDS = 20,
     DROPPED_BODY_LIMIT = 16 << 20,
-    SMALL = 64 << 10,             /* bytes that nobody counts: as many as connections, they are still bearable */
-    MOST_BODY_BYTES = 64 << 20,   /* of all large bodies that are being read */
-    MOST_ANSWER_BYTES = 64 << 20, /* of all large answers that are on their way to clients, who may be slow to read them */
-    MOST_ADDRESS_BYTES = 32 << 20 /* of both, for one address */
+    SMALL = 64 << 10,              /* bytes that nobody counts: as many as connections, they are still bearable */
+    MOST_BODY_BYTES = 64 << 20,    /* of all large bodies that are being read */
+    MOST_ANSWER_BYTES = 64 << 20,  /* of all large answers that are on their way to clients, who may be slow to read them */
+    MOST_ADDRESS_BYTES = 32 << 20, /* of both, for one address */
+    LAST_ANSWERS_MS = 2000         /* that the answers under way have at the end, before their connections are cut */
 };
 
 /* --- memory in sum --- */
@@ -250,14 +251,18 @@ static enum MHD_Result take_request(void *context, struct MHD_Connection *connec
 /* The raw target, before anything is decoded. What it returns comes back as the request's state. */
 static void *take_target(void *context, const char *target, struct MHD_Connection *connection)
 {
-    (void)context, (void)connection;
+    (void)connection;
+    http_server *server = context;
     http_exchange *exchange = calloc(1, sizeof *exchange);
     if (!exchange) return NULL;
     http_response_init(&exchange->response);
     exchange->target = strdup(target);
-    if (exchange->target) return exchange;
-    free(exchange);
-    return NULL;
+    if (!exchange->target) {
+        free(exchange);
+        return NULL;
+    }
+    atomic_fetch_add(&server->under_way, 1);
+    return exchange;
 }
 
 static void end_request(void *context, struct MHD_Connection *connection, void **state, enum MHD_RequestTerminationCode why)
@@ -275,6 +280,7 @@ static void end_request(void *context, struct MHD_Connection *connection, void *
     free(exchange->body);
     free(exchange->target);
     free(exchange);
+    atomic_fetch_sub(&server->under_way, 1);
 }
 
 static enum MHD_Result admit_connection(void *context, const struct sockaddr *address, socklen_t length)
@@ -374,6 +380,8 @@ void http_server_leave(http_server *server)
 
 void http_server_stop(http_server *server)
 {
+    for (int ms = 0; ms < LAST_ANSWERS_MS && atomic_load(&server->under_way) > 0; ms += 10)
+        nanosleep(&(struct timespec){ .tv_nsec = 10000000 }, NULL);
     MHD_stop_daemon(server->daemon);
     connection_watch_clear(&server->watch);
 }

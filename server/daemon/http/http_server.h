@@ -15,6 +15,7 @@ typedef struct http_server {
     http_metrics metrics;
     connection_watch watch;
     atomic_size_t bodies_held, answers_held; /* bytes of the large ones that are in memory */
+    atomic_int under_way;                    /* requests that have begun and are not answered to the end */
     waiting_room room;
     struct MHD_Daemon *daemon;
     int listener, port; /* the port that was opened */
@@ -25,6 +26,7 @@ bool http_server_open(http_server *server, const config *settings, api_service *
 bool http_server_start(http_server *server);
 /* No new connections; those waiting for a job are answered as things are. */
 void http_server_leave(http_server *server);
+/* What is being answered has two seconds to reach its client. */
 void http_server_stop(http_server *server);
 
 #endif
