@@ -4,6 +4,10 @@
  *   start.hdf.sha256 the SHA-256 of start.hdf, in hexadecimal and a newline, which the daemon took when it gave the job that
  *                    file: a worker reads no other bytes
  *   start.hdf        where the run starts from another's bed: that run's snapshot or checkpoint, under a name of its own
+ *   bed.hdf          of a job that shares its bed with others of its study: the checkpoint of the moment at which the bed was
+ *                    settled, from which those others go on; in their folders a second name for the same file
+ *   bed.hdf.sha256   there: its SHA-256, as the daemon was told by the job that settled it, two spaces and that job's id. What
+ *                    has another is not used: the job then settles the bed itself
  *   events.ndjson    append-only, one JSON object a line; every line ends in \n (a last line without it is not
  *                    yet written). Each has "event" and, but for start, "step" and "time" (s since rotation
  *                    began, negative before):
@@ -13,6 +17,7 @@
  *       {"event":"sample","number":0,"step":..,"time":..,"values":{"angle_deg":22.7, ...}}   NaN becomes null
  *       {"event":"snapshot","number":0,"step":..,"time":..,"file":"000000.hdf","bytes":..,"particles":..}
  *       {"event":"checkpoint","step":..,"time":..,"attempt":..}
+ *       {"event":"bed","step":..,"time":..,"sha256":"..."}       bed.hdf is there
  *       {"event":"failure","status":"overlap-too-large","message":"...","detail":{...}}
  *           status: not-a-number, overlap-too-large, particle-escaped, never-settled (all with detail: step, time,
  *           particle, other, position, quantity, value, limit, unit, likely_cause); does-not-fit, bad-parameter,
@@ -40,6 +45,8 @@
 
 #define JOB_START_FILE "start.hdf"
 #define JOB_START_HASH_FILE JOB_START_FILE ".sha256"
+#define JOB_BED_FILE "bed.hdf"
+#define JOB_BED_HASH_FILE JOB_BED_FILE ".sha256"
 #define JOB_SPEC_FILE "spec.json"
 #define JOB_EVENTS_FILE "events.ndjson"
 #define JOB_SNAPSHOT_FOLDER "snapshots"

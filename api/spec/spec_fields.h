@@ -108,6 +108,9 @@ typedef struct spec_field {
 
     bool is_left_out_where_null; /* an object or null, which is not written where it is null */
 
+    /* Nothing that happens before the run begins (the drum turns, the tube rises) depends on it but through what is derived from
+     * it: runs that differ in such fields alone settle the same bed (spec_bed.c). */
+    bool acts_later;
     bool is_free_of_bed; /* of a drum: may be another than in the run that made the bed which it starts from */
 } spec_field;
 

@@ -18,6 +18,8 @@ void spec_inputs_clear(const spec_table *table, void *inputs);
 json_t *spec_inputs_given(const spec_table *table, const json_t *inputs);
 /* New reference; NULL: no memory. */
 json_t *spec_inputs_write(const spec_table *table, const void *inputs);
+/* Likewise, without the fields that act later. */
+json_t *spec_inputs_of_bed(const spec_table *table, const void *inputs);
 
 enum { LONGEST_POINTER = 256 };
 

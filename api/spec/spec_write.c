@@ -12,10 +12,13 @@ static json_t *write_scalar(const spec_field *field, double value)
     return json_real(value);
 }
 
-/* place: the struct that the offsets of the group's fields count from. NULL: no memory. */
-static json_t *write_group(const spec_table *table, spec_group group, const char *place);
+/* What is written: all inputs, or those that a settled bed depends on. */
+typedef enum written { ALL_INPUTS, INPUTS_OF_BED } written;
 
-static json_t *write_list(const spec_table *table, const spec_field *field, const char *place)
+/* place: the struct that the offsets of the group's fields count from. NULL: no memory. */
+static json_t *write_group(const spec_table *table, spec_group group, const char *place, written what);
+
+static json_t *write_list(const spec_table *table, const spec_field *field, const char *place, written what)
 {
     const bool is_named = field->kind == FIELD_NAMED_LIST;
     json_t *list = is_named ? json_object() : json_array();
@@ -24,7 +27,7 @@ static json_t *write_list(const spec_table *table, const spec_field *field, cons
     if (field->kind >= FIELD_LONG_LIST) first = *(const char *const *)first;
     for (size_t s = 0; list && s < count; s++) {
         const char *entry = first + s * field->entry_size;
-        json_t *object = write_group(table, field->child, entry);
+        json_t *object = write_group(table, field->child, entry, what);
         if (is_named ? json_object_set_new(list, entry, object) : json_array_append_new(list, object)) {
             json_decref(list);
             return NULL;
@@ -33,19 +36,19 @@ static json_t *write_list(const spec_table *table, const spec_field *field, cons
     return list;
 }
 
-static json_t *write_member(const spec_table *table, const spec_field *field, const char *place)
+static json_t *write_member(const spec_table *table, const spec_field *field, const char *place, written what)
 {
-    if (field->kind >= FIELD_LIST) return write_list(table, field, place);
+    if (field->kind >= FIELD_LIST) return write_list(table, field, place, what);
     if (field->kind == FIELD_OBJECT_OR_NULL && isnan(*(const double *)(place + field->offset))) return json_null();
-    return write_group(table, field->child, place);
+    return write_group(table, field->child, place, what);
 }
 
-static json_t *write_group(const spec_table *table, spec_group group, const char *place)
+static json_t *write_group(const spec_table *table, spec_group group, const char *place, written what)
 {
     json_t *object = json_object();
     for (size_t f = 0; object && f < table->count; f++) {
         const spec_field *field = &table->field[f];
-        if (field->group != group) continue;
+        if (field->group != group || (field->acts_later && what == INPUTS_OF_BED)) continue;
         if (field->is_left_out_where_null && isnan(*(const double *)(place + field->offset))) continue;
         json_t *member;
         if (field->kind == FIELD_TEXT) {
@@ -65,9 +68,9 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
             member = json_pack("[f, f, f]", x[0], x[1], x[2]);
         } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {
             const char *word = field->choices[(size_t) * (const double *)(place + field->offset)];
-            member = word ? json_string(word) : write_group(table, field->child, place);
+            member = word ? json_string(word) : write_group(table, field->child, place, what);
         } else if (field->kind >= FIELD_OBJECT) {
-            member = write_member(table, field, place);
+            member = write_member(table, field, place, what);
         } else {
             const double value = *(const double *)(place + field->offset);
             if (isnan(value)) continue; /* its alternative was given, or it has no default */
@@ -81,4 +84,12 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
     return object;
 }
 
-json_t *spec_inputs_write(const spec_table *table, const void *inputs) { return write_group(table, SPEC_INPUTS, inputs); }
+json_t *spec_inputs_write(const spec_table *table, const void *inputs)
+{
+    return write_group(table, SPEC_INPUTS, inputs, ALL_INPUTS);
+}
+
+json_t *spec_inputs_of_bed(const spec_table *table, const void *inputs)
+{
+    return write_group(table, SPEC_INPUTS, inputs, INPUTS_OF_BED);
+}

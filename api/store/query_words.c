@@ -17,6 +17,7 @@ static const table_row tables[] = {
     { "snapshot", "one row a snapshot of a job" },
     { "result", "one row a job that has ended well: its results as one document" },
     { "pinned", "one row a job that no rule removes" },
+    { "bed", "one row a settled bed that jobs of a study still share" },
 };
 
 typedef struct column_row {
@@ -71,6 +72,10 @@ static const column_row rows[] = {
     { "job", "wanted", "", "JSON: how its results were asked for" },
     { "job", "given", "", "JSON: the inputs that its request had" },
     { "job", "failure", "", "JSON: what its worker said of why it failed" },
+    { "bed", "key", "", "its number, as job.bed has it" },
+    { "bed", "job", "", "the number of the job that has settled it" },
+    { "bed", "sha256", "", "that of bed.hdf in the job's folder" },
+    { "job", "bed", "", "the bed that it shares with others of its study; NULL: none" },
     { "job", "turn", "", "its turn among those of its priority" },
     { "job", "client", "", "who takes turns with others, of the label" },
     { "job", "not_before", "s", "unix time until which it is put off" },

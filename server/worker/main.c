@@ -42,7 +42,8 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "    --isa avx512|avx2|plain   the instruction set to use (default: the best that the processor has); results do not\n"        \
     "                              depend on it. Also of check and calibrate\n"                                                    \
     "    --confine                 let the run read and write DIR alone, and let it neither start programs nor use the\n"          \
-    "                              network, as the daemon's workers; a file to start from must then lie in DIR\n"
+    "                              network, as the daemon's workers; a file to start from must then lie in DIR\n"                  \
+    "    --save-bed                keep the settled bed as bed.hdf, for other jobs of a study that would settle the same\n"
 #define HELP_CHECK                                                                                                                 \
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"              \
     "                              memory; or every problem it has. Of a study: its cases and what it costs\n"                     \
@@ -59,6 +60,9 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "6 memory, descriptors or the like that the machine did not give.\n"
 
 static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE "repose COMMAND --help | --help | --version\n" HELP_EXIT;
+
+/* Complete once main has begun. */
+static char program_version[80];
 
 static const char no_spec[] = "give one SPEC file";
 
@@ -103,19 +107,14 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' },
-        { "threads", required_argument, NULL, 't' },
-        { "attempt", required_argument, NULL, 'a' },
-        { "checkpoint-seconds", required_argument, NULL, 'c' },
-        { "json", no_argument, NULL, 'j' },
-        { "profile", no_argument, NULL, 'p' },
-        { "data", required_argument, NULL, 'd' },
-        { "isa", required_argument, NULL, 'i' },
-        { "help", no_argument, NULL, 'h' },
-        { "confine", no_argument, NULL, 'f' },
-        { NULL, 0, NULL, 0 },
+        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },          { "profile", no_argument, NULL, 'p' },
+        { "data", required_argument, NULL, 'd' },    { "isa", required_argument, NULL, 'i' },
+        { "help", no_argument, NULL, 'h' },          { "confine", no_argument, NULL, 'f' },
+        { "save-bed", no_argument, NULL, 'b' },      { NULL, 0, NULL, 0 },
     };
-    *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0 } };
+    *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0, .program = program_version } };
     bool good = true;
     for (int option; good && (option = getopt_long(argc, argv, "o:h", options, NULL)) != -1;) {
         switch (option) {
@@ -128,6 +127,7 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         case 'h': line->help = true; return WORKER_DONE;
         case 'd': line->data = optarg; break;
         case 'f': line->confine = true; break;
+        case 'b': line->run.save_bed = true; break;
         case 'i':
             line->isa = optarg;
             good = variant_isa_is_usable(optarg);
@@ -348,6 +348,7 @@ int main(int argc, char **argv)
         return WORKER_BAD_SPEC;
     }
     worker_memory_watch();
+    snprintf(program_version, sizeof program_version, "" REPOSED_VERSION "%s", reposed_commit);
     char *word = argv[1];
     argv[1] = argv[0];
     int exit = WORKER_DONE;

@@ -22,10 +22,11 @@ static const spec_field fields[] = {
       IN_VIEW(40), .meaning = "straight bars of rectangular section along the wall, evenly spaced, turning with it; null: none" },
     { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .spared_by = "rotation_rate_rpm", .unit = "rad/s",
       RANGE(-500.0, 500.0), .least_size = 0.001, .fallback = NAN, AT(rotation_rate),
-      COLUMN("rotation_rate", REAL, inputs.rotation_rate), LISTED, IN_LIST(20, "", 1, NULL), IN_VIEW(150), FREE_OF_BED,
+      COLUMN("rotation_rate", REAL, inputs.rotation_rate), LISTED, IN_LIST(20, "", 1, NULL), IN_VIEW(150), FREE_OF_BED, ACTS_LATER,
       .meaning = "rate of rotation; below 0: the other way, the mirror image" },
     { SPEC_DRUM, "rotation_rate_rpm", FIELD_REAL, .unit = "1/min", RANGE(-4770.0, 4770.0), .least_size = 0.01, .fallback = NAN,
-      .excludes_too = "rotation_rate", AT(rotation_rate_rpm), .meaning = "revolutions a minute, instead of rotation_rate" },
+      .excludes_too = "rotation_rate", AT(rotation_rate_rpm), ACTS_LATER,
+      .meaning = "revolutions a minute, instead of rotation_rate" },
 
     FIELDS_OF_PARTICLES,
 
@@ -96,7 +97,7 @@ static const spec_field fields[] = {
       FREE_OF_BED, .meaning = "coefficient of friction between a particle and a bar. Default: the wall's" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, COLUMN("duration", REAL, duration), LISTED, IN_VIEW(310), .unit = "s",
-      .meaning = "how long the drum turns" },
+      ACTS_LATER, .meaning = "how long the drum turns" },
     { SPEC_DURATION, "revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = 1.25,
       .excludes = "seconds", .excludes_too = "until_standard_error_deg", AT(revolutions), .meaning = "revolutions of the drum" },
     { SPEC_DURATION, "seconds", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 1e6), .fallback = NAN, .excludes = "revolutions",

@@ -12,7 +12,7 @@ static const spec_field fields[] = {
       SLIP("cm", 0.01),
       .meaning = "of the part of the tube that the bed is made in; the wall goes on above it. Default: what the particles need" },
     { SPEC_TUBE, "lift_speed", FIELD_REAL, .unit = "m/s", OPEN_RANGE(0.0, 10.0), .fallback = NAN, AT(heap.lift_speed),
-      COLUMN("lift_speed", REAL, scene.lift.speed), LISTED, IN_LIST(90, "", 1e3, " mm/s"), IN_VIEW(110),
+      COLUMN("lift_speed", REAL, scene.lift.speed), LISTED, IN_LIST(90, "", 1e3, " mm/s"), IN_VIEW(110), ACTS_LATER,
       .meaning = "at which it is raised. Default: slowly, a fiftieth of sqrt(gravity * diameter)" },
 
     { SPEC_INPUTS, "plate", FIELD_OBJECT, SPEC_PLATE, .meaning = "the level disc below, whose middle is on the tube's axis" },
@@ -43,7 +43,7 @@ static const spec_field fields[] = {
     FIELDS_OF_STANDING_WALL("wall of the tube", "the tube", "the tube"),
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, COLUMN("duration", REAL, duration), LISTED, IN_VIEW(310), .unit = "s",
-      .meaning = "how long the run goes on from when the tube starts to rise" },
+      ACTS_LATER, .meaning = "how long the run goes on from when the tube starts to rise" },
     { SPEC_DURATION, "at_most_seconds", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 1e6), .fallback = NAN, AT(heap.seconds),
       .meaning = "it ends as soon as the tube is clear of the heap and the heap at rest. Default: the time to raise the tube by "
                  "fill_height, and 3 s" },

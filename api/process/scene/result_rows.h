@@ -35,7 +35,7 @@
     { "run", NULL, "settling_seconds", RESULT_REAL, RUN(settling_seconds), "s", \
       LABEL("settling"), .meaning = "simulated before " began }, \
     { "run", NULL, "wall_seconds", RESULT_REAL, RUN(wall_seconds), "s", \
-      LABEL("wall clock"), .meaning = "time spent, all attempts", \
+      LABEL("wall clock"), .meaning = "time spent, all attempts, with that of the job that settled the bed, where another did", \
       IN_VIEW(820), LISTED }, \
     { "run", NULL, "particle_steps_per_second", RESULT_REAL, RUN(particle_steps_per_second), "1/s", \
       LABEL("particle steps a second"), SHOWN(1, "", 3), .meaning = "speed: spheres times steps a second", \
@@ -65,6 +65,9 @@
       LABEL("ended"), .meaning = ended }, \
     { "run", NULL, "attempt", RESULT_WHOLE, RUN(attempt), "", \
       LABEL("attempt"), .meaning = "the attempt that came to the end" }, \
+    { "run", NULL, "settled_by", RESULT_TEXT, RUN(settled_by), "", \
+      LABEL("bed settled by"), .meaning = "id of the job of the same study that settled the bed for this one, too; null: it did so itself", \
+      STORED }, \
     RUN_WARNINGS
 
 #define RUN_WARNINGS \

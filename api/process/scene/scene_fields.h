@@ -169,17 +169,17 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     FIELDS_OF_COHESION(SPEC_PAIR_COHESION, offsetof(pair_inputs, cohesion))
 
 #define FIELDS_OF_OUTPUT_AND_RUN \
-    { SPEC_INPUTS, "snapshots", FIELD_OBJECT, SPEC_SNAPSHOTS, .meaning = "files of all particles, for ParaView" }, \
+    { SPEC_INPUTS, "snapshots", FIELD_OBJECT, SPEC_SNAPSHOTS, ACTS_LATER, .meaning = "files of all particles, for ParaView" }, \
     { SPEC_SNAPSHOTS, "interval", FIELD_REAL, .unit = "s", RANGE(0.0, 1e6), .fallback = 0.1, AT(snapshot_interval), \
       .meaning = "simulated time between snapshots; 0: only the last one" }, \
-    { SPEC_INPUTS, "samples", FIELD_OBJECT, SPEC_SAMPLES, .meaning = "the time series of measurements" }, \
+    { SPEC_INPUTS, "samples", FIELD_OBJECT, SPEC_SAMPLES, ACTS_LATER, .meaning = "the time series of measurements" }, \
     { SPEC_SAMPLES, "interval", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 0.05), .fallback = NAN, AT(sample_interval), \
       .meaning = "simulated time between measurements. Default: 0.05 s, less for fast drums and short runs" }, \
  \
     { SPEC_INPUTS, "seed", FIELD_INTEGER, .unit = "", RANGE(0, (double)LARGEST_WHOLE_NUMBER), .fallback = NAN, AT(seed), \
       COLUMN("seed", WHOLE, inputs.seed), LISTED, IN_VIEW(320), \
       .meaning = "of the random initial positions: the same seed gives the same run. Default: chosen at random" }, \
-    { SPEC_INPUTS, "threads", FIELD_INTEGER, .unit = "", RANGE(1, 256), .fallback = 1, AT(threads), \
+    { SPEC_INPUTS, "threads", FIELD_INTEGER, .unit = "", RANGE(1, 256), .fallback = 1, AT(threads), ACTS_LATER, \
       .meaning = "threads of the worker; results do not depend on it" }, \
     { SPEC_INPUTS, "integration", FIELD_OBJECT, SPEC_INTEGRATION, \
       COLUMN("time_step", REAL, scene.time_step), IN_VIEW(300), .unit = "s", \

@@ -4,6 +4,7 @@
 #include "dispatcher.h"
 
 #include <errno.h>
+#include <inttypes.h>
 #include <math.h>
 #include <poll.h>
 #include <signal.h>
@@ -23,7 +24,7 @@
 #define SECONDS_OF_A_SHORT_JOB 30.0 /* after which it is none, whatever was expected */
 #define GIGABYTE 1073741824.0
 
-enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8 };
+enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8, LONGEST_BEDS = 4 + 21 * (CONFIG_MOST_WORKERS + 1) };
 
 /* Under nohup SIGHUP is ignored, and a blocked signal would come through all the same. */
 void dispatcher_end_signals(sigset_t *ends)
@@ -94,6 +95,18 @@ static void set_limits(const job_claim *claim, worker_order *order)
     order->file_bytes = 16.0 * GIGABYTE;
 }
 
+/* JSON: a list of the beds that workers are settling and other jobs wait for. Not for a worker that is held up. */
+static void beds_in_work(const job_dispatcher *dispatcher, char beds[LONGEST_BEDS])
+{
+    size_t length = (size_t)snprintf(beds, LONGEST_BEDS, "[0");
+    for (int i = 0; i < dispatcher->slots; i++) {
+        const worker_slot *slot = &dispatcher->slot[i];
+        if (slot->state == SLOT_WORKING && slot->settles && !slot->silent && !slot->claim_lost)
+            length += (size_t)snprintf(beds + length, LONGEST_BEDS - length, ",%" PRId64, slot->claim.bed);
+    }
+    snprintf(beds + length, LONGEST_BEDS - length, "]");
+}
+
 static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
 {
     const data_folder *data = dispatcher->store->data;
@@ -105,7 +118,12 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
     const bool is_there = job_folder_create(data, claim->id, claim->spec) && job_folder_sync(data, claim->id);
     const int file = is_there ? job_folder_open(data, claim->id) : -1;
     if (file < 0) return false;
-    worker_order order = { .job_folder = folder, .job_folder_file = file, .attempt = claim->attempt, .threads = claim->threads };
+    slot->settles = claim->bed && !store_bring_bed(dispatcher->store, claim);
+    worker_order order = { .job_folder = folder,
+                           .job_folder_file = file,
+                           .attempt = claim->attempt,
+                           .threads = claim->threads,
+                           .save_bed = slot->settles };
     set_limits(claim, &order);
     const bool started = dispatcher->executor->start(dispatcher->executor, &order, &slot->worker);
     close(file);
@@ -145,10 +163,12 @@ static worker_slot *claim_next_job(job_dispatcher *dispatcher, job_claim *claim)
     /* One that tries after a pause is the least suspect: a few that this machine can't run would be in all others' way. */
     const queue_order order = dispatcher->pause.setbacks > 0 ? QUEUE_BY_SETBACKS : QUEUE_BY_TURN;
     const int all = dispatcher->threads, left = all - threads_in_use(dispatcher);
+    char beds[LONGEST_BEDS];
+    beds_in_work(dispatcher, beds);
     worker_slot *slot = free_slot(dispatcher);
-    if (slot && store_claim_job(dispatcher->store, order, left, all, claim) == STORE_OK) return slot;
+    if (slot && store_claim_job(dispatcher->store, order, left, all, beds, claim) == STORE_OK) return slot;
     worker_slot *lane = free_lane(dispatcher);
-    return lane && store_claim_job(dispatcher->store, QUEUE_SHORT, all, all, claim) == STORE_OK ? lane : NULL;
+    return lane && store_claim_job(dispatcher->store, QUEUE_SHORT, all, all, beds, claim) == STORE_OK ? lane : NULL;
 }
 
 /* False: none was started. */
@@ -202,6 +222,7 @@ static store_status record_batch(job_dispatcher *dispatcher, worker_slot *slot, 
             queue_pause_note_well(&dispatcher->pause, slot->started, slot->last_word);
         }
         if (isfinite(batch.speed)) slot->speed = batch.speed;
+        if (*batch.bed) slot->settles = false;
         if (batch.failure) {
             json_decref(slot->failure);
             slot->failure = json_incref(batch.failure);
@@ -311,6 +332,7 @@ static void record_ends(job_dispatcher *dispatcher)
             continue;
         }
         if (status == STORE_CONFLICT) log_line("job %s: dismissed, its worker has left", slot->claim.id);
+        if (slot->claim.bed) store_drop_beds(dispatcher->store);
         release_slot(slot);
         dispatcher->jobs_changed(dispatcher->context);
     }

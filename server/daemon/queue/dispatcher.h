@@ -30,6 +30,7 @@ typedef struct worker_slot {
     double started;    /* monotonic s */
     double last_word;  /* monotonic s: when it last wrote an event, or was started */
     bool silent;       /* and that this is long ago was told */
+    bool settles;      /* a bed that other jobs wait for */
     double speed;      /* particle steps a second, as it last said; NaN: not yet */
     json_t *failure;   /* the failure event; NULL: none */
 } worker_slot;

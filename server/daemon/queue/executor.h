@@ -10,6 +10,7 @@ typedef struct worker_order {
     const char *job_folder; /* absolute path; holds spec.json */
     int job_folder_file;    /* descriptor of the same */
     int attempt, threads;
+    bool save_bed;                                /* for other jobs that would settle the same */
     double cpu_seconds, memory_bytes, file_bytes; /* limits */
 } worker_order;
 

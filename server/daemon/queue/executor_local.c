@@ -111,17 +111,21 @@ static bool start(worker_executor *executor, const worker_order *order, worker_h
     snprintf(spec, sizeof spec, "%s/" JOB_SPEC_FILE, order->job_folder);
     snprintf(attempt, sizeof attempt, "%d", order->attempt);
     snprintf(threads, sizeof threads, "%d", order->threads);
-    char *const arguments[] = { (char *)executor->program,
-                                "run",
-                                spec,
-                                "--out",
-                                (char *)order->job_folder,
-                                "--attempt",
-                                attempt,
-                                "--threads",
-                                threads,
-                                executor->confine ? "--confine" : NULL,
-                                NULL };
+    char *arguments[] = { (char *)executor->program,
+                          "run",
+                          spec,
+                          "--out",
+                          (char *)order->job_folder,
+                          "--attempt",
+                          attempt,
+                          "--threads",
+                          threads,
+                          NULL,
+                          NULL,
+                          NULL };
+    size_t next = sizeof arguments / sizeof arguments[0] - 3;
+    if (executor->confine) arguments[next++] = "--confine";
+    if (order->save_bed) arguments[next++] = "--save-bed";
     worker_streams streams;
     const pid_t parent = getpid();
     const pid_t process = streams_open(&streams, order->job_folder_file) ? fork() : -1;

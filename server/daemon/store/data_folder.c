@@ -394,6 +394,33 @@ void job_result_remove(const data_folder *data, const char *id)
     close(folder);
 }
 
+void job_bed_remove(const data_folder *data, const char *id)
+{
+    const int folder = job_folder_open(data, id);
+    if (folder < 0) return;
+    unlinkat(folder, JOB_BED_FILE, 0);
+    unlinkat(folder, JOB_BED_HASH_FILE, 0);
+    close(folder);
+}
+
+bool job_folder_add_bed(const data_folder *data, const char *id, const char *from, const char *line)
+{
+    char path[80];
+    struct stat found;
+    snprintf(path, sizeof path, "%.64s/" JOB_BED_FILE, from);
+    job_bed_remove(data, id);
+    const int to = job_folder_open(data, id);
+    bool good = to >= 0 && linkat(data->jobs, path, to, JOB_BED_FILE, 0) == 0;
+    /* It may be a link, which is another worker's to make and would be in the way of this one. */
+    good = good && fstatat(to, JOB_BED_FILE, &found, AT_SYMLINK_NOFOLLOW) == 0 && S_ISREG(found.st_mode)
+           && write_whole(to, JOB_BED_HASH_FILE, line);
+    const int reason = errno;
+    if (to >= 0) close(to);
+    if (!good) job_bed_remove(data, id);
+    errno = reason;
+    return good;
+}
+
 disk_room data_folder_room(const data_folder *data)
 {
     struct statvfs disk;

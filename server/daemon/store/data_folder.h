@@ -47,6 +47,9 @@ enum { LARGEST_RESULT = 16 << 20 };
  * worker made from that, which result.json.sum tells. */
 char *job_result_read(const data_folder *data, const char *id, const char *spec);
 void job_result_remove(const data_folder *data, const char *id);
+/* The settled bed of the job `from`, and the line that tells what it is. False: errno says why; nothing is there then. */
+bool job_folder_add_bed(const data_folder *data, const char *id, const char *from, const char *line);
+void job_bed_remove(const data_folder *data, const char *id);
 bool data_folder_sync(const data_folder *data); /* all that was written so far is safe on the disk */
 /* Whether a file can be made, written and kept; it is removed again. False: errno says why. */
 bool data_folder_try_write(const data_folder *data);

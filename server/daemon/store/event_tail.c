@@ -51,6 +51,8 @@ static bool take_event(event_batch *batch, json_t *event)
     else if (strcmp(kind, "sample") == 0) return append(batch->samples, event);
     else if (strcmp(kind, "snapshot") == 0) return append(batch->snapshots, event);
     else if (strcmp(kind, "checkpoint") == 0) return append(batch->checkpoints, event);
+    else if (strcmp(kind, "bed") == 0)
+        text_copy(batch->bed, sizeof batch->bed, json_string_value(json_object_get(event, "sha256")));
     else if (strcmp(kind, "failure") == 0) keep_failure(batch, event);
     else if (strcmp(kind, "start") == 0) keep_failure(batch, NULL); /* forgets an earlier one */
     return true;

@@ -12,6 +12,7 @@ typedef struct event_batch {
     char phase[24];                      /* "" none */
     json_t *samples, *snapshots;         /* arrays of events, in order; owned */
     json_t *checkpoints;                 /* as these */
+    char bed[65];                        /* SHA-256 of the settled bed; "": none was told of */
     json_t *failure;                     /* the failure event since the latest start, or NULL; owned */
     int64_t end;                         /* offset up to which the file has been read */
     bool more;                           /* the batch was full before the file's end */

@@ -77,6 +77,7 @@ bool store_random_bits(uint32_t *bits);
 /* Where a job stands: which of which study (0: of none), and its turn in the queue, which of a study counts from 1. */
 typedef struct job_place {
     int64_t study, index, repeat, turn;
+    int64_t bed; /* which it settles, alike in all jobs that settle the same; 0: no other does */
 } job_place;
 /* The bed of that job, into the folder of this one; snapshot NaN: its checkpoint. Safe on the disk after job_folder_sync
  * or data_folder_sync. False: errno says why. */
@@ -102,6 +103,7 @@ typedef struct job_claim {
     char id[JOB_ID_SIZE];
     int attempt, threads;
     double estimated_seconds, estimated_memory_bytes;
+    int64_t bed;        /* the number of the bed that others would settle, too; 0: none would */
     char *spec;         /* owned; NULL once the worker has started */
     int64_t saved_step; /* of the furthest checkpoint that any attempt told of, */
     int saved_in;       /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
@@ -116,8 +118,16 @@ typedef enum queue_order {
 } queue_order;
 
 /* Takes the first job that waits, if it needs no more threads than are free (a job of more than `all_threads` counts as that
- * many). STORE_NOT_FOUND: none. */
-store_status store_claim_job(job_store *store, queue_order order, int free_threads, int all_threads, job_claim *claim);
+ * many). beds: JSON, the numbers of those that are being settled, for which jobs wait. STORE_NOT_FOUND: none. */
+store_status store_claim_job(job_store *store, queue_order order, int free_threads, int all_threads, const char *beds,
+                             job_claim *claim);
+
+/* shared_beds.c. The bed that the job's worker told of; between begin and end. */
+store_status store_record_bed(job_store *store, const job_claim *claim, const char *sha256);
+/* Gives the job the bed that another has settled. False: nobody has; the job settles it for the others, too. */
+bool store_bring_bed(job_store *store, const job_claim *claim);
+/* Beds that no job waits for any more. */
+void store_drop_beds(job_store *store);
 
 /* Takes in how far checkpoints have come; the same events again change nothing. */
 void job_claim_note(job_claim *claim, const event_batch *events);

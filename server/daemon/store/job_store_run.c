@@ -33,7 +33,8 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
                           .threads = sqlite3_column_int(statement, 3),
                           .estimated_seconds = sqlite3_column_double(statement, 4),
                           .estimated_memory_bytes = sqlite3_column_double(statement, 5),
-                          .saved_in = sqlite3_column_int(statement, 8) };
+                          .saved_in = sqlite3_column_int(statement, 8),
+                          .bed = sqlite3_column_int64(statement, 9) };
     snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
     const char *spec = (const char *)sqlite3_column_text(statement, 6);
     claim->spec = spec ? study_parts_expand(sqlite3_db_handle(statement), sqlite3_column_int64(statement, 7), spec) : NULL;
@@ -43,13 +44,17 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
 }
 
 /* The job that is to be started next, of those that are due: not one that is put off, but if its time is further ahead than
- * any delay the clock was set back since. */
+ * any delay the clock was set back since; nor one whose bed another is settling: that will be there before it could do so
+ * itself. */
 #define NEXT_JOB(jobs, and, order)                                                                                                 \
-    "(SELECT number FROM " jobs " WHERE status='accepted'" and " AND not_before NOT BETWEEN ?2 AND ?5 ORDER BY " order " LIMIT 1)"
+    "(SELECT number FROM " jobs " WHERE status='accepted'"                                                                         \
+        and " AND not_before NOT BETWEEN ?2 AND ?5"                                                                                \
+            " AND (bed IS NULL OR bed NOT IN (SELECT value FROM json_each(?6))) ORDER BY " order " LIMIT 1)"
 #define CLAIM(next)                                                                                                                \
     "UPDATE job SET status='running', message='starting', started=coalesce(started,?1), updated=?1, eta_seconds=NULL"              \
     " WHERE number=" next " AND min(threads,?3)<=?4"                                                                               \
-    " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec, study, attempts_before"
+    " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec, study, attempts_before,"    \
+    " bed"
 
 static const char *const claims[] = {
     [QUEUE_BY_TURN] = CLAIM(NEXT_JOB("job INDEXED BY job_waiting_turn", "", "priority DESC, turn, number")),
@@ -58,7 +63,8 @@ static const char *const claims[] = {
         CLAIM(NEXT_JOB("job INDEXED BY job_waiting_short", " AND estimated_seconds<2.0", "priority DESC, turn, number")),
 };
 
-store_status store_claim_job(job_store *store, queue_order order, int free_threads, int all_threads, job_claim *claim)
+store_status store_claim_job(job_store *store, queue_order order, int free_threads, int all_threads, const char *beds,
+                             job_claim *claim)
 {
     *claim = (job_claim){ 0 };
     char now[JOB_TIME_SIZE];
@@ -66,8 +72,8 @@ store_status store_claim_job(job_store *store, queue_order order, int free_threa
     const double unix = unix_seconds();
     store_status status = store_begin(store);
     if (status != STORE_OK) return status;
-    sqlite3_stmt *statement = sql_prepare(store->writer, claims[order], "tdiid", now, unix, (int64_t)all_threads,
-                                          (int64_t)free_threads, unix + LONGEST_DELAY);
+    sqlite3_stmt *statement = sql_prepare(store->writer, claims[order], "tdiidt", now, unix, (int64_t)all_threads,
+                                          (int64_t)free_threads, unix + LONGEST_DELAY, beds);
     status = statement ? read_claim(statement, claim) : STORE_FAILED;
     if (status == STORE_OK && order != QUEUE_SHORT)
         status = sql_run(store->writer, NULL,
@@ -152,6 +158,7 @@ store_status store_record_events(job_store *store, const job_claim *claim, const
     if (status == STORE_OK && changed == 0) return STORE_CONFLICT;
     if (status == STORE_OK) status = insert_samples(store->writer, claim->number, events->samples);
     if (status == STORE_OK) status = insert_snapshots(store->writer, claim->number, events->snapshots);
+    if (status == STORE_OK && *events->bed) status = store_record_bed(store, claim, events->bed);
     return status;
 }
 
@@ -269,7 +276,7 @@ static store_status next_orphan(job_store *store, int64_t after, job_claim *clai
 {
     sqlite3_stmt *statement = sql_prepare(
         store->writer,
-        "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study, attempts_before FROM job"
+        "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study, attempts_before, bed FROM job"
         " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
         "i", after);
     return statement ? read_claim(statement, claim) : STORE_FAILED;
@@ -329,5 +336,6 @@ store_status store_recover(job_store *store)
         if (status == STORE_CONFLICT) status = STORE_OK; /* dismissed meanwhile */
         if (status != STORE_OK) worst = status;
     }
+    store_drop_beds(store); /* of jobs that were dismissed or deleted */
     return status == STORE_NOT_FOUND ? worst : status;
 }

@@ -110,7 +110,7 @@ static void remove_snapshots(const data_folder *data, const char *id)
         if (entry->d_name[0] != '.') unlinkat(inner, entry->d_name, 0);
     if (list) closedir(list);
     else if (inner >= 0) close(inner);
-    static const char *const beside[] = { JOB_SERIES_FILE, JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE };
+    static const char *const beside[] = { JOB_SERIES_FILE, JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE, JOB_BED_FILE };
     for (size_t f = 0; job >= 0 && f < sizeof beside / sizeof beside[0]; f++) unlinkat(job, beside[f], 0);
     if (job >= 0) close(job);
 }

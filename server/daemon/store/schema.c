@@ -202,6 +202,15 @@ static const char short_jobs[] = "CREATE INDEX job_waiting_short ON job(priority
 /* SQLite keeps no checksums of its own: one of each document that is sent as it was written; NULL: of a program from before. */
 static const char checksums_of_results[] = "ALTER TABLE result ADD COLUMN checksum INTEGER;";
 
+/* Jobs of a study that would settle the same bed have the same number, and one of them settles it for all (shared_beds.c). */
+static const char shared_beds[] = "ALTER TABLE job ADD COLUMN bed INTEGER;"
+                                  "CREATE INDEX job_of_bed ON job(bed) WHERE bed IS NOT NULL AND status IN ('accepted','running');"
+                                  "CREATE TABLE bed("
+                                  "  key INTEGER PRIMARY KEY,"
+                                  "  job INTEGER NOT NULL REFERENCES job(number) ON DELETE CASCADE," /* that has settled it */
+                                  "  sha256 TEXT NOT NULL) STRICT;"
+                                  "CREATE INDEX bed_of_job ON bed(job);";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -242,5 +251,6 @@ const schema_migration schema_migrations[] = {
     { { given_inputs } },
     { { short_jobs } },
     { { checksums_of_results } },
+    { { shared_beds } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

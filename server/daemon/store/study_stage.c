@@ -6,9 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "checksum.h"
 #include "database.h"
 #include "json_pointer.h"
 #include "log.h"
+#include "spec_bed.h"
 #include "study_parts.h"
 #include "text_buffer.h"
 
@@ -22,6 +24,8 @@ struct study_stage {
     uint32_t bits; /* the study's */
     char id[JOB_ID_SIZE];
     bool has_starts;
+    bool may_share_beds;
+    checksum sum; /* of the id: beds are shared within a study */
     store_status status;
 };
 
@@ -73,6 +77,27 @@ static sqlite3 *open_stage(study_stage *stage)
     return NULL;
 }
 
+/* It, what it is a part of, or one that it may have as a part. */
+static bool may_act_later(const spec_table *table, const char *column)
+{
+    char path[JSON_POINTER_SIZE];
+    for (size_t end = strcspn(column, "/");; end += 1 + strcspn(column + end + 1, "/")) {
+        snprintf(path, sizeof path, "%.*s", (int)end, column);
+        const spec_field *field = spec_field_at(table, path);
+        if (!field || field->acts_later) return true;
+        if (!column[end]) return field->kind >= FIELD_CHOICE_OR_OBJECT;
+    }
+}
+
+/* Whether cases differ in anything that acts after the bed has settled. */
+static bool may_share_beds(const study_spec *study)
+{
+    const process_type *type = process_type_find(study->process);
+    for (size_t c = 0; type && c < json_array_size(study->columns); c++)
+        if (may_act_later(type->inputs, json_string_value(json_array_get(study->columns, c)))) return true;
+    return false;
+}
+
 study_stage *store_stage_study(job_store *store, const study_spec *study, const calibration *machine)
 {
     study_stage *stage = calloc(1, sizeof *stage);
@@ -84,6 +109,9 @@ study_stage *store_stage_study(job_store *store, const study_spec *study, const 
         return NULL;
     }
     store_write_id(stage->id, stage->second, stage->bits);
+    stage->may_share_beds = may_share_beds(study);
+    checksum_begin(&stage->sum);
+    checksum_add(&stage->sum, stage->id, strlen(stage->id));
     study_parts_init(&stage->parts, stage->database);
     return stage;
 }
@@ -153,12 +181,23 @@ static store_status stage_start(study_stage *stage, const job_spec *spec, const 
     return sql_run(stage->database, NULL, "INSERT INTO start VALUES(?,?,?)", "ttd", id, from, spec->inputs.start.snapshot);
 }
 
+/* Alike in all jobs of the study that settle the same bed; 0: this one settles none. */
+static int64_t bed_of(const study_stage *stage, const job_spec *spec)
+{
+    char *text = stage->may_share_beds ? spec_bed_text(spec) : NULL;
+    if (!text) return 0;
+    checksum sum = stage->sum;
+    checksum_add(&sum, text, strlen(text));
+    free(text);
+    return (int64_t)(checksum_end(&sum) >> 1) + 1;
+}
+
 /* First each case once, then each case again: the whole table is seen early. */
 static bool stage_job(void *context, const job_spec *spec, size_t index, int repeat)
 {
     study_stage *stage = context;
     const int64_t number = (int64_t)repeat * (int64_t)stage->study->cases + (int64_t)index + 1;
-    const job_place place = { 1, (int64_t)index, repeat, number };
+    const job_place place = { 1, (int64_t)index, repeat, number, bed_of(stage, spec) };
     char id[JOB_ID_SIZE];
     store_write_id(id, stage->second, stage->bits + (uint32_t)number);
     char *text = study_parts_write(&stage->parts, spec);
@@ -175,6 +214,12 @@ static bool stage_job(void *context, const job_spec *spec, size_t index, int rep
 study_taker store_stage_taker(study_stage *stage) { return (study_taker){ .take = stage_job, .context = stage }; }
 
 /* --- beds --- */
+
+store_status study_stage_match_beds(study_stage *stage)
+{
+    static const char alone[] = "UPDATE job SET bed=NULL WHERE bed IN (SELECT bed FROM job GROUP BY bed HAVING count(*)=1)";
+    return stage->may_share_beds ? sql_run(stage->database, NULL, alone, "") : STORE_OK;
+}
 
 store_status study_stage_bring_starts(study_stage *stage)
 {

@@ -18,6 +18,9 @@ const char *study_stage_id(const study_stage *stage);
 store_status study_stage_bring_starts(study_stage *stage);
 void study_stage_discard_starts(study_stage *stage); /* folders that were made for them */
 
+/* Once all are there: jobs that settle a bed which no other of them does have none to share. */
+store_status study_stage_match_beds(study_stage *stage);
+
 /* Between begin and end: every row, as the study of this number. */
 store_status study_stage_copy(study_stage *stage, int64_t study);
 

@@ -42,7 +42,8 @@ store_status store_add_study(job_store *store, study_stage *stage, const study_s
         study_stage_discard_starts(stage);
         return STORE_FULL;
     }
-    store_status status = study_stage_bring_starts(stage);
+    store_status status = study_stage_match_beds(stage);
+    if (status == STORE_OK) status = study_stage_bring_starts(stage);
     if (status == STORE_OK) status = store_begin(store);
     if (status == STORE_OK) {
         status = store_check_queue(store, (int64_t)study->cases * study->repeats);

@@ -1,5 +1,6 @@
 /* Layout:
- *   /run      @format, @params_json, @next_sample, @next_snapshot, @wall_seconds, @time_step, @stiffness
+ *   /run      @format, @params_json, @next_sample, @next_snapshot, @wall_seconds, @time_step, @stiffness, @program;
+ *             @settled_by where another job settled the bed
  *   /frames   f8[next_sample, frame_width]
  *   /state/0, 1, ...  the state's arrays in order  [rows, columns]   @name, @element
  * This file does not know what the arrays of the state mean. */
@@ -56,6 +57,8 @@ bool checkpoint_write(const checkpoint *saved, const char *params)
     hdf_add_real_attribute(&file, "/run", "wall_seconds", saved->wall_seconds);
     hdf_add_real_attribute(&file, "/run", "time_step", saved->time_step);
     hdf_add_real_attribute(&file, "/run", "stiffness", saved->stiffness);
+    if (*saved->program) hdf_add_text_attribute(&file, "/run", "program", saved->program, H5T_CSET_UTF8);
+    if (*saved->settled_by) hdf_add_text_attribute(&file, "/run", "settled_by", saved->settled_by, H5T_CSET_ASCII);
     hdf_add_array(&file,
                   &(hdf_array){ "/frames", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, (size_t)saved->next_sample, saved->frame_width,
                                 saved->frames, "SI, by column" },
@@ -101,18 +104,33 @@ static bool read_frames(hid_t file, checkpoint *saved)
     return saved->frames && hdf_read_exactly(file, "/frames", H5T_NATIVE_DOUBLE, count, saved->frames);
 }
 
-static bool is_of(hid_t file, const char *params)
+static bool has_format(hid_t file)
 {
     int64_t format;
-    if (!hdf_read_integer_attribute(file, "/run", "format", &format) || format != FORMAT) return false;
+    return hdf_read_integer_attribute(file, "/run", "format", &format) && format == FORMAT;
+}
+
+static bool is_of(hid_t file, const char *params)
+{
+    if (!has_format(file)) return false;
     char *written = hdf_read_text_attribute(file, "/run", "params_json");
     const bool same = written && strcmp(written, params) == 0;
     free(written);
     return same;
 }
 
+/* "" where there is none. */
+static void read_text(hid_t file, const char *name, char *text, size_t size)
+{
+    char *found = hdf_read_text_attribute(file, "/run", name);
+    snprintf(text, size, "%s", found ? found : "");
+    free(found);
+}
+
 static bool read_run(hid_t file, checkpoint *saved)
 {
+    read_text(file, "program", saved->program, sizeof saved->program);
+    read_text(file, "settled_by", saved->settled_by, sizeof saved->settled_by);
     return hdf_read_integer_attribute(file, "/run", "next_sample", &saved->next_sample)
            && hdf_read_integer_attribute(file, "/run", "next_snapshot", &saved->next_snapshot)
            && hdf_read_real_attribute(file, "/run", "wall_seconds", &saved->wall_seconds)
@@ -126,8 +144,9 @@ file_state checkpoint_read(checkpoint *saved, const char *name, const char *para
     memset(saved, 0, sizeof *saved);
     const hid_t file = hdf_open_sealed(name, &state);
     if (file >= 0) {
-        const bool read =
-            is_of(file, params) && read_run(file, saved) && read_frames(file, saved) && checkpoint_read_state(file, &saved->state);
+        if (!params && has_format(file)) saved->params = hdf_read_text_attribute(file, "/run", "params_json");
+        const bool read = (params ? is_of(file, params) : saved->params != NULL) && read_run(file, saved)
+                          && read_frames(file, saved) && checkpoint_read_state(file, &saved->state);
         if (!read) state = FILE_DAMAGED;
         H5Fclose(file);
     }
@@ -163,5 +182,6 @@ void checkpoint_clear(checkpoint *saved)
 {
     checkpoint_clear_state(&saved->state);
     free(saved->frames);
+    free(saved->params);
     memset(saved, 0, sizeof *saved);
 }

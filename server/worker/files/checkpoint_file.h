@@ -8,6 +8,7 @@
 
 #include "dem.h"
 #include "file_seal.h"
+#include "job_id.h"
 
 typedef struct checkpoint {
     int64_t next_sample, next_snapshot; /* numbers of those not yet taken */
@@ -16,12 +17,15 @@ typedef struct checkpoint {
     double *frames;                     /* (next_sample, frame_width) */
     size_t frame_width;
     dem_state state;
+    char settled_by[JOB_ID_SIZE]; /* the job that settled the bed; "": the run's own */
+    char program[80];             /* version of the program that wrote it; "": from before */
+    char *params;                 /* owned: the canonical spec of its run, where that was not given; else NULL */
 } checkpoint;
 
-/* params: the canonical spec. The file of before is kept as JOB_EARLIER_CHECKPOINT_FILE. */
+/* params: the canonical spec, in brief. The file of before is kept as JOB_EARLIER_CHECKPOINT_FILE. */
 bool checkpoint_write(const checkpoint *saved, const char *params);
 
-/* name: one of the two. FILE_DAMAGED: also where it is of another spec (logged). Where it is FILE_WHOLE the checkpoint then
+/* name: one of the two. params: NULL takes it of any spec. FILE_DAMAGED: also where it is of another spec (logged). Where it is FILE_WHOLE the checkpoint then
  * owns its frames and the state's arrays. */
 file_state checkpoint_read(checkpoint *saved, const char *name, const char *params);
 void checkpoint_clear(checkpoint *saved);

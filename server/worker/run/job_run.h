@@ -13,6 +13,8 @@ typedef struct run_options {
     double checkpoint_seconds; /* wall time between checkpoints */
     bool on_terminal;          /* show a progress line */
     bool profile;              /* write what the time went into */
+    bool save_bed;             /* for others that settle the same: shared_bed.h */
+    const char *program;       /* its version, with the commit */
     const char *start;         /* the file that the spec starts from, absolute; NULL: none, or it is in the folder already */
 } run_options;
 

@@ -1,5 +1,6 @@
 /* The life of an attempt at a scene:
- *     continue from the checkpoint of the job folder if there is one of this spec, or from the one before it
+ *     continue from the checkpoint of the job folder if there is one of this spec, or from the one before it, or from the bed
+ *         that another job of the study has settled
  *     until the end: take the frames and snapshots that are due, save a checkpoint now and then, advance
  *     measure the results from the table of frames; result.json is the last thing written
  * Frames and snapshots are due at steps counted from the start of the test (schedule.h), so that an attempt which
@@ -19,6 +20,7 @@
 #include "json_text.h"
 #include "process_type.h"
 #include "run_summary.h"
+#include "shared_bed.h"
 #include "snapshot_file.h"
 #include "start_file.h"
 #include "walls_file.h"
@@ -176,6 +178,8 @@ static enum worker_exit save_checkpoint(scene_run *r)
         .frames = r->frames,
         .frame_width = r->frame_width,
     };
+    snprintf(saved.settled_by, sizeof saved.settled_by, "%s", r->settled_by);
+    snprintf(saved.program, sizeof saved.program, "%s", r->options->program);
     dem_status status = dem_scene_save(r->scene, &saved.state);
     if (status == DEM_OK) status = save_tally(r, &saved.state);
     if (status != DEM_OK) {
@@ -188,6 +192,17 @@ static enum worker_exit save_checkpoint(scene_run *r)
     r->next_checkpoint = monotonic_seconds() + r->options->checkpoint_seconds;
     if (!written) return fail_for_disk(r, JOB_CHECKPOINT_FILE);
     return add_event(r, "checkpoint", json_pack("{s:i}", "attempt", r->options->attempt)) ? WORKER_DONE : WORKER_DISK;
+}
+
+/* As it is at the first step of rotation. */
+static enum worker_exit save_bed(scene_run *r)
+{
+    char hash[SHA256_HEX_SIZE];
+    if (!r->options->save_bed || r->has_saved_bed || *r->settled_by || !is_rotating(r) || rotation_step(r) != 0) return WORKER_DONE;
+    r->has_saved_bed = true;
+    const enum worker_exit exit = save_checkpoint(r);
+    if (exit != WORKER_DONE || !shared_bed_save(hash)) return exit;
+    return add_event(r, "bed", json_pack("{s:s}", "sha256", hash)) ? WORKER_DONE : WORKER_DISK;
 }
 
 /* For whoever follows the log. */
@@ -222,7 +237,8 @@ static enum worker_exit report_progress(scene_run *r)
 static enum worker_exit run_to_the_end(scene_run *r)
 {
     for (;;) {
-        enum worker_exit exit = take_what_is_due(r);
+        enum worker_exit exit = save_bed(r);
+        if (exit == WORKER_DONE) exit = take_what_is_due(r);
         if (exit != WORKER_DONE) return exit;
         if (is_rotating(r) && rotation_step(r) >= r->plan.rotation_steps) return WORKER_DONE;
         if (job_run_is_asked_to_stop()) {
@@ -265,6 +281,7 @@ run_facts scene_run_facts(const scene_run *r)
         .precision = dem_build_precision(),
         .seed = (double)drum->seed,
         .attempt = r->options->attempt,
+        .settled_by = *r->settled_by ? r->settled_by : NULL,
         .ended_by = r->ended_by ? r->ended_by : r->test->ended_by_time(r->spec),
     };
 }
@@ -297,12 +314,14 @@ static bool write_profile(const scene_run *r)
     return written;
 }
 
-/* Takes up where the checkpoint `name` of an earlier attempt left off. Where it is not FILE_WHOLE the scene may be half
- * restored. */
+/* Takes up where the checkpoint `name` left off, of an earlier attempt or of the job that settled the bed. Where it is not
+ * FILE_WHOLE the scene may be half restored. */
 static file_state resume(scene_run *r, const char *name, double *earlier_seconds)
 {
     checkpoint saved;
-    const file_state state = checkpoint_read(&saved, name, r->params);
+    const bool is_bed = strcmp(name, JOB_BED_FILE) == 0;
+    const file_state state =
+        is_bed ? shared_bed_read(r->spec, r->options->program, &saved) : checkpoint_read(&saved, name, r->params);
     if (state != FILE_WHOLE) return state;
     /* Another version of the program may derive other numbers from the same inputs. */
     const bool fits = saved.time_step == r->spec->scene.time_step && saved.stiffness == r->spec->scene.contact.stiffness
@@ -314,6 +333,7 @@ static file_state resume(scene_run *r, const char *name, double *earlier_seconds
         r->next_sample = saved.next_sample;
         r->next_snapshot = saved.next_snapshot;
         *earlier_seconds = saved.wall_seconds;
+        memcpy(r->settled_by, saved.settled_by, sizeof r->settled_by);
     } else {
         worker_warn("%s can't be used (%s)", name, dem_status_text(status));
     }
@@ -354,18 +374,21 @@ static enum worker_exit end_again(scene_run *r)
 /* The scene from the newest checkpoint that is sound, which is the newest from now on, or a new one. */
 static enum worker_exit prepare(scene_run *r, bool *resumed, double *earlier_seconds)
 {
-    static const char *const names[] = { JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE };
+    enum { NEWEST, EARLIER, BED, FILES };
+    static const char *const names[FILES] = { JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE, JOB_BED_FILE };
     dem_status status = DEM_OK;
     *resumed = false;
-    for (size_t k = 0; k < 2 && !*resumed; k++) {
+    for (size_t k = 0; k < FILES && !*resumed; k++) {
         if (access(names[k], F_OK) != 0) continue;
+        if (k == BED && access(JOB_BED_HASH_FILE, F_OK) != 0) continue; /* our own, for others */
         status = prepare_scene(r, false);
         if (status != DEM_OK) return fail(r, status);
         const file_state state = resume(r, names[k], earlier_seconds);
-        if (state == FILE_UNREADABLE) return fail_for_disk(r, names[k]);
+        if (state == FILE_UNREADABLE && k != BED) return fail_for_disk(r, names[k]);
         *resumed = state == FILE_WHOLE;
-        if (*resumed && k > 0) rename(names[k], names[0]);
-        if (!*resumed) worker_warn("starting anew%s", k == 0 ? " from the checkpoint before, if there is one" : "");
+        if (*resumed && k == EARLIER) rename(names[k], names[NEWEST]);
+        if (*resumed && *r->settled_by) worker_log("the bed is that which the job %s has settled", r->settled_by);
+        if (!*resumed) worker_warn("starting anew%s", k == NEWEST ? " from the checkpoint before, if there is one" : "");
     }
     if (!*resumed) status = prepare_scene(r, true);
     if (status != DEM_OK && r->start_trouble[0]) return failure_report_as(r->events, status, r->start_trouble);
@@ -410,6 +433,7 @@ enum worker_exit scene_run_job(const job_context *job, const scene_test *test)
     if (exit == WORKER_DONE && !write_profile(&r)) exit = fail_for_disk(&r, JOB_PROFILE_FILE);
     if (exit == WORKER_DONE) exit = write_result(&r);
     if (exit == WORKER_DONE) unlink(JOB_EARLIER_CHECKPOINT_FILE); /* whatever happens to the newest now, the result is there */
+    if (exit == WORKER_DONE && *r.settled_by) shared_bed_remove();
     if (exit == WORKER_DONE) worker_log("done in %.1f s", progress_wall_seconds(&r.progress));
     dem_scene_free(r.scene);
     free(r.frames);

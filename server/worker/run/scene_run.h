@@ -4,6 +4,7 @@
 #define SCENE_RUN_H
 
 #include "dem.h"
+#include "job_id.h"
 #include "job_run.h"
 #include "progress.h"
 #include "run_facts.h"
@@ -41,7 +42,9 @@ struct scene_run {
     double *tally; /* (tally_size) */
     size_t tally_size;
     int64_t next_sample, next_snapshot;
-    char start_trouble[300];             /* why it can't start from the bed that it was given; "": none */
+    char start_trouble[300];      /* why it can't start from the bed that it was given; "": none */
+    char settled_by[JOB_ID_SIZE]; /* the job that settled the bed; "": this one */
+    bool has_saved_bed;
     const char *ended_by;                /* NULL: not yet, or by its time */
     double next_checkpoint, last_series; /* s, monotonic */
     dem_phase phase;                     /* the last one logged */
