@@ -73,6 +73,13 @@ typedef struct dem_cohesion {
     double contact_angle; /* rad, of the bridge, below pi/2 */
 } dem_cohesion;
 
+/* How contacts resist rolling: equations and sources in core/NUMERICS.md, "Rolling friction". */
+typedef enum dem_rolling_law {
+    DEM_EPSD,           /* a spring that yields */
+    DEM_EPSD_DAMPED,    /* with a dashpot until it yields */
+    DEM_CONSTANT_TORQUE /* the limit, against the relative spin */
+} dem_rolling_law;
+
 typedef struct dem_elasticity {
     double youngs_modulus; /* Pa; infinite: rigid */
     double poissons_ratio;
@@ -90,6 +97,8 @@ typedef struct dem_contact_parameters {
     double tangential_stiffness_ratio;    /* K_T0/K1 */
     double rolling_friction;              /* mu_r between particles: a contact bears a moment of mu_r R* N; 0: none */
     double wall_rolling_friction;         /* likewise, particle against all that is the container's but ends, floor and plate */
+    dem_rolling_law rolling_law;          /* of all contacts that resist rolling */
+    double rolling_damping;               /* share of critical damping, of DEM_EPSD_DAMPED */
     dem_cohesion_law cohesion_law;        /* of all contacts that cohere */
     dem_cohesion cohesion, wall_cohesion; /* between particles; with all that is the container's */
 } dem_contact_parameters;

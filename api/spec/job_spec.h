@@ -100,6 +100,7 @@ typedef struct scene_inputs {
     double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
     double contact_law, friction, rolling_friction, tangential_stiffness_ratio;
     double restitution, unloading_slope; /* one of the two */
+    double rolling_law, rolling_damping; /* the first a dem_rolling_law */
     double latch_damping;
     double unloading;                                  /* 0: constant, 1: variable */
     double maximum_overlap, stiffness, youngs_modulus; /* one of the three */

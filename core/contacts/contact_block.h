@@ -57,6 +57,8 @@ void contact_block_forces(contact_list *list, size_t start, contact_block *block
 void contact_block_walton_braun(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact);
 void contact_block_damped_springs(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact,
                                   double dt);
+/* Share of critical damping with which the constant torque goes over into rest (core/NUMERICS.md, "Rolling friction"). */
+#define DAMPING_OF_CONSTANT_TORQUE 0.3
 /* Rolling friction of a block, right after its law, which has left stiffnesses in the block: sets the moments
  * (contact_rolling.c). */
 void contact_block_roll(contact_block *block, contact_list *list, size_t start, const dem_contact_parameters *contact, double dt);

@@ -157,6 +157,12 @@ bool pair_table_walls_differ(const pair_table *table, const dem_scene_definition
     return law_differs(table, d, DEM_MAXIMUM_SPECIES, DEM_MAXIMUM_SPECIES + DEM_SURFACES, true);
 }
 
+real rolling_root_of(double inverse_mass, double radius, double second_inverse_mass, double second_radius, double effective_radius)
+{
+    const double second = second_inverse_mass > 0 ? second_inverse_mass / (second_radius * second_radius) : 0;
+    return (real)(sqrt(1.4 / (inverse_mass / (radius * radius) + second)) / effective_radius);
+}
+
 void species_roots_set(species_roots *roots, const spheres *s)
 {
     for (size_t a = 0; a < s->species_count; a++) {
@@ -200,8 +206,12 @@ void contact_constants_of_each(contact_list *pairs, const spheres *s, const dem_
     }
     for (size_t k = from; k < to; k++)
         pairs->root_mass[k] = roots->of[s->species[first[k]]][second[k] < mobile ? s->species[second[k]] : DEM_MAXIMUM_SPECIES];
-    if (pairs->has_rolling)
-        for (size_t k = from; k < to; k++) pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
+    for (size_t k = from; pairs->has_rolling && k < to; k++) {
+        pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
+        pairs->rolling_root[k] = rolling_root_of(sphere_inverse_mass(s, (size_t)first[k]), (double)s->full_radius[first[k]],
+                                                 second[k] < mobile ? sphere_inverse_mass(s, (size_t)second[k]) : 0,
+                                                 (double)s->full_radius[second[k]], (double)pairs->radius[k]);
+    }
     if (table->is_given || pairs->coheres) set_pairs(pairs, s, table, from, to);
 }
 
@@ -213,7 +223,11 @@ void contact_constants_of_all(contact_list *pairs, const spheres *s, const dem_c
         pairs->first_radius[k] = s->full_radius[0];
         pairs->root_mass[k] = (real)sqrt(0.5 / sphere_inverse_mass(s, 0));
         pairs->radius[k] = s->full_radius[0] / 2;
-        if (pairs->has_rolling) pairs->rolling_friction[k] = (real)contact->rolling_friction;
+        if (pairs->has_rolling) {
+            const double r = (double)s->full_radius[0], per_mass = sphere_inverse_mass(s, 0);
+            pairs->rolling_friction[k] = (real)contact->rolling_friction;
+            pairs->rolling_root[k] = rolling_root_of(per_mass, r, per_mass, r, r / 2);
+        }
         if (table->is_given) contact_constants_of_pair(pairs, k, table, species, species);
         if (pairs->coheres) contact_constants_of_cohesion(pairs, k, table, species, species);
     }

@@ -34,6 +34,9 @@ void pair_table_set(pair_table *table, const dem_scene_definition *definition);
 bool pair_table_spheres_differ(const pair_table *table, const dem_scene_definition *definition);
 bool pair_table_walls_differ(const pair_table *table, const dem_scene_definition *definition);
 
+/* kg^(1/2): root of I_r/R*^2, 1/I_r the sum of 1/(7/5 m R^2) over both ends (Ai et al. 2011). The second's inverse mass, 1/kg, is 0 where
+ * it is fixed. */
+real rolling_root_of(double inverse_mass, double radius, double second_inverse_mass, double second_radius, double effective_radius);
 void species_roots_set(species_roots *roots, const spheres *spheres);
 /* Of the pairs from..to-1. */
 void contact_constants_of_each(contact_list *pairs, const spheres *spheres, const dem_contact_parameters *contact,

@@ -6,6 +6,7 @@
 #ifndef CONTACT_LAW_H
 #define CONTACT_LAW_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "real.h"
@@ -196,10 +197,9 @@ static inline void damped_friction_increment(const real n[3], const real ds[3], 
 }
 
 /* One increment of rolling friction: an elastic spring of stiffness K_T R*^2 against the relative rotation in the tangent
- * plane, which yields at mu_r R* N (Iwashita & Oda 1998; Ai et al. 2011, model C; Wensrich & Katterfeld 2012; none of its
- * dashpot). Written as forces on the arm R*. ds: m, R* times the rotation in this step of the first less the second, its
+ * plane, which yields at mu_r R* N (Iwashita & Oda 1998; Ai et al. 2011, model C; Wensrich & Katterfeld 2012). Written as forces on the arm R*. ds: m, R* times the rotation in this step of the first less the second, its
  * part along n taken out; limit: mu_r |N|; k_t: tangential stiffness now, N/m. The second body has the opposite moment. */
-static inline void rolling_increment(const real n[3], const real ds[3], real limit, real k_t, real roll[3])
+static inline bool rolling_increment(const real n[3], const real ds[3], real limit, real k_t, real roll[3])
 {
     const real rn = dot(roll, n);
     const real u[3] = { fused(-rn, n[0], roll[0]), fused(-rn, n[1], roll[1]), fused(-rn, n[2], roll[2]) };
@@ -208,8 +208,31 @@ static inline void rolling_increment(const real n[3], const real ds[3], real lim
     const real keep = fused((real)0.5, lesser(off2, 1), 1);
     for (int c = 0; c < 3; c++) roll[c] = fused(-k_t, ds[c], keep * u[c]);
     const real size2 = dot(roll, roll);
-    const real scale = size2 > limit * limit ? limit * inverse_root(size2) : 1;
+    const bool yields = size2 > limit * limit;
+    const real scale = yields ? limit * inverse_root(size2) : 1;
     for (int c = 0; c < 3; c++) roll[c] = limit > TINY_FORCE ? roll[c] * scale : 0;
+    return yields;
+}
+
+/* What a contact bears that has a dashpot beside this spring, from what the spring bears now. epsd-damped: the dashpot acts until
+ * the spring yields (Ai et al. 2011). constant: always, and both together are cut at the limit, which is smaller where the contact
+ * twists, too (core/NUMERICS.md, "Rolling friction"). v, twist: m/s, R* times the relative spin in the tangent plane and along n;
+ * c: N s/m. */
+static inline void rolling_with_dashpot(const real roll[3], const real v[3], real twist, real limit, real c, bool is_constant,
+                                        bool yields, real total[3])
+{
+    if (!(limit > TINY_FORCE)) {
+        for (int k = 0; k < 3; k++) total[k] = 0;
+        return;
+    }
+    const real damping = yields && !is_constant ? 0 : c;
+    for (int k = 0; k < 3; k++) total[k] = fused(-damping, v[k], roll[k]);
+    if (!is_constant) return;
+    const real d_n = c * twist, dd = fused(c * c, dot(v, v), greater(limit * limit, TINY_SQUARE)),
+               share2 = dd / fused(d_n, d_n, dd);
+    const real cut = limit * (share2 * inverse_root(share2)), size2 = dot(total, total);
+    const real scale = size2 > cut * cut ? cut * inverse_root(size2) : 1;
+    for (int k = 0; k < 3; k++) total[k] *= scale;
 }
 
 #endif

@@ -26,7 +26,8 @@ typedef enum contact_constants { CONSTANTS_OF_NONE, CONSTANTS_OF_ALL, CONSTANTS_
 enum { LAW_K_N, LAW_K_T, LAW_DAMPING, LAW_LAG, LAW_PUSH, LAW_NUMBERS, LAW_K_2 = LAW_DAMPING, LAW_LATCH = LAW_LAG };
 
 enum { COHESION_NUMBERS = 3 }; /* what they are of each law: contact_constants.c */
-enum { CONSTANTS_OF_ANY = 4, CONTACT_CONSTANTS = CONSTANTS_OF_ANY + LAW_NUMBERS + COHESION_NUMBERS + 1 };
+enum { CONSTANTS_OF_ANY = 4, CONSTANTS_OF_ROLLING = 2 };
+enum { CONTACT_CONSTANTS = CONSTANTS_OF_ANY + LAW_NUMBERS + COHESION_NUMBERS + CONSTANTS_OF_ROLLING };
 
 /* What contacts of a list may have beside the rest: then it has the arrays for it. */
 enum { CONTACTS_ROLL = 1, CONTACT_LAWS_DIFFER = 2, CONTACTS_COHERE = 4 };
@@ -65,6 +66,7 @@ typedef struct contact_list {
             real *law[LAW_NUMBERS];
             real *cohesion[COHESION_NUMBERS];
             real *rolling_friction; /* mu_r */
+            real *rolling_root;     /* kg^(1/2): root of the inertia about the contact over R*^2 (contact_constants.c) */
         };
     };
     bool ends_differ;   /* the two spheres of a contact may get different moments: each has a row of its own */
@@ -79,7 +81,7 @@ _Static_assert(offsetof(contact_list, roll) - offsetof(contact_list, memory)
 _Static_assert(offsetof(contact_list, law) - offsetof(contact_list, constant) == CONSTANTS_OF_ANY * sizeof(real *),
                "the constants of every list are counted");
 _Static_assert(offsetof(contact_list, rolling_friction) - offsetof(contact_list, constant)
-                   == (CONTACT_CONSTANTS - 1) * sizeof(real *),
+                   == (CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING) * sizeof(real *),
                "every constant is counted");
 
 /* How many arrays of histories the list has, and whether it has that of a constant. */
@@ -91,7 +93,7 @@ static inline bool contact_list_keeps(const contact_list *list, int constant)
 {
     if (constant < CONSTANTS_OF_ANY) return true;
     if (constant < CONSTANTS_OF_ANY + LAW_NUMBERS) return list->laws_differ;
-    return constant < CONTACT_CONSTANTS - 1 ? list->coheres : list->has_rolling;
+    return constant < CONTACT_CONSTANTS - CONSTANTS_OF_ROLLING ? list->coheres : list->has_rolling;
 }
 /* Index, in the arrays of constants, of the first constant of the block of contacts that begins at `start`. */
 static inline size_t constants_of(const contact_list *list, size_t start)

@@ -68,7 +68,11 @@ void wall_reach_fill(contact_list *walls, size_t slot, size_t end, const spheres
         walls->first[slot] = (int32_t)i;
         walls->second[slot] = k;
         walls->friction[slot] = (real)c->wall[k].friction;
-        if (walls->has_rolling) walls->rolling_friction[slot] = (real)c->wall[k].rolling_friction;
+        const double r = (double)s->full_radius[i];
+        if (walls->has_rolling) {
+            walls->rolling_friction[slot] = (real)c->wall[k].rolling_friction;
+            walls->rolling_root[slot] = rolling_root_of(sphere_inverse_mass(s, i), r, 0, 0, r);
+        }
         walls->first_radius[slot] = s->full_radius[i];
         walls->root_mass[slot] = (real)(1 / sqrt(sphere_inverse_mass(s, i)));
         walls->radius[slot] = s->full_radius[i];

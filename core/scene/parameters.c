@@ -112,7 +112,8 @@ static dem_status parameters_check(const dem_scene_definition *d)
                 && d->species_count >= 1 && d->species_count <= DEM_MAXIMUM_SPECIES && d->corrector_passes >= 0;
     good = good && is_law(c) && c->unloading_slope >= 0 && isfinite(c->unloading_slope) && c->restitution > 0 && c->restitution <= 1
            && is_not_negative(c->latch_damping) && is_not_negative(c->friction) && is_not_negative(c->wall_friction)
-           && is_not_negative(c->rolling_friction) && is_not_negative(c->wall_rolling_friction) && is_cohesion(d, &c->cohesion)
+           && is_not_negative(c->rolling_friction) && is_not_negative(c->wall_rolling_friction)
+           && c->rolling_law <= DEM_CONSTANT_TORQUE && is_not_negative(c->rolling_damping) && is_cohesion(d, &c->cohesion)
            && is_cohesion(d, &c->wall_cohesion);
     double shares = 0.0, largest = 0.0;
     for (size_t k = 0; good && k < d->species_count; k++) {

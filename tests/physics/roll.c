@@ -4,7 +4,24 @@
  * Starts at rest, or moving along the axis and spinning, at the overlap that carries its weight there. */
 #include "named_numbers.h"
 
-enum { RADIUS, DRUM_RADIUS, STIFFNESS, MU, ANGLE, V_Z, STEP, EVERY, SAMPLES, LAW, YOUNGS_MODULUS, ROLLING, SPIN };
+enum {
+    RADIUS,
+    DRUM_RADIUS,
+    STIFFNESS,
+    MU,
+    ANGLE,
+    V_Z,
+    STEP,
+    EVERY,
+    SAMPLES,
+    LAW,
+    YOUNGS_MODULUS,
+    ROLLING,
+    SPIN,
+    TWIST,
+    ROLLING_LAW,
+    ROLLING_DAMPING
+};
 
 static named_number asked[] = {
     { "radius", 0.002 },
@@ -19,7 +36,10 @@ static named_number asked[] = {
     { "law", DEM_WALTON_BRAUN },
     { "youngs_modulus", 5e7 }, /* Hertz-Mindlin, both bodies, Poisson's ratio 0.3 */
     { "rolling_friction", 0 },
-    { "spin", 0 }, /* rad/s, about x */
+    { "spin", 0 },  /* rad/s, about x */
+    { "twist", 0 }, /* likewise, about y, the normal at the lowest line */
+    { "rolling_law", DEM_EPSD },
+    { "rolling_damping", 0 },
     { NULL, 0 },
 };
 
@@ -39,7 +59,7 @@ static dem_scene *sphere_on_the_wall(const dem_scene_definition *d)
     place_by_hand(scene, &(placement){ .phase = DEM_PHASE_RUNNING,
                                        .position = (double[]){ rho * sin(of(ANGLE)), -rho * cos(of(ANGLE)), 0 },
                                        .velocity = (double[]){ 0, 0, of(V_Z) },
-                                       .spin = (double[]){ of(SPIN), 0, 0 } });
+                                       .spin = (double[]){ of(SPIN), of(TWIST), 0 } });
     return scene;
 }
 
@@ -62,6 +82,8 @@ int main(int argc, char **argv)
     d.contact.law = (dem_contact_law)of(LAW);
     d.contact.particle = d.contact.wall = (dem_elasticity){ of(YOUNGS_MODULUS), 0.3 };
     d.contact.wall_rolling_friction = of(ROLLING);
+    d.contact.rolling_law = (dem_rolling_law)of(ROLLING_LAW);
+    d.contact.rolling_damping = of(ROLLING_DAMPING);
     d.time_step = of(STEP);
     dem_scene *scene = sphere_on_the_wall(&d);
     const size_t n = (size_t)of(SAMPLES);

@@ -12,6 +12,7 @@ static const char *const cohesion_choices[] = { "constant", "sjkr", "sjkr2", "jk
 enum { MOST_MATERIALS = 32, MOST_PAIRS = 400 };
 static const char *const shape_choices[] = { "sphere", "dumbbell", "tetrahedron", "cube", NULL }; /* as dem_shape counts them */
 static const char *const unloading_choices[] = { "constant", "variable", NULL };
+static const char *const rolling_choices[] = { "epsd", "epsd-damped", "constant", NULL }; /* dem_rolling_law */
 static const char *const precision_choices[] = { "single", "double", NULL };
 static const char *const share_choices[] = { "number", "volume", "mass", NULL }; /* in the order of share_basis */
 _Static_assert(sizeof shape_choices / sizeof *shape_choices == DEM_NAMED_SHAPES + 1, "each shape has a name");
@@ -73,6 +74,12 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       COLUMN("rolling_friction", REAL, scene.contact.rolling_friction), IN_VIEW(250), \
       .meaning = "coefficient of rolling friction between particles: a contact bears a moment of it times the normal force " \
                  "times the effective radius. Default: none" }, \
+    { SPEC_CONTACT, "rolling_law", FIELD_CHOICE, .unit = "", .choices = rolling_choices, AT(rolling_law), \
+      COLUMN("rolling_law", WORD, inputs.rolling_law), IN_VIEW(267), \
+      .meaning = "of all contacts that resist rolling. epsd: an elastic spring that yields at the limit; epsd-damped: with a " \
+                 "dashpot until it yields; constant: the limit throughout, against the relative spin" }, \
+    { SPEC_CONTACT, "rolling_damping", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = NAN, AT(rolling_damping), \
+      .meaning = "of epsd-damped: share of critical damping of its spring. Default: 0.3" }, \
     { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.1, 1.0), .fallback = 0.8, \
       .excludes = "unloading_slope", AT(restitution), \
       COLUMN("restitution", REAL, scene.contact.restitution), LISTED, IN_VIEW(230), \

@@ -129,6 +129,16 @@ static void check_unloading(const scene_inputs *inputs, problem_list *problems)
             "is \"variable\", but this law has no unloading branch; must be \"constant\", or the law \"walton-braun\"");
 }
 
+static void check_rolling(const scene_inputs *inputs, problem_list *problems)
+{
+    if (isnan(inputs->rolling_damping) || isnan(inputs->rolling_law) || inputs->rolling_law == (double)DEM_EPSD_DAMPED) return;
+    problem_list_add(
+        problems, "/inputs/contact/rolling_damping",
+        "is %g, but rolling_law is \"%s\", which has no share of damping to choose; give rolling_law as \"epsd-damped\", "
+        "too",
+        inputs->rolling_damping, inputs->rolling_law > 0.0 ? "constant" : "epsd");
+}
+
 /* S of variable unloading and the restitution of the hardest impact, one from the other: e^2 = K1/K2 = 1/(1 + S alpha_max). */
 static void derive_unloading(const scene_inputs *inputs, const collision *worst, dem_scene_definition *scene,
                              problem_list *problems)
@@ -238,8 +248,11 @@ double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem
         .tangential_stiffness_ratio = inputs->tangential_stiffness_ratio,
         .rolling_friction = inputs->rolling_friction,
         .wall_rolling_friction = inputs->wall_rolling_friction,
+        .rolling_law = inputs->rolling_law > 0.0 ? (dem_rolling_law)inputs->rolling_law : DEM_EPSD, /* not of NaN */
+        .rolling_damping = isnan(inputs->rolling_damping) ? 0.3 : inputs->rolling_damping,
     };
     check_unloading(inputs, problems);
+    check_rolling(inputs, problems);
     worst.pull = cohesion_derive(inputs, scene, problems);
     if (law == DEM_HERTZ_MINDLIN && !isnan(inputs->stiffness))
         problem_list_add(problems, "/inputs/contact/stiffness",

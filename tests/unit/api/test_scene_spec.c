@@ -67,6 +67,20 @@ static void contacts_resist_rolling_where_asked_for(void **state)
     spec = parse_or_fail(minimal_with("wall", "{\"rolling_friction\": 0.2}"));
     assert_true(spec.scene.contact.rolling_friction == 0 && spec.scene.contact.wall_rolling_friction == 0.2);
     job_spec_clear(&spec);
+
+    spec = parse_or_fail(minimal_with("contact/rolling_law", "\"constant\""));
+    assert_true(spec.scene.contact.rolling_law == DEM_CONSTANT_TORQUE);
+    job_spec_clear(&spec);
+    spec = parse_or_fail(minimal_with("contact/rolling_law", "\"epsd-damped\""));
+    assert_true(spec.scene.contact.rolling_law == DEM_EPSD_DAMPED && spec.scene.contact.rolling_damping == 0.3);
+    job_spec_clear(&spec);
+    expect_problem("contact/rolling_law", "\"cdt\"",
+                   "/inputs/contact/rolling_law: is \"cdt\"; available: \"epsd\", \"epsd-damped\", \"constant\"\n");
+    expect_problem("contact/rolling_damping", "1.2", "/inputs/contact/rolling_damping: is 1.2; must be in [0, 1]\n");
+    expect_problem(
+        "contact/rolling_damping", "0.2",
+        "/inputs/contact/rolling_damping: is 0.2, but rolling_law is \"epsd\", which has no share of damping to choose; give "
+        "rolling_law as \"epsd-damped\", too\n");
 }
 
 static void corrector_passes_are_one_unless_asked_for(void **state)
