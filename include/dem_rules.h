@@ -63,6 +63,7 @@ double dem_species_compactness(const dem_species *s);
  * reach less far into each other's pores. From beds of eight shapes: core/NUMERICS.md, "How full a container can be". */
 #define DEM_MOST_SOLID 0.57 /* of spheres */
 #define DEM_MOST_SOLID_OF_BLOCKS 0.522
+#define DEM_MOST_SOLID_OF_LARGE_BLOCKS 0.5 /* of more spheres than: */
 #define DEM_BLOCK_SPHERES 8
 double dem_species_most_solid(const dem_species *s);
 

@@ -7,7 +7,9 @@ double dem_species_most_solid(const dem_species *s)
 {
     if (s->cluster.sphere_count < 2) return DEM_MOST_SOLID;
     const double grain = dem_species_largest_sphere(s) / cbrt(6.0 / DEM_PI * s->cluster.volume);
-    const double most = s->cluster.sphere_count < DEM_BLOCK_SPHERES ? DEM_MOST_SOLID : DEM_MOST_SOLID_OF_BLOCKS;
+    const double most = s->cluster.sphere_count < DEM_BLOCK_SPHERES    ? DEM_MOST_SOLID
+                        : s->cluster.sphere_count == DEM_BLOCK_SPHERES ? DEM_MOST_SOLID_OF_BLOCKS
+                                                                       : DEM_MOST_SOLID_OF_LARGE_BLOCKS;
     return fmin(most, 0.75 * dem_species_compactness(s) + 0.5 * fmax(grain, 0.3) - 0.13);
 }
 
