@@ -109,9 +109,9 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       AT(youngs_modulus), .meaning = "of particles and wall, instead of maximum_overlap; for hertz-mindlin alone" }, \
     { SPEC_CONTACT, "poissons_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = 0.3, AT(poissons_ratio), \
       .meaning = "of particles and wall; used by hertz-mindlin alone" }, \
-    { SPEC_CONTACT, "steps_per_contact", FIELD_REAL, .unit = "", RANGE(10.0, 200.0), .fallback = DEM_STEPS_PER_CONTACT, \
-      AT(steps_per_contact), \
-      .meaning = "time steps in a collision of the two lightest particles, which the time step follows from" }
+    { SPEC_CONTACT, "steps_per_contact", FIELD_REAL, .unit = "", RANGE(10.0, 200.0), .fallback = NAN, AT(steps_per_contact), \
+      .meaning = "time steps in a collision of the two lightest particles, which the time step follows from. Default: 14 for " \
+                 "spheres of walton-braun whose restitution is 0.7 or more, else 20" }
 
 #define FIELDS_OF_MATERIALS \
     { SPEC_INPUTS, "materials", FIELD_NAMED_LIST, SPEC_MATERIALS, RANGE(0, MOST_MATERIALS), AT(materials), \

@@ -31,7 +31,7 @@ void scene_check_every_species(const scene_inputs *inputs, const dem_scene_defin
 void scene_check_size_ratio(const dem_scene_definition *scene, problem_list *problems);
 /* Stiffness and time step; species must be derived. impact_speed: m/s, the largest at which a particle meets what is
  * backed by others or by a wall. Returns the overlap of that impact, as a share of the smallest diameter. */
-double scene_derive_contact(const scene_inputs *inputs, double impact_speed, dem_scene_definition *scene, problem_list *problems);
+double scene_derive_contact(scene_inputs *inputs, double impact_speed, dem_scene_definition *scene, problem_list *problems);
 /* Steps, samples and snapshots, once all else is derived. duration: pointer to the input that bounds the run. */
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems);
 /* What is kept beside the scene itself: intervals, threads; and how it is stepped. */

@@ -301,6 +301,19 @@ static void the_time_step_is_the_share_of_a_collision_that_is_asked_for(void **s
         assert_true(fabs(spec.scene.time_step * counts[k] / collision - 1) < 1e-12);
         job_spec_clear(&spec);
     }
+    const struct {
+        const char *contact;
+        double steps;
+    } usual[] = { { "{\"restitution\": 0.7}", 14 },
+                  { "{\"restitution\": 0.69}", 20 },
+                  { "{\"restitution\": 0.8, \"law\": \"spring-dashpot\"}", 20 },
+                  { "{\"restitution\": 0.8, \"law\": \"hertz-mindlin\"}", 20 },
+                  { "{\"restitution\": 0.5, \"steps_per_contact\": 14}", 14 } };
+    for (size_t k = 0; k < sizeof usual / sizeof usual[0]; k++) {
+        job_spec spec = parse_or_fail(minimal_with("contact", usual[k].contact));
+        assert_true(spec.inputs.steps_per_contact == usual[k].steps);
+        job_spec_clear(&spec);
+    }
     expect_problem("contact", "{\"steps_per_contact\": 9}", "/inputs/contact/steps_per_contact: is 9; must be in [10, 200]\n");
 }
 
@@ -471,18 +484,20 @@ static void the_estimate_is_near_what_heaps_and_fills_took(void **state)
     } runs[] = {
         { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.025, \"lift_speed\": 0.08}, \"plate\": {\"diameter\": "
           "0.05}, "
-          "\"particles\": [{\"diameter\": 0.002}], \"particle_count\": 1500, \"contact\": {\"maximum_overlap\": 0.05, "
+          "\"particles\": [{\"diameter\": 0.002}], \"particle_count\": 1500, \"contact\": {\"steps_per_contact\": 20, "
+          "\"maximum_overlap\": 0.05, "
           "\"friction\": "
           "0.6}}}",
           32698, 16.9e6 },
         { "{\"process\": \"heap\", \"inputs\": {\"tube\": {\"diameter\": 0.006, \"lift_speed\": 0.05}, \"plate\": {\"diameter\": "
           "2}, "
-          "\"particles\": [{\"diameter\": 0.001}], \"particle_count\": 200, \"contact\": {\"maximum_overlap\": 0.05}}}",
+          "\"particles\": [{\"diameter\": 0.001}], \"particle_count\": 200, \"contact\": {\"steps_per_contact\": 20, "
+          "\"maximum_overlap\": 0.05}}}",
           166557, 16.0e6 },
         { "{\"process\": \"fill\", \"inputs\": {\"cylinder\": {\"diameter\": 0.06}, \"stream\": {\"diameter\": 0.03, \"rate\": "
           "2000, "
           "\"impact_speed\": 1.5}, \"particles\": [{\"diameter\": 0.004}], \"particle_count\": 3000, \"contact\": "
-          "{\"maximum_overlap\": 0.05}}}",
+          "{\"steps_per_contact\": 20, \"maximum_overlap\": 0.05}}}",
           168809, 18.5e6 },
     };
     for (size_t k = 0; k < sizeof runs / sizeof runs[0]; k++) {

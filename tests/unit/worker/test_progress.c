@@ -6,7 +6,7 @@
 
 static const char drum[] = "{\"inputs\": {\"drum\": {\"diameter\": 0.03, \"length\": 0.0095, \"rotation_rate\": 6}, "
                            "\"particles\": [{\"diameter\": 0.003}], \"particle_count\": 60, \"contact\": {\"maximum_overlap\": "
-                           "0.05}, \"duration\": {\"seconds\": 0.1}}}";
+                           "0.05}, \"duration\": {\"seconds\": 0.15}}}";
 static const char heap[] =
     "{\"inputs\": {\"tube\": {\"diameter\": 0.016, \"lift_speed\": 0.1}, \"particles\": [{\"diameter\": 0.003}], "
     "\"particle_count\": 100, \"contact\": {\"friction\": 0.5, \"maximum_overlap\": 0.05}}}";
