@@ -1,7 +1,7 @@
 # reposed: virtual rotary-drum tests. `make help` lists the targets.
 
 PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libjansson-dev libsqlite3-dev libhdf5-dev zlib1g-dev libyaml-dev libseccomp-dev libcurl4-openssl-dev \
-            nettle-dev
+            nettle-dev liblapacke-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core python3-owslib
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
@@ -45,6 +45,9 @@ ISA := $(firstword $(ISAS))
 VARIANT := $(if $(DOUBLE),double,single)-$(ISA)
 RUNNABLE := $(foreach i,$(ISAS),$(filter %-$(i),$(VARIANTS)))
 API_FLAGS := -D_GNU_SOURCE $(HARDENING)
+# An expression of the planner has the same bits however the compiler inlines it, as in the core.
+PLAN_FLAGS := -D_GNU_SOURCE -ffp-contract=off $(HARDENING)
+LAPACK_LIBS := -llapacke
 WORKER_FLAGS = -D_GNU_SOURCE $(HARDENING) $(HDF5_CFLAGS)
 DAEMON_FLAGS := -D_GNU_SOURCE $(HARDENING) -pthread
 
@@ -68,6 +71,7 @@ api/process/heap_SEES := $(api/process/scene_SEES) api/process/heap
 PROCESSES := $(wildcard api/process/*)
 api/process_SEES := $(api/spec_SEES) $(filter-out %.c,$(PROCESSES))
 api/study_SEES := $(api/spec_SEES) api/study
+api/plan_SEES := $(api/spec_SEES) api/plan
 api/store_SEES := $(api/study_SEES) api/store
 api/http_SEES := $(api/store_SEES) api/http
 server/daemon/base_SEES := $(api/http_SEES) server/daemon/base
@@ -79,9 +83,12 @@ server/worker/files_SEES := $(api/process_SEES) server/worker/files
 server/worker/confine_SEES := server/worker/files server/worker/confine
 server/worker/run_SEES := $(sort $(api/process_SEES) $(api/study_SEES)) server/worker/files server/worker/run
 server/worker_SEES := $(server/worker/run_SEES) server/worker/confine
+server/plan/numbers_SEES := server/plan/numbers
+server/plan_SEES := $(api/spec_SEES) api/plan server/plan/numbers server/plan server/plan/answer
+server/plan/answer_SEES := $(server/plan_SEES)
 # $(call sees,FILE): the -I list of a file, which is its folder's. Tests see everything that they are linked with.
 sees = $(addprefix -I,$($(patsubst %/,%,$(dir $(1)))_SEES))
-API_SEES := $(addprefix -I,$(sort $(api/process_SEES) $(api/http_SEES)))
+API_SEES := $(addprefix -I,$(sort $(api/process_SEES) $(api/plan_SEES) $(api/http_SEES)))
 
 # Asked for when something is compiled, not when this file is read: `make help` needs no pkg-config.
 HDF5_CFLAGS = $(shell pkg-config --cflags hdf5-serial)
@@ -95,13 +102,14 @@ API := $(patsubst %.c,$(BUILD)/%.o,$(wildcard api/*/*.c api/*/*/*.c))
 WORKER := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/worker/*.c server/worker/*/*.c))
 DAEMON := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/daemon/*.c server/daemon/*/*.c))
 DAEMON_PARTS := $(filter-out $(BUILD)/server/daemon/main.o,$(DAEMON))
+PLAN := $(patsubst %.c,$(BUILD)/%.o,$(wildcard server/plan/*.c server/plan/*/*.c))
 PHYSICS := $(patsubst tests/physics/%.c,%,$(wildcard tests/physics/*.c))
 # What differs from variant to variant, once for each that this machine can run.
 KERNEL_TESTS = $(foreach v,$(filter-out $(VARIANT),$(RUNNABLE)),$(patsubst %,$(BUILD)/tests/unit/core/%-$(v),test_contact_forces test_two_bodies test_cell_grid))
 # ROOMS="api daemon": of these alone; LEFT_OUT: but for these.
 UNIT_TESTS = $(filter-out $(addprefix %/,$(LEFT_OUT)),$(patsubst %.c,$(BUILD)/%,$(wildcard $(foreach r,$(or $(ROOMS),*),tests/unit/$(r)/test_*.c))))
 
-programs: $(BUILD)/repose $(patsubst %,$(BUILD)/repose-%,$(filter-out single-plain,$(VARIANTS))) $(BUILD)/reposed ## build both programs with what is installed
+programs: $(BUILD)/repose $(patsubst %,$(BUILD)/repose-%,$(filter-out single-plain,$(VARIANTS))) $(BUILD)/repose-plan $(BUILD)/reposed ## build both programs with what is installed
 all: packages ## install what is missing and build both programs
 	@$(MAKE) --no-print-directory programs
 .DEFAULT_GOAL := all
@@ -145,6 +153,10 @@ $(BUILD)/server/worker/%.o: server/worker/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<
 	$(QUIET)$(CC) $(CFLAGS) $(WORKER_FLAGS) $(call sees,$<) -c $< -o $@
+$(BUILD)/server/plan/%.o: server/plan/%.c Makefile
+	@mkdir -p $(@D)
+	$(SAY) compile $<
+	$(QUIET)$(CC) $(CFLAGS) $(PLAN_FLAGS) $(call sees,$<) -c $< -o $@
 $(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<
@@ -155,6 +167,10 @@ $(BUILD)/libapi.a: $(API)
 $(BUILD)/reposed: $(DAEMON) $(BUILD)/commit.o $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lnettle -lm
+# What plans calibrations: the one program that links linear algebra.
+$(BUILD)/repose-plan: $(PLAN) $(BUILD)/commit.o $(BUILD)/libapi.a $(RULES)
+	$(SAY) link $@
+	$(QUIET)$(CC) $(LDFLAGS) $^ -o $@ $(LAPACK_LIBS) -lnettle -ljansson -lm
 # The commit that programs were made from, for --version; COMMIT=... where the sources are no clone.
 COMMIT = $(shell [ ! -e .git ] || git describe --always --dirty --abbrev=12 --exclude '*' 2>/dev/null)
 $(BUILD)/commit.c: FORCE
@@ -193,6 +209,13 @@ $(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) -Itests/unit $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
 	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -lnettle -ljansson -lseccomp -lm -o $@
+$(BUILD)/libplan.a: $(filter-out $(BUILD)/server/plan/main.o,$(PLAN))
+	@rm -f $@ && ar rcs $@ $^
+$(BUILD)/tests/unit/plan/%: tests/unit/plan/%.c $(BUILD)/libplan.a $(BUILD)/libapi.a $(RULES)
+	@mkdir -p $(@D)
+	$(SAY) link $@
+	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/plan_SEES)) -Itests/unit $< $(BUILD)/libplan.a $(BUILD)/libapi.a $(RULES) \
+	  $(LDFLAGS) -lcmocka $(LAPACK_LIBS) -lnettle -ljansson -lm -o $@
 $(BUILD)/tests/unit/daemon/%: tests/unit/daemon/%.c $(BUILD)/libdaemon.a $(BUILD)/libapi.a $(RULES)
 	@mkdir -p $(@D)
 	$(SAY) link $@
@@ -324,7 +347,7 @@ format-check: lint-packages ## fails where clang-format would change something
 # has the struct (tar_stream.c, scene_run.c).
 lint: lint-packages ## clang-tidy and cppcheck
 	@rm -rf $(BUILD)/lint && mkdir -p $(BUILD)/lint
-	@$(MAKE) -n V=1 BUILD=$(BUILD)/lint/objects $(BUILD)/lint/objects/repose $(BUILD)/lint/objects/reposed | \
+	@$(MAKE) -n V=1 BUILD=$(BUILD)/lint/objects $(BUILD)/lint/objects/repose $(BUILD)/lint/objects/repose-plan $(BUILD)/lint/objects/reposed | \
 	  sed -n 's|^\(.* -c \([^ ]*\) -o .*\)$$|{"directory": "$(CURDIR)", "file": "\2", "command": "\1"},|p' | \
 	  sed '1s/^/[/; $$s/,$$/]/' >$(BUILD)/lint/compile_commands.json
 	@printf '%s\n' $(RULES_SOURCES) $(CORE_SOURCES) $(wildcard api/*/*.c api/*/*/*.c server/*/*.c server/*/*/*.c) | \
@@ -334,7 +357,7 @@ lint: lint-packages ## clang-tidy and cppcheck
 	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex \
 	  --suppress=memleak:api/http/tar_stream.c --suppress=memleak:server/worker/run/scene_run.c \
 	  --suppress=legacyUninitvar:core/contacts/neighbor_pick.c --suppress=objectIndex:core/walls/container.h \
-	  $(addprefix -I,$(core_SEES) $(server/daemon_SEES)) $(API_SEES) -Iserver/worker/files -Iserver/worker/run core api server
+	  $(addprefix -I,$(core_SEES) $(server/daemon_SEES)) $(API_SEES) -Iserver/worker/files -Iserver/worker/run $(addprefix -I,$(server/plan_SEES)) core api server
 
 clean: ## remove what was built, and data folders in it; not while a daemon is at work on one of these
 	@for lock in $$(find $(BUILD) -maxdepth 4 -type f -name lock 2>/dev/null); do \

@@ -1,6 +1,6 @@
 #!/bin/sh
 # The layers hold: the core needs nothing but libc, libm and OpenMP; the daemon links neither the core nor HDF5; the
-# worker neither libmicrohttpd nor SQLite. Reads the symbols, not the sources.
+# worker neither libmicrohttpd nor SQLite; the planner alone links linear algebra. Reads the symbols, not the sources.
 build=${1:-build}
 undefined=$(nm -u "$build"/core/*/libdem.a | awk '$1 == "U" {print $2}' | sort -u)
 defined=$(nm --defined-only "$build"/core/*/libdem.a | awk 'NF == 3 {print $3}' | sort -u)
@@ -22,5 +22,11 @@ of_core=$(nm -u "$build/libapi.a" | awk '$1 == "U" {print $2}' | sort -u | grep 
 ldd "$build/reposed" | grep -E 'hdf5|gomp' && { echo "reposed links what only a worker may"; status=1; }
 nm "$build/reposed" | grep -E ' T dem_scene_' && { echo "reposed links the core"; status=1; }
 ldd "$build/repose" | grep -E 'microhttpd|sqlite' && { echo "repose links what only the daemon may"; status=1; }
+for program in reposed repose; do
+  ldd "$build/$program" | grep -E 'lapack|blas' && { echo "$program links what only the planner may"; status=1; }
+done
+if [ -e "$build/repose-plan" ]; then
+  ldd "$build/repose-plan" | grep -E 'hdf5|gomp|microhttpd|sqlite' && { echo "repose-plan links what it does not need"; status=1; }
+fi
 [ $status = 0 ] && echo "layers hold"
 exit $status

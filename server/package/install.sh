@@ -18,14 +18,14 @@ put() { # MODE FOLDER FILE...
 }
 
 put 755 lib/reposed "$build/reposed" "$build"/repose "$build"/repose-single-avx512 "$build"/repose-single-avx2 \
-  "$build"/repose-double-avx512 "$build"/repose-double-avx2 "$build"/repose-double-plain
+  "$build"/repose-double-avx512 "$build"/repose-double-avx2 "$build"/repose-double-plain "$build"/repose-plan
 install -d -m 755 "$root/bin"
 for program in reposed repose; do ln -sfn "../lib/reposed/$program" "$root/bin/$program"; done
 put 644 share/reposed/web web/*.html web/*.js web/*.css web/*.svg web/*.png
 put 644 share/reposed/api api/openapi.yaml
 put 644 share/reposed/examples api/examples/*.json
 put 644 share/reposed/studies api/studies/*.json
-put 644 share/doc/reposed "$sources/reposed.conf" README.md LICENSE core/NUMERICS.md server/DESIGN.md
+put 644 share/doc/reposed "$sources/reposed.conf" README.md LICENSE core/NUMERICS.md server/DESIGN.md api/CALIBRATION.md
 put 644 share/man/man1 "$sources/repose.1"
 put 644 share/man/man8 "$sources/reposed.8"
 put 644 share/bash-completion/completions "$sources/reposed"

@@ -52,6 +52,10 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
 #define HELP_CALIBRATE                                                                                                             \
     "repose calibrate              measure this machine's speed where that was not yet done; --data DIR as with check;\n"          \
     "                              --json prints the whole of it\n"
+#define HELP_PLAN                                                                                                                  \
+    "repose plan FILE              of a calibration {\"request\", \"runs\"} (\"-\": stdin): print which cases to run next, or "    \
+    "the\n"                                                                                                                        \
+    "                              answer, or every problem of the request\n"
 #define HELP_EXIT                                                                                                                  \
     "\n"                                                                                                                           \
     "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"        \
@@ -59,7 +63,7 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk,\n"          \
     "6 memory, descriptors or the like that the machine did not give.\n"
 
-static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE "repose COMMAND --help | --help | --version\n" HELP_EXIT;
+static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE HELP_PLAN "repose COMMAND --help | --help | --version\n" HELP_EXIT;
 
 /* Complete once main has begun. */
 static char program_version[80];
@@ -281,6 +285,20 @@ static enum worker_exit calibrate_here(int argc, char **argv, char *word)
     return WORKER_DONE;
 }
 
+/* The planner is a program of its own, beside this one: no run loads the linear algebra. */
+static enum worker_exit plan(char **argv)
+{
+    char path[PATH_MAX], program[PATH_MAX + 16];
+    const ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
+    path[length > 0 ? length : 0] = '\0';
+    const char *name = strrchr(path, '/');
+    snprintf(program, sizeof program, "%.*s/repose-plan", name ? (int)(name - path) : 0, path);
+    execv(program, argv);
+    const int reason = errno;
+    fprintf(stderr, "repose: %s: %s\n", program, strerror(reason));
+    return machine_error_is(reason) ? WORKER_MACHINE : WORKER_FAULT;
+}
+
 /* The working directory is the job folder now. */
 static void print_result(const command_line *line, const job_spec *spec)
 {
@@ -355,6 +373,7 @@ int main(int argc, char **argv)
     if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1, word);
     else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1, word);
     else if (strcmp(word, "calibrate") == 0) exit = calibrate_here(argc - 1, argv + 1, word);
+    else if (strcmp(word, "plan") == 0) exit = plan(argv + 1);
     else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) exit = show(help);
     else if (strcmp(word, "--version") == 0) printf("repose " REPOSED_VERSION "%s\n", reposed_commit);
     else exit = refuse_usage("not a command", word);

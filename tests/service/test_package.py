@@ -11,7 +11,7 @@ from conftest import BUILD, FAKE_WORKER, ROOT, Daemon
 
 PACKAGE = ROOT / "server/package"
 PROGRAMS = ("reposed", "repose")
-VARIANTS = [f"repose-{name}" for name in ("single-avx512", "single-avx2", "double-avx512", "double-avx2", "double-plain")]
+VARIANTS = [f"repose-{name}" for name in ("single-avx512", "single-avx2", "double-avx512", "double-avx2", "double-plain", "plan")]
 
 
 def run(*words, **options):

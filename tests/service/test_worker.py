@@ -215,7 +215,7 @@ def test_the_angle_is_printed_also_where_nobody_sits_at_a_terminal(whole):
     assert "\r" not in stdout and "\033" not in stdout
 
 
-@pytest.mark.parametrize("program, commands", [("repose", ("run", "check", "calibrate")), ("reposed", ("serve",))])
+@pytest.mark.parametrize("program, commands", [("repose", ("run", "check", "calibrate", "plan")), ("reposed", ("serve",))])
 def test_help_is_on_stdout_and_a_word_too_few_is_a_mistake(program, commands):
     def call(*words):
         done = subprocess.run([str(pathlib.Path(REPOSE).with_name(program)), *words], capture_output=True, text=True, timeout=20)

@@ -1,0 +1,259 @@
+"""`repose plan` on materials that are made up, so that the answer is known in closed form."""
+import json
+import math
+import random
+
+import numpy as np
+import pytest
+
+from plan_loop import FRICTION, ROLLING, calibrate, made_up, plan, request_of, run_of
+
+# Two tests that tell both frictions apart.
+LINEAR = [lambda m, r: 20 + 20 * m + 10 * r, lambda m, r: 25 + 5 * m + 40 * r]
+
+
+def test_a_linear_material_is_found_with_the_errors_of_least_squares():
+    answer, runs, _ = calibrate(request_of([30, 35]), made_up(LINEAR))
+    assert answer["status"] == "identified" and answer["islands"] == 1
+    # Flat priors: the covariance is that of least squares, s^2 (A^T A)^-1, and the emulators' errors, below a third, add a tenth.
+    slopes = np.array([[20.0, 10.0], [5.0, 40.0]])
+    errors = 0.6 * np.sqrt(np.diag(np.linalg.inv(slopes.T @ slopes)))
+    for name, truth, error in zip((FRICTION, ROLLING), (0.4, 0.2), errors):
+        found = answer["credible"][name]
+        assert 0.9 * error < found["standard_deviation"] < 1.25 * error
+        assert abs(found["median"] - truth) < 1.5 * error
+        assert found["95"][0] < found["68"][0] < found["median"] < found["68"][1] < found["95"][1]
+    assert answer["best"]["chi_square"] < 0.1
+    covariance = np.array(answer["covariance"])
+    assert covariance[0, 1] < 0 and covariance[0, 1] == covariance[1, 0]
+    # Five sets were run afresh, and are as foretold.
+    assert len(answer["family"]) == 5 and [run["stage"] for run in runs].count("verify") == 10
+    z = [result["z"] for one in answer["family"] for result in one["results"]]
+    assert sum(value * value for value in z) < 25  # chi square of 10 beyond it: 1 in 200
+    assert len({case["number"] for case in runs}) == len(runs) and answer["cost"]["jobs"] == len(runs)
+    assert answer["cost"]["sphere_steps"] == 2e7 * len(runs) and answer["cost"]["processor_seconds"] == 5.0 * len(runs)
+    for target in answer["emulators"]:
+        assert target["error"] < 0.2 and target["leave_one_out"]["95"] > 0.8
+        assert 0.1 < target["bed_to_bed"] < 0.6  # 0.3 is true; seen in 16 runs
+
+
+def test_a_curved_ridge_comes_out_whole_and_is_called_one():
+    answer, _, _ = calibrate(request_of([20 + 60 * 0.09]), made_up([lambda m, r: 20 + 60 * m * r]))
+    assert answer["status"] == "ridge"
+    assert any("can be traded" in sentence and "more friction with less rolling friction" in sentence for sentence in answer["words"])
+    assert [one["identified"] for one in answer["directions"]] == [True, False]
+    samples = np.array(answer["samples"])
+    product = samples[:, 0] * samples[:, 1]
+    assert len(samples) == 1000 and abs(product.mean() - 0.09) < 0.005 and 0.008 < product.std() < 0.014  # 0.6 / 60 is 0.01
+    # Along the ridge friction lies anywhere between 0.09 / 0.5 and 1, with a density of 1 over itself: the median is their geometric mean.
+    assert samples[:, 0].min() < 0.2 and samples[:, 0].max() > 0.97
+    assert np.median(samples[:, 0]) == pytest.approx(math.sqrt(0.18 * 1.0), rel=0.1)
+
+
+def test_two_islands_are_both_found_and_weigh_the_same():
+    parabola = [lambda m, r: 20 + 80 * (m - 0.525) ** 2 + 20 * r, lambda m, r: 20 + 60 * r]
+    answer, _, _ = calibrate(request_of([parabola[0](0.2, 0.2), parabola[1](0.2, 0.2)]), made_up(parabola))
+    assert answer["status"] == "ridge" and answer["islands"] == 2
+    assert any("2 sets of values" in sentence for sentence in answer["words"])
+    friction = np.array(answer["samples"])[:, 0]
+    assert 0.35 < (friction < 0.525).mean() < 0.65
+    assert not ((friction > 0.35) & (friction < 0.7)).any()
+    assert np.median(friction[friction < 0.5]) == pytest.approx(0.2, abs=0.03)
+    assert np.median(friction[friction > 0.5]) == pytest.approx(0.85, abs=0.03)
+
+
+def test_a_target_out_of_reach_is_named_with_how_near_it_comes():
+    answer, _, _ = calibrate(request_of([70, 35]), made_up(LINEAR))
+    assert answer["status"] == "unreachable"
+    assert [one["reached"] for one in answer["reach"]] == [False, True]
+    assert answer["reach"][0]["nearest"] == pytest.approx(45, abs=1.0)  # 20 + 20 * 1 + 10 * 0.5
+    assert any('"drum 0"' in sentence and "nearest" in sentence for sentence in answer["words"])
+
+
+def test_targets_that_contradict_each_other_are_told_by_chi_square():
+    same = LINEAR[0]
+    answer, _, _ = calibrate(request_of([30, 30, 40]), made_up([same, same, same]))
+    assert answer["status"] == "unreachable" and all(one["reached"] for one in answer["reach"])
+    # Two at 30 and one at 40, errors of 0.6: the mean is off by 3.33, 3.33 and 6.67; the emulators' errors take a little away.
+    assert 120 < answer["best"]["chi_square"] < (2 * 3.333 ** 2 + 6.667 ** 2) / 0.36 + 5
+    assert any("contradict" in sentence for sentence in answer["words"])
+
+
+def test_a_parameter_without_effect_is_said_to_have_none():
+    answer, _, _ = calibrate(request_of([30]), made_up([lambda m, r: 20 + 20 * m]))
+    assert answer["status"] == "ridge"
+    assert answer["words"].count("No target depends on rolling friction within its range.") == 1
+    assert answer["credible"][FRICTION]["median"] == pytest.approx(0.5, abs=0.04)
+    low, high = answer["credible"][ROLLING]["95"]
+    assert low < 0.03 and high > 0.47
+    indices = answer["sensitivity"][0]
+    assert indices["total"][FRICTION] > 0.97 and indices["total"][ROLLING] < 0.03
+
+
+def test_a_target_that_nothing_moves_is_said_to_say_nothing():
+    answer, _, _ = calibrate(request_of([30]), made_up([lambda m, r: 30]))
+    assert answer["status"] == "ridge"
+    assert any("says little" in sentence for sentence in answer["words"])
+
+
+@pytest.mark.parametrize("jobs", [1, 2, 5, 11])
+def test_a_small_budget_is_kept_and_the_answer_is_unfinished(jobs):
+    answer, runs, _ = calibrate(request_of([30, 35], stop={"jobs": jobs}), made_up(LINEAR))
+    assert answer["status"] == "unfinished" and len(runs) <= max(jobs, 2)
+    assert answer["words"]
+
+
+def test_runs_that_fail_leave_the_rest_as_good():
+    def model(case):
+        return None if case["parameters"][FRICTION] > 0.6 else made_up(LINEAR)(case)
+    answer, runs, _ = calibrate(request_of([30, 35]), model)
+    assert answer["status"] == "identified"
+    assert answer["credible"][FRICTION]["median"] == pytest.approx(0.4, abs=0.05)
+    failed = sum(run["status"] == "failed" for run in runs)
+    assert failed > 0 and answer["cost"]["failed"] == failed
+    assert any("failed" in sentence for sentence in answer["words"])
+
+
+def test_runs_that_all_fail_end_with_an_answer():
+    answer, runs, _ = calibrate(request_of([30, 35]), lambda case: None)
+    assert answer["status"] == "unfinished" and "best" not in answer and answer["cost"]["failed"] == len(runs)
+
+
+def test_results_that_are_null_count_as_missing():
+    def model(case):
+        results = made_up(LINEAR)(case)
+        if case["parameters"][ROLLING] > 0.4:
+            results["repose"]["angle_deg"] = None
+        return results
+    answer, _, _ = calibrate(request_of([30, 35]), model)
+    assert answer["status"] == "identified" and answer["cost"]["failed"] == 0
+
+
+def test_the_same_runs_give_the_same_bytes_in_any_order():
+    request = request_of([30, 35])
+    _, runs, text = calibrate(request, made_up(LINEAR))
+    shuffled = runs[:]
+    random.Random(3).shuffle(shuffled)
+    assert plan({"request": request, "runs": shuffled, "workers": 2})[1] == text
+    half = runs[:36]
+    assert plan({"request": request, "runs": half})[1] == plan({"request": request, "runs": half[::-1]})[1]
+
+
+def test_another_seed_takes_other_points_and_other_beds():
+    def start(seed):
+        return json.loads(plan({"request": request_of([30, 35], seed=seed)})[1])["cases"]
+    one, other = start(1), start(2)
+    assert [case["parameters"] for case in one] != [case["parameters"] for case in other]
+    seeds = [case["request"]["inputs"]["seed"] for case in one + other]
+    assert len(set(seeds)) == len(seeds)
+
+
+def test_a_plan_waits_for_runs_that_are_under_way():
+    request = request_of([30, 35])
+    cases = json.loads(plan({"request": request})[1])["cases"]
+    runs = [run_of(case, made_up(LINEAR)(case)) for case in cases[:-1]] + [run_of(cases[-1], None, "running")]
+    said = json.loads(plan({"request": request, "runs": runs})[1])
+    assert said["state"] == "waits" and said["cases"] == [] and said["progress"]["waiting"] == 1
+
+
+def test_a_batch_has_a_job_for_each_worker():
+    request = request_of([30, 35], error=0.25)
+    cases = json.loads(plan({"request": request})[1])["cases"]
+    runs = [run_of(case, made_up(LINEAR)(case)) for case in cases]
+    for workers in (1, 3):
+        said = json.loads(plan({"request": request, "runs": runs, "workers": workers})[1])
+        assert said["stage"] == "refine" and len(said["cases"]) == workers
+
+
+def test_a_logarithmic_range_is_sampled_in_its_logarithm():
+    request = request_of([30])
+    request["parameters"] = {FRICTION: {"range": [0.01, 1.0], "scale": "log"}}
+    cases = json.loads(plan({"request": request})[1])["cases"]
+    values = [case["parameters"][FRICTION] for case in cases]
+    assert sum(value < 0.1 for value in values) in (len(values) // 2 - 1, len(values) // 2, len(values) // 2 + 1)
+
+    def model(case):
+        return made_up([lambda m, _: 30 + 5 * math.log(m / 0.1)])({**case, "parameters": {**case["parameters"], ROLLING: 0}})
+    answer, _, _ = calibrate(request, model)
+    assert answer["status"] == "identified" and answer["credible"][FRICTION]["median"] == pytest.approx(0.1, rel=0.1)
+
+
+def test_targets_of_one_test_share_its_runs():
+    request = request_of([30, 35])
+    request["targets"].append({"inputs": {"drum": {"rotation_rate": 2.0}}, "result": "/repose/other_methods/chord", "value": 33,
+                               "standard_error": 1})
+    cases = json.loads(plan({"request": request})[1])["cases"]
+    assert {case["test"] for case in cases} == {0, 1}
+    assert all(case["request"]["inputs"]["drum"]["rotation_rate"] == 1.0 + case["test"] for case in cases)
+    # A drum turns until its angle is known twice as well as the best of its targets.
+    assert all(case["request"]["inputs"]["duration"] == {"until_standard_error_deg": 0.3} for case in cases)
+
+
+def test_a_heap_beside_a_drum_takes_what_the_base_has_for_both():
+    request = request_of([30])
+    request["base"]["inputs"]["fill_fraction"] = 0.4
+    request["targets"].append({"process": "heap", "inputs": {"tube": {"diameter": 0.03}, "particle_count": 300},
+                               "result": "/repose/angle_deg", "value": 33, "standard_error": 1.5})
+    code, text = plan({"request": request})
+    assert code == 0, text
+    heap = next(case["request"] for case in json.loads(text)["cases"] if case["test"] == 1)
+    assert heap["process"] == "heap" and "drum" not in heap["inputs"] and "fill_fraction" not in heap["inputs"]
+    assert heap["inputs"]["particles"] == [{"diameter": 0.004}] and set(heap["inputs"]["contact"]) == {"friction", "rolling_friction"}
+
+
+def refused(request):
+    """Pointers, and the sentences at them."""
+    code, text = plan({"request": request})
+    assert code == 2, text
+    return {error["pointer"]: error["detail"] for error in json.loads(text)["errors"]}
+
+
+def test_a_request_is_refused_whole_with_every_problem():
+    request = request_of([30, 35, 36])
+    request["parameters"]["/inputs/contact/frition"] = {"range": [0, 1]}
+    del request["targets"][0]["standard_error"]
+    request["targets"][1]["result"] = "/repose/colour"
+    request["targets"][2]["process"] = "hep"
+    request["stop"] = {"jobs": 0, "secnds": 3}
+    problems = refused(request)
+    assert "/request/targets/0/standard_error" in problems and "/request/targets/1/result" in problems
+    assert '"drum", "fill", "heap"' in problems["/request/targets/2/process"]
+    assert "/request/stop/jobs" in problems and "/request/stop/secnds" in problems
+
+
+@pytest.mark.parametrize("pointer, given, place, words", [
+    (FRICTION, {"range": [0, 12]}, "/range", "12"),
+    (FRICTION, {"range": [-1, 1]}, "/range", "-1"),
+    (FRICTION, {"range": [0.5, 0.2]}, "/range", "must be more than the first"),
+    (FRICTION, {"range": [0, 1], "scale": "log"}, "/range", "must begin above 0"),
+    (FRICTION, {"range": [0, 1], "scale": "cubic"}, "/scale", "linear"),
+    (FRICTION, {"range": [0.1]}, "/range", "two numbers"),
+    (FRICTION, {"range": [0.1, 1], "prior": 3}, "/prior", ""),
+    ("/inputs/contact/frition", {"range": [0, 1]}, "", "names no input"),
+    ("/inputs/contact/law", {"range": [0, 1]}, "", "names no input"),
+    ("/inputs/seed", {"range": [0, 1]}, "", "no property"),
+    ("friction", {"range": [0, 1]}, "", "names no input"),
+    ("/targets/7/inputs/drum/rotation_rate", {"range": [1, 2]}, "", "names no input"),
+])
+def test_a_parameter_that_cannot_be_varied_is_refused(pointer, given, place, words):
+    request = request_of([30])
+    request["parameters"] = {pointer: given}
+    at = "/request/parameters/" + pointer.replace("/", "~1") + place
+    problems = refused(request)
+    assert list(problems) == [at] and words in problems[at]
+
+
+def test_a_parameter_of_one_target_alone():
+    request = request_of([30, 35])
+    request["parameters"] = {FRICTION: {"range": [0.1, 0.9]}, "/targets/1/inputs/drum/rotation_rate": {"range": [1.5, 3.0]}}
+    cases = json.loads(plan({"request": request})[1])["cases"]
+    rates = [[case["request"]["inputs"]["drum"]["rotation_rate"] for case in cases if case["test"] == test] for test in (0, 1)]
+    assert set(rates[0]) == {1.0} and len(set(rates[1])) > 10 and all(1.5 <= rate <= 3.0 for rate in rates[1])
+
+
+@pytest.mark.parametrize("document", [{}, [], {"request": []}, {"request": {}}, {"request": {"base": 3}}, {"runs": []},
+                                      {"request": request_of([30]), "runs": 3}, {"request": request_of([30]), "runs": [{}]},
+                                      {"request": request_of([30]), "workers": 0}, {"request": request_of([30]), "more": 0}])
+def test_what_is_no_calibration_is_refused(document):
+    code, text = plan(document)
+    assert code == 2 and json.loads(text)["errors"]
