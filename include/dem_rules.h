@@ -29,15 +29,18 @@
 
 double dem_sphere_mass(double diameter, double density);
 
-/* Of one particle of a species; a cluster's must be complete (dem_cluster.h). */
+/* Of one particle of a species, of the mean one where sizes differ; a cluster's must be complete (dem_cluster.h). */
 double dem_species_volume(const dem_species *s);
 
 double dem_species_mass(const dem_species *s);
 
-/* Diameter of the sphere of the same volume, m. */
+/* Of the largest particle, where sizes differ; else of each. */
+double dem_species_heaviest(const dem_species *s);
+
+/* Diameter of the sphere of the same volume, m; of the largest particle, where sizes differ. */
 double dem_species_diameter(const dem_species *s);
 
-/* Radius of the sphere about its centre of mass that holds the particle, m. */
+/* Radius of the sphere about its centre of mass that holds the particle, the largest one, m. */
 double dem_species_reach(const dem_species *s);
 
 /* Diameter of its smallest sphere, m. */
@@ -91,6 +94,8 @@ double dem_impact_speed(double drum_diameter, double largest_diameter, double gr
 /* The same for a particle that a lifter drops from the top of the drum onto the bed, or onto the wall where the bed is
  * shallow, on top of what the wall throws. */
 double dem_lifted_speed(double drum_diameter, double gravity, double fill_fraction, double rotation_rate);
+
+bool dem_have_sizes(const dem_species *species, size_t count);
 
 /* Of two spheres or more each. */
 bool dem_has_clusters(const dem_species *species, size_t count);

@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum { DEM_MAXIMUM_SPECIES = 16, DEM_MAXIMUM_CLUSTER = 64 };
+enum { DEM_MAXIMUM_SPECIES = 16, DEM_MAXIMUM_CLUSTER = 64, DEM_MAXIMUM_SIEVES = 64 };
 
 typedef enum dem_status {
     DEM_OK = 0,
@@ -42,11 +42,33 @@ typedef struct dem_cluster {
     double reach;      /* m: radius of the sphere about the centre of mass that holds the cluster */
 } dem_cluster;
 
+/* How the sizes of a species' spheres are distributed: equations in core/NUMERICS.md, "Sizes". */
+typedef enum dem_size_law {
+    DEM_ONE_SIZE,
+    DEM_LOGNORMAL,     /* center: median; width: geometric standard deviation */
+    DEM_NORMAL,        /* center: mean; width: standard deviation */
+    DEM_ROSIN_RAMMLER, /* center: the size that 1 - 1/e is below; width: the exponent */
+    DEM_UNIFORM,       /* from minimum to maximum */
+    DEM_SIEVES         /* straight lines between the shares below each sieve */
+} dem_size_law;
+
+/* All 0: every particle is alike. */
+typedef struct dem_sizes {
+    dem_size_law law;
+    bool by_volume;          /* what the law is the distribution of: volume, and so mass; else number */
+    double center, width;    /* m, of the width of a normal one, too; else a pure number */
+    double minimum, maximum; /* m: it is cut there */
+    size_t sieve_count;
+    double sieve[DEM_MAXIMUM_SIEVES], below[DEM_MAXIMUM_SIEVES]; /* m, ascending; the share that is smaller */
+} dem_sizes;
+
 typedef struct dem_species {
-    double diameter; /* m; of a cluster: of its largest sphere, for whoever wants one number; the core has no use for it */
+    double diameter; /* m; of a cluster: of its largest sphere, for whoever wants one number; the core has no use for it. With
+                        sizes: of the sphere of mean volume (dem_sizes_complete) */
     double density;  /* kg/m3 */
     double share;    /* of the particles by number; shares of all species sum to 1 */
     dem_cluster cluster;
+    dem_sizes sizes; /* of spheres alone */
 } dem_species;
 
 /* Equations and sources of each: core/NUMERICS.md. */
@@ -257,6 +279,7 @@ typedef struct dem_placed_particle {
     double angular_velocity[3]; /* rad/s, along the drum's axes */
     double orientation[4];      /* w, x, y, z as in dem_particle_arrays, of any length but 0; a sphere by itself needs none */
     int32_t species;
+    double diameter; /* m, where the species has sizes; 0: as drawn */
 } dem_placed_particle;
 
 /* Fields over the cross-section, in the laboratory frame; n = cells x cells, x fastest, from the lowest x and y up. Arrays
@@ -279,7 +302,7 @@ typedef struct dem_state_array {
     void *data; /* rows x columns, row after row */
 } dem_state_array;
 
-enum { DEM_STATE_ARRAYS = 16 };
+enum { DEM_STATE_ARRAYS = 20 };
 
 typedef struct dem_state {
     size_t array_count;

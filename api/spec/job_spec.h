@@ -23,12 +23,23 @@
 
 /* The inputs as asked for, with defaults. All are doubles so that one table of fields can read, write and
  * describe them; NaN: not given, because its alternative was (or, for the lining, because there is none). */
+/* How sizes are distributed; NaN: not given. */
+typedef struct size_inputs {
+    double type; /* index into the choices, a dem_size_law less 1; NaN: all are of one diameter */
+    double by;   /* a size_basis */
+    double median, geometric_deviation, mean, deviation, size, spread, minimum, maximum;
+    size_t size_count, cumulative_count, share_count;
+    double sizes[DEM_MAXIMUM_SIEVES], cumulative[DEM_MAXIMUM_SIEVES], shares[DEM_MAXIMUM_SIEVES];
+} size_inputs;
+typedef enum size_basis { SIZES_BY_MASS, SIZES_BY_VOLUME, SIZES_BY_NUMBER } size_basis;
+
 typedef struct species_inputs {
     double shape; /* index into the choices of the table; the one behind the last: the spheres below */
     double diameter, density, share;
     spec_name material; /* "": none */
     size_t sphere_count;
     dem_cluster_sphere sphere[DEM_MAXIMUM_CLUSTER];
+    size_inputs sizes;
 } species_inputs;
 
 /* What pulls; NaN: not given. */
@@ -54,8 +65,8 @@ typedef struct pair_inputs {
 /* A particle of a bed that is given particle by particle. */
 typedef struct start_particle {
     double position[3], velocity[3], angular_velocity[3];
-    double orientation[4]; /* w, x, y, z; NaN: not given */
-    double species;
+    double orientation[4];    /* w, x, y, z; NaN: not given */
+    double species, diameter; /* the latter NaN: as the species has it */
 } start_particle;
 
 /* Where a bed that was made before comes from: one of job, file, particles. */

@@ -85,6 +85,10 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
         schema = json_pack("{s:s, s:I, s:o}", "type", "object", "maxProperties", (json_int_t)field->maximum, "additionalProperties",
                            group_schema(table, field->child));
         break;
+    case FIELD_NUMBERS:
+        schema = json_pack("{s:s, s:I, s:I, s:o}", "type", "array", "minItems", (json_int_t)field->least_entries, "maxItems",
+                           (json_int_t)field->most_entries, "items", number_schema(field));
+        break;
     case FIELD_TWO_NAMES:
         schema = json_pack("{s:s, s:i, s:i, s:{s:s, s:I, s:I}}", "type", "array", "minItems", 2, "maxItems", 2, "items", "type",
                            "string", "minLength", (json_int_t)field->minimum, "maxLength", (json_int_t)field->maximum);

@@ -32,7 +32,8 @@ typedef enum spec_group {
     SPEC_PAIRS,
     SPEC_CONTACT_COHESION,
     SPEC_WALL_COHESION,
-    SPEC_PAIR_COHESION
+    SPEC_PAIR_COHESION,
+    SPEC_SIZES
 } spec_group;
 
 typedef enum field_kind {
@@ -43,6 +44,7 @@ typedef enum field_kind {
     FIELD_TEXT,             /* kept as bytes that end with 0; "": not given. Its range is that of its length */
     FIELD_PLACE,            /* a list of three numbers, kept as three doubles */
     FIELD_ORIENTATION,      /* a list of four numbers, kept as four doubles */
+    FIELD_NUMBERS,          /* a list of `least_entries` to `most_entries` numbers of its range, kept as doubles and their count */
     FIELD_TWO_NAMES,        /* a list of two texts, kept as spec_name[2] */
     FIELD_CHOICE_OR_OBJECT, /* a word, or an object whose members are kept beside it; the object's index follows the words' */
     FIELD_OBJECT,
@@ -71,21 +73,23 @@ typedef struct spec_field {
     field_kind kind;
     spec_group child; /* objects and lists: whose members they hold */
     bool required;
-    const char *spared_by;      /* a required field: the sibling that, given as an object or a number, makes it optional */
-    const char *unit;           /* "" for a pure number */
-    double minimum, maximum;    /* lists: of their length */
-    bool minimum_open;          /* the minimum itself is not allowed */
-    double least_size;          /* of either sign; 0: may be 0 */
-    double fallback;            /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
-    const char *excludes;       /* the sibling that may be given instead of this field, never beside it */
-    const char *excludes_too;   /* another such sibling */
-    const char *spared_beside;  /* the sibling beside which this field has no default: left out, it is not given */
-    const char *const *choices; /* ends with NULL */
-    size_t offset;              /* of the double in the process's struct, or in the list's entry. Lists: of their first
+    const char *spared_by;              /* a required field: the sibling that, given as an object or a number, makes it optional */
+    const char *spared_by_too;          /* another such sibling */
+    const char *unit;                   /* "" for a pure number */
+    double minimum, maximum;            /* lists: of their length */
+    bool minimum_open;                  /* the minimum itself is not allowed */
+    double least_size;                  /* of either sign; 0: may be 0 */
+    double fallback;                    /* the default; NaN: none, or one that depends on other inputs (said in meaning) */
+    const char *excludes;               /* the sibling that may be given instead of this field, never beside it */
+    const char *excludes_too;           /* another such sibling */
+    const char *spared_beside;          /* the sibling beside which this field has no default: left out, it is not given */
+    const char *const *choices;         /* ends with NULL */
+    size_t offset;                      /* of the double in the process's struct, or in the list's entry. Lists: of their first
                                  * entry; long ones: of the pointer to it. Objects or null: of a double that is NaN where
                                  * there is none */
-    size_t count_offset;        /* lists: of the size_t that counts the entries */
-    size_t entry_size;          /* lists: bytes from entry to entry; there is room for `maximum` */
+    size_t count_offset;                /* lists: of the size_t that counts the entries */
+    size_t least_entries, most_entries; /* of numbers */
+    size_t entry_size;                  /* lists: bytes from entry to entry; there is room for `maximum` */
     const char *meaning;
     double usual_low, usual_high; /* what is outside was hardly meant; both 0: nothing is unusual */
     const char *slip_unit;        /* the unit that numbers too large are often in by mistake; NULL: none */

@@ -62,7 +62,8 @@ static double period_of(const dem_scene_definition *drum) { return drum->ends.ar
 
 static bool have_the_same_spheres(const dem_species *a, const dem_species *b)
 {
-    return a->diameter == b->diameter && memcmp(&a->cluster, &b->cluster, sizeof a->cluster) == 0;
+    return a->diameter == b->diameter && memcmp(&a->sizes, &b->sizes, sizeof a->sizes) == 0
+           && memcmp(&a->cluster, &b->cluster, sizeof a->cluster) == 0;
 }
 
 bool spec_memory_knows_apart(const spec_memory *memory, const start_inputs *start, const dem_scene_definition *drum)

@@ -312,6 +312,12 @@ static double read_true(const json_t *value, const char *pointer, problem_list *
     return NAN;
 }
 
+static bool is_spared(const char *by, const json_t *object)
+{
+    const json_t *sparing = by ? json_object_get(object, by) : NULL;
+    return json_is_object(sparing) || json_is_number(sparing);
+}
+
 /* A member that has a number or a word; the other of two alternatives stays NaN. */
 static double read_scalar(const spec_field *field, const json_t *object, const char *pointer, problem_list *problems)
 {
@@ -327,8 +333,7 @@ static double read_scalar(const spec_field *field, const json_t *object, const c
     if (value && field->kind == FIELD_CHOICE) return read_choice(field, value, pointer, problems);
     if (value && field->kind == FIELD_TRUE) return read_true(value, pointer, problems);
     if (value) return read_number(field, value, pointer, problems);
-    const json_t *sparing = field->spared_by ? json_object_get(object, field->spared_by) : NULL;
-    if (field->required && !json_is_object(sparing) && !json_is_number(sparing)) {
+    if (field->required && !is_spared(field->spared_by, object) && !is_spared(field->spared_by_too, object)) {
         char range[120];
         range_text(field, range, sizeof range);
         problem_list_add(problems, pointer, "is missing; must be a number in %s", range);
@@ -394,6 +399,33 @@ static void read_place(const spec_field *field, const json_t *value, const char 
     }
 }
 
+/* Numbers of the field's range, as many as there are. */
+static void read_numbers(const spec_field *field, const json_t *value, const char *pointer, char *place, problem_list *problems)
+{
+    char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
+    double *numbers = (double *)(place + field->offset);
+    const json_t *unit = is_quantity(value) ? json_object_get(value, "unit") : NULL; /* of all of them */
+    if (unit) value = json_object_get(value, "value");
+    const size_t count = json_array_size(value);
+    if (!value) return;
+    if (!json_is_array(value) || count < field->least_entries || count > field->most_entries) {
+        range_text(field, range, sizeof range);
+        json_value_text(value, seen, sizeof seen);
+        if (json_is_array(value)) snprintf(seen, sizeof seen, "a list of %zu", count);
+        problem_list_add(problems, pointer, "is %s; must be a list of %zu to %zu numbers, each in %s", seen, field->least_entries,
+                         field->most_entries, range);
+        return;
+    }
+    for (size_t c = 0; c < count; c++) {
+        snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
+        json_t *number = json_array_get(value, c);
+        json_t *quantity = unit ? json_pack("{s:O, s:O}", "value", number, "unit", unit) : NULL;
+        numbers[c] = read_number(field, quantity ? quantity : number, entry, problems);
+        json_decref(quantity);
+    }
+    *(size_t *)(place + field->count_offset) = count;
+}
+
 static void read_choice_or_object(const spec_table *table, const spec_field *field, const json_t *value, const char *pointer,
                                   char *place, problem_list *problems)
 {
@@ -431,6 +463,8 @@ static void read_group(const spec_table *table, spec_group group, const json_t *
             read_two_names(field, value, member, (spec_name *)(place + field->offset), problems);
         } else if (field->kind == FIELD_PLACE || field->kind == FIELD_ORIENTATION) {
             read_place(field, value, member, (double *)(place + field->offset), problems);
+        } else if (field->kind == FIELD_NUMBERS) {
+            read_numbers(field, value, member, place, problems);
         } else if (field->kind == FIELD_CHOICE_OR_OBJECT) {
             read_choice_or_object(table, field, value, member, place, problems);
         } else if (field->kind >= FIELD_OBJECT) {
@@ -451,6 +485,8 @@ static void set_nothing_given(const spec_table *table, spec_group group, char *p
         if (field->kind == FIELD_OBJECT_OR_NULL) *(double *)(place + field->offset) = NAN;
         if (field->kind == FIELD_TEXT || field->kind == FIELD_TWO_NAMES) {
             place[field->offset] = '\0';
+        } else if (field->kind == FIELD_NUMBERS) {
+            *(size_t *)(place + field->count_offset) = 0;
         } else if (field->kind == FIELD_LONG_LIST || field->kind == FIELD_NAMED_LIST) {
             *(void **)(place + field->offset) = NULL;
             *(size_t *)(place + field->count_offset) = 0;

@@ -36,6 +36,13 @@ static json_t *write_list(const spec_table *table, const spec_field *field, cons
     return list;
 }
 
+static json_t *write_numbers(const double *numbers, size_t count)
+{
+    json_t *list = json_array();
+    for (size_t k = 0; k < count; k++) json_array_append_new(list, json_real(numbers[k]));
+    return list;
+}
+
 static json_t *write_member(const spec_table *table, const spec_field *field, const char *place, written what)
 {
     if (field->kind >= FIELD_LIST) return write_list(table, field, place, what);
@@ -54,6 +61,10 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
         if (field->kind == FIELD_TEXT) {
             if (!place[field->offset]) continue;
             member = json_string(place + field->offset);
+        } else if (field->kind == FIELD_NUMBERS) {
+            const size_t count = *(const size_t *)(place + field->count_offset);
+            if (count == 0) continue;
+            member = write_numbers((const double *)(place + field->offset), count);
         } else if (field->kind >= FIELD_LONG_LIST && *(const size_t *)(place + field->count_offset) == 0) {
             continue;
         } else if (field->kind == FIELD_ORIENTATION) {

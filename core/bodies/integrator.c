@@ -5,12 +5,12 @@
 /* Eqns 3 and 4 for some spheres. A sphere's inertia is the same about every axis, so Euler's products (Eq 5) vanish and
  * its spin advances as its velocity does. */
 WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *picked_velocity, size_t from, size_t to,
-                            bool of_one_species)
+                            bool of_one_kind)
 {
     const leap_frog leap = *all; /* in registers, which no store to a sphere can change */
     enum { AHEAD = 32 };         /* what is sent for is needed after a block of contacts or two */
     const double *restrict inverse_mass = s->inverse_mass, *restrict inverse_inertia = s->inverse_inertia;
-    const int32_t *restrict species = s->species;
+    const int32_t *restrict kinds = s->kind;
     vector4 *restrict velocity = s->velocity, *restrict spin = s->angular_velocity, *restrict place = s->place;
     sphere_row *restrict row = s->row;
     sphere_rest *restrict rest = s->rest;
@@ -25,7 +25,7 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
             __builtin_prefetch(&spin[i + AHEAD], 1);
             __builtin_prefetch(&picked_velocity[i + AHEAD]);
         }
-        const int32_t kind = of_one_species ? 0 : species[i];
+        const int32_t kind = of_one_kind ? 0 : kinds[i];
         const vector4 per_mass = dt * vector4_from(&inverse_mass[kind]), per_inertia = dt * vector4_from(&inverse_inertia[kind]);
         const vector4 v = vector4_fused(per_mass, row8_force(&load[i]), vector4_fused(keep, velocity[i], -leap.gravity_dt));
         const vector4 omega = vector4_fused(per_inertia, row8_torque(&load[i]), keep * spin[i]);
@@ -46,8 +46,7 @@ WIDE_INLINE vector4 advance(const leap_frog *all, spheres *s, const half_row *pi
 
 vector4 spheres_advance(const leap_frog *leap, spheres *s, const half_row *picked_velocity, size_t from, size_t to)
 {
-    return s->of_one_species ? advance(leap, s, picked_velocity, from, to, true)
-                             : advance(leap, s, picked_velocity, from, to, false);
+    return s->of_one_kind ? advance(leap, s, picked_velocity, from, to, true) : advance(leap, s, picked_velocity, from, to, false);
 }
 
 void integrator_leap(leap_frog *leap, const spheres *s, const body_forces *body, double dt)

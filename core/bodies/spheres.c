@@ -30,12 +30,13 @@ const sphere_array sphere_arrays[] = {
     { ARRAY(fallen_time), OF_MOBILE, .is_sorted = true, .saved = "fallen_time", .columns = 1, .is_float = true },
     { ARRAY(id), OF_MOBILE, .is_sorted = true },
     { ARRAY(species), OF_MOBILE, .is_sorted = true },
+    { ARRAY(kind), OF_MOBILE, .is_sorted = true },
     { ARRAY(full_radius), OF_MOBILE_AND_LINING, .is_sorted = true },
     { ARRAY(load), OF_LOADS },
     { ARRAY(velocity), OF_MOBILE, .is_sorted = true, .saved = "velocity", .columns = 3 },
     { ARRAY(angular_velocity), OF_MOBILE, .is_sorted = true, .saved = "angular_velocity", .columns = 3 },
-    { ARRAY(inverse_mass), OF_SPECIES },
-    { ARRAY(inverse_inertia), OF_SPECIES },
+    { ARRAY(inverse_mass), OF_KINDS },
+    { ARRAY(inverse_inertia), OF_KINDS },
     { ARRAY(surface_track), OF_MOBILE, .is_sorted = true, .saved = "surface_track", .columns = 2, .is_float = true,
       .is_optional = true },
     { ARRAY(lining_place), OF_LINING },
@@ -58,9 +59,10 @@ static void set_array(spheres *s, const sphere_array *array, void *memory)
 static size_t length_of(const spheres *s, sphere_array_length length)
 {
     const size_t all = spheres_count(s);
+    const size_t kinds = s->species_count + (s->have_sizes ? s->single_count : 0);
     const size_t lengths[] = {
-        [OF_MOBILE] = s->mobile_count, [OF_MOBILE_AND_LINING] = all,    [OF_PLACES] = all + 2,      [OF_ROWS] = s->row_count,
-        [OF_LINING] = s->lining_count, [OF_SPECIES] = s->species_count, [OF_LOADS] = s->load_count,
+        [OF_MOBILE] = s->mobile_count, [OF_MOBILE_AND_LINING] = all, [OF_PLACES] = all + 2,      [OF_ROWS] = s->row_count,
+        [OF_LINING] = s->lining_count, [OF_KINDS] = kinds,           [OF_LOADS] = s->load_count,
     };
     return lengths[length];
 }
@@ -84,7 +86,8 @@ dem_status spheres_init(spheres *s, const dem_scene_definition *definition, size
     s->single_count = singles;
     s->lining_count = lining_count;
     s->species_count = definition->species_count;
-    s->of_one_species = definition->species_count == 1;
+    s->have_sizes = dem_have_sizes(definition->species, definition->species_count);
+    s->of_one_kind = definition->species_count == 1 && !s->have_sizes;
     s->are_many = n >= MANY;
     s->exceed_caches = n >= VERY_MANY;
     s->in_waves = n >= FOR_WAVES;
@@ -167,8 +170,8 @@ double spheres_kinetic_energy(const spheres *s)
     double energy = clusters_kinetic_energy(&s->clusters);
     for (size_t i = 0; i < s->single_count; i++) {
         const vector4 v = s->velocity[i], w = s->angular_velocity[i];
-        energy += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / s->inverse_mass[s->species[i]]
-                  + 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) / s->inverse_inertia[s->species[i]];
+        energy += 0.5 * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) / s->inverse_mass[s->kind[i]]
+                  + 0.5 * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) / s->inverse_inertia[s->kind[i]];
     }
     return energy;
 }

@@ -49,6 +49,7 @@ typedef struct spheres {
     double ring_units;         /* 1/m: of a row's place */
     int32_t *id;               /* (mobile) which sphere of the definition's it is, wherever it is in memory */
     int32_t *species;          /* (mobile) */
+    int32_t *kind;             /* (mobile) whose mass it has: its species, or its own, by its id, where the species has sizes */
     real *full_radius;         /* (mobile + lining) m */
     vector4 *velocity;         /* (mobile) m/s at the half step */
     vector4 *angular_velocity; /* (mobile) rad/s at the half step */
@@ -56,18 +57,20 @@ typedef struct spheres {
      * Behind the loads of the mobile spheres are padding loads, which are never read (padding_loads). */
     row8 *load;
     size_t load_count;
-    double *inverse_mass;                       /* (species) 1/kg, of a particle */
-    double *inverse_inertia;                    /* (species) 1/(kg m2), of those that are spheres by themselves */
+    double *inverse_mass;                       /* (kinds) 1/kg, of a particle */
+    double *inverse_inertia;                    /* (kinds) 1/(kg m2), of those that are spheres by themselves */
     float *fallen_time;                         /* (mobile) s since rotation began when last seen nearer the axis than R_i - 2d */
     surface_track *surface_track;               /* (mobile) */
     vector4 *lining_place;                      /* (lining) m, when the drum has not turned */
     double smallest_diameter, largest_diameter; /* m, mobile */
     double largest_reach;                       /* m: radius of the smallest sphere that can hold any of the particles */
-    bool of_one_species;                        /* all mobile spheres are of one species */
-    bool are_many;                              /* too many for the cache of one core: prefetching the next spheres pays */
-    bool exceed_caches;                         /* too many for the shared cache, too: prefetching what is read in order pays */
-    bool in_waves;                              /* it pays to take several steps in one pass through memory: wave.h */
-    double scale;                               /* share of full size that the mobile spheres have now */
+    double small_below, large_from; /* m: radii between the thirds of the particles by size; of one species with sizes */
+    bool of_one_kind;               /* all mobile spheres are of one species, without sizes */
+    bool have_sizes;                /* spheres of one species are not all alike */
+    bool are_many;                  /* too many for the cache of one core: prefetching the next spheres pays */
+    bool exceed_caches;             /* too many for the shared cache, too: prefetching what is read in order pays */
+    bool in_waves;                  /* it pays to take several steps in one pass through memory: wave.h */
+    double scale;                   /* share of full size that the mobile spheres have now */
     /* written in each step, apart from what all threads read */
     _Alignas(ALIGNMENT) int front_copy; /* 0 or 1: which of the two sets of copies of rows (the halo) the next step reads */
     bool copies_hold;                   /* that set equals the rows of now */
@@ -80,7 +83,7 @@ typedef enum sphere_array_length {
     OF_PLACES,
     OF_ROWS,
     OF_LINING,
-    OF_SPECIES,
+    OF_KINDS,
     OF_LOADS
 } sphere_array_length;
 typedef struct sphere_array {
@@ -92,7 +95,7 @@ typedef struct sphere_array {
     bool is_float;     /* the elements are so many floats, else as many doubles or more */
     bool is_optional;  /* a state may be without it */
 } sphere_array;
-enum { SPHERE_ARRAYS = 14 };
+enum { SPHERE_ARRAYS = 15 };
 extern const sphere_array sphere_arrays[SPHERE_ARRAYS];
 void *sphere_array_of(const spheres *spheres, const sphere_array *array);
 
@@ -118,7 +121,7 @@ static inline void sphere_set_place(spheres *s, size_t i, const double x[3])
 }
 static inline double sphere_inverse_mass(const spheres *s, size_t i) /* 1/kg, of the particle that it is or is a part of */
 {
-    return s->inverse_mass[s->species[i]];
+    return s->inverse_mass[s->kind[i]];
 }
 static inline double sphere_radius(const spheres *s, size_t i) { return (double)s->rest[i].radius; } /* m, now */
 static inline int32_t sphere_of_zeros(const spheres *s) { return (int32_t)(s->mobile_count + s->lining_count); }
@@ -153,6 +156,8 @@ static inline int32_t particle_id(const spheres *s, size_t p)
     return p < s->single_count ? s->id[p] : s->clusters.body[p - s->single_count].id;
 }
 
+/* The kind of a sphere by itself, of that id, whose species has sizes. */
+static inline int32_t kind_of_id(const spheres *s, size_t id) { return (int32_t)(s->species_count + id); }
 /* How many particles a species has: shares by number, every species within one of its share, the total exact. */
 size_t species_particles(const dem_scene_definition *definition, size_t species);
 /* Sets the unit of the rows' places; to be called before any place is set. Rows keep places modulo a length, which is the period

@@ -190,6 +190,12 @@ static void set_pairs(contact_list *pairs, const spheres *s, const pair_table *t
     }
 }
 
+/* species_roots of two spheres that need not be alike within a species. */
+static real root_of_sizes(const spheres *s, size_t first, size_t second)
+{
+    return (real)(1 / sqrt(sphere_inverse_mass(s, first) + (second < s->mobile_count ? sphere_inverse_mass(s, second) : 0)));
+}
+
 void contact_constants_of_each(contact_list *pairs, const spheres *s, const dem_contact_parameters *contact,
                                const species_roots *roots, const pair_table *table, size_t from, size_t to)
 {
@@ -204,8 +210,12 @@ void contact_constants_of_each(contact_list *pairs, const spheres *s, const dem_
         pairs->first_radius[k] = r_i;
         pairs->radius[k] = r_i * r_j / (r_i + r_j);
     }
-    for (size_t k = from; k < to; k++)
-        pairs->root_mass[k] = roots->of[s->species[first[k]]][second[k] < mobile ? s->species[second[k]] : DEM_MAXIMUM_SPECIES];
+    if (s->have_sizes) {
+        for (size_t k = from; k < to; k++) pairs->root_mass[k] = root_of_sizes(s, (size_t)first[k], (size_t)second[k]);
+    } else {
+        for (size_t k = from; k < to; k++)
+            pairs->root_mass[k] = roots->of[s->species[first[k]]][second[k] < mobile ? s->species[second[k]] : DEM_MAXIMUM_SPECIES];
+    }
     for (size_t k = from; pairs->has_rolling && k < to; k++) {
         pairs->rolling_friction[k] = second[k] < mobile ? mu_r : mu_r_wall;
         pairs->rolling_root[k] = rolling_root_of(sphere_inverse_mass(s, (size_t)first[k]), (double)s->full_radius[first[k]],

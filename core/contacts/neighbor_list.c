@@ -48,6 +48,13 @@ dem_status neighbor_list_init(neighbor_list *list, const spheres *s, const dem_s
     return DEM_NO_MEMORY;
 }
 
+void neighbor_list_sizes_changed(neighbor_list *list, const spheres *s)
+{
+    cell_grid_clear(&list->outer.grid);
+    cell_grid_init(&list->outer.grid, s);
+    neighbor_list_invalidate(list);
+}
+
 void neighbor_list_clear(neighbor_list *list)
 {
     outer_list_clear(&list->outer);

@@ -48,6 +48,8 @@ typedef struct neighbor_list {
 } neighbor_list;
 
 dem_status neighbor_list_init(neighbor_list *list, const spheres *spheres, const dem_scene_definition *definition);
+/* The spheres have other radii than when the list was made. */
+void neighbor_list_sizes_changed(neighbor_list *list, const spheres *spheres);
 void neighbor_list_clear(neighbor_list *list);
 void neighbor_list_invalidate(neighbor_list *list); /* after spheres were moved by hand, or added behind the last */
 /* Makes the next update pick anew, while a wave has stopped and some spheres are up to steps_apart steps ahead of others: the pick

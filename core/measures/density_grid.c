@@ -6,7 +6,7 @@
 #include "dem_rules.h"
 #include "statistics.h"
 
-enum { KERNEL_POINTS = 128, CELLS_A_DIAMETER = 4 };
+enum { KERNEL_POINTS = 128, CELLS_A_DIAMETER = 4, SIZE_KERNELS = 32 };
 
 double mean_diameter(const dem_scene *scene)
 {
@@ -58,6 +58,24 @@ static void kernel_fill(density_grid *grid, size_t kernel, double diameter, doub
             kernel_value(grid->reach * p / (KERNEL_POINTS - 1), 0.5 * diameter, disc) / over;
 }
 
+/* Of SIZE_KERNELS classes of the diameters that a species can have, as wide as each other by ratio, the one that a diameter is in. */
+static int size_class(const dem_sizes *sizes, double diameter)
+{
+    const double at = log(diameter / sizes->minimum) / log(sizes->maximum / sizes->minimum) * SIZE_KERNELS;
+    return (int)fmin(fmax(at, 0), SIZE_KERNELS - 1);
+}
+
+/* The middle of each class. Returns how many kernels are in use then. */
+static size_t size_kernels(density_grid *grid, const dem_scene_definition *definition, const dem_sizes *sizes, size_t used,
+                           const disc_points *disc)
+{
+    for (int c = 0; c < SIZE_KERNELS; c++) {
+        const double middle = sizes->minimum * pow(sizes->maximum / sizes->minimum, (c + 0.5) / SIZE_KERNELS);
+        kernel_fill(grid, used++, middle, definition->length, disc);
+    }
+    return used;
+}
+
 /* One kernel for each diameter that a species' spheres have. Spheres that overlap in a cluster count for less, so that
  * together they have its volume. Returns how many kernels are in use then. */
 static size_t species_kernels(density_grid *grid, const dem_scene_definition *definition, size_t k, size_t used,
@@ -66,6 +84,10 @@ static size_t species_kernels(density_grid *grid, const dem_scene_definition *de
     const dem_species *species = &definition->species[k];
     const dem_cluster *cluster = &species->cluster;
     int32_t *of = grid->kernel_of + k * DEM_MAXIMUM_CLUSTER;
+    if (species->sizes.law) {
+        of[0] = (int32_t)used;
+        return size_kernels(grid, definition, &species->sizes, used, disc);
+    }
     if (cluster->sphere_count == 0) {
         kernel_fill(grid, used, species->diameter, definition->length, disc);
         of[0] = (int32_t)used;
@@ -87,7 +109,8 @@ dem_status density_grid_init(density_grid *grid, const dem_scene *scene)
     const dem_scene_definition *definition = &scene->definition;
     const double spread = mean_diameter(scene);
     size_t most = definition->species_count;
-    for (size_t k = 0; k < definition->species_count; k++) most += definition->species[k].cluster.sphere_count;
+    for (size_t k = 0; k < definition->species_count; k++)
+        most += definition->species[k].sizes.law ? SIZE_KERNELS : definition->species[k].cluster.sphere_count;
     memset(grid, 0, sizeof *grid);
     grid->cells = density_grid_cells(scene);
     grid->size = definition->diameter / grid->cells;
@@ -244,7 +267,9 @@ void density_grid_deposit(density_grid *grid, const dem_scene *scene, double tur
         const double *x = sphere_place(s, i);
         const size_t of_body =
             i < s->single_count ? 0 : i - (size_t)s->clusters.body[particle_of_sphere(s, i) - s->single_count].first_sphere;
-        const int32_t kernel = grid->kernel_of[(size_t)s->species[i] * DEM_MAXIMUM_CLUSTER + of_body];
+        const dem_sizes *sizes = &scene->definition.species[s->species[i]].sizes;
+        const int32_t kernel = grid->kernel_of[(size_t)s->species[i] * DEM_MAXIMUM_CLUSTER + of_body]
+                               + (sizes->law ? size_class(sizes, 2 * sphere_radius(s, i)) : 0);
         deposit_one(grid, c * x[0] + sine * x[1], c * x[1] - sine * x[0], grid->kernel + kernel * KERNEL_POINTS);
     }
     grid->core = core_value(grid);

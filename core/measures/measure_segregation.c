@@ -17,46 +17,67 @@ static void size_extremes(const dem_scene *scene, int32_t *smallest, int32_t *la
     if (*smallest == *largest) *largest = (int32_t)definition->species_count - 1;
 }
 
+/* What is compared: species, or, of one species with sizes, the thirds of its particles by size. */
+typedef struct size_groups {
+    bool are_thirds;
+    int32_t smallest, largest;
+} size_groups;
+
+static bool are_told_apart(const dem_scene *scene) { return scene->definition.species_count > 1 || scene->spheres.have_sizes; }
+
+static size_groups size_groups_of(const dem_scene *scene)
+{
+    size_groups groups = { .are_thirds = scene->definition.species_count == 1, .largest = 2 };
+    if (!groups.are_thirds) size_extremes(scene, &groups.smallest, &groups.largest);
+    return groups;
+}
+
+static int32_t group_of(const size_groups *groups, const spheres *s, size_t p)
+{
+    if (!groups->are_thirds) return particle_species(s, p);
+    const double radius = (double)s->full_radius[p];
+    return radius < s->small_below ? 0 : radius > s->large_from ? 2 : 1;
+}
+
 double measure_radial_index(const dem_scene *scene)
 {
-    int32_t smallest, largest;
-    size_extremes(scene, &smallest, &largest);
-    if (smallest == largest) return NAN;
+    if (!are_told_apart(scene)) return NAN;
+    const size_groups groups = size_groups_of(scene);
     double sum[2] = { 0 }, n[2] = { 0 };
     for (size_t p = 0; p < particles_count(&scene->spheres); p++) {
-        const int32_t species = particle_species(&scene->spheres, p);
-        if (species != smallest && species != largest) continue;
+        const int32_t group = group_of(&groups, &scene->spheres, p);
+        if (group != groups.smallest && group != groups.largest) continue;
         const double *x = particle_place(&scene->spheres, p);
-        sum[species == largest] += hypot(x[0], x[1]);
-        n[species == largest] += 1;
+        sum[group == groups.largest] += hypot(x[0], x[1]);
+        n[group == groups.largest] += 1;
     }
     return n[0] > 0 && n[1] > 0 ? (sum[1] / n[1] - sum[0] / n[0]) / scene->container.radius : NAN;
 }
 
-/* Number share of `species` in each of `cells` cells; variance between them, weighted by their particles, against
+/* Number share of the largest in each of `cells` cells; variance between them, weighted by their particles, against
  * that of a random mixture of as many (lacey = (s0^2 - s^2)/(s0^2 - sr^2)). */
 typedef struct mixing {
     double variance, random_variance, share;
 } mixing;
 
-static mixing mixing_over_cells(const int64_t *cell_of, const spheres *s, int32_t species, double *count, double *of_species,
-                                size_t cells)
+static mixing mixing_over_cells(const int64_t *cell_of, const spheres *s, const size_groups *groups, double *count,
+                                double *of_largest, size_t cells)
 {
     memset(count, 0, cells * sizeof *count);
-    memset(of_species, 0, cells * sizeof *of_species);
-    double total = 0.0, total_of_species = 0.0;
+    memset(of_largest, 0, cells * sizeof *of_largest);
+    double total = 0.0, total_of_largest = 0.0;
     for (size_t p = 0; p < particles_count(s); p++) {
-        const bool of_it = particle_species(s, p) == species;
+        const bool of_it = group_of(groups, s, p) == groups->largest;
         count[cell_of[p]] += 1;
-        of_species[cell_of[p]] += of_it;
-        total_of_species += of_it;
+        of_largest[cell_of[p]] += of_it;
+        total_of_largest += of_it;
         total += 1;
     }
-    mixing m = { .share = total_of_species / total };
+    mixing m = { .share = total_of_largest / total };
     double used = 0.0;
     for (size_t c = 0; c < cells; c++) {
         if (!(count[c] > 0)) continue;
-        const double deviation = of_species[c] / count[c] - m.share;
+        const double deviation = of_largest[c] / count[c] - m.share;
         m.variance += count[c] * deviation * deviation / total;
         used += 1;
     }
@@ -116,9 +137,8 @@ static double lacey_index(mixing m)
 dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_result *result)
 {
     *result = (dem_segregation_result){ NAN, NAN, NAN };
-    if (scene->definition.species_count < 2) return DEM_OK;
-    int32_t smallest, largest;
-    size_extremes(scene, &smallest, &largest);
+    if (!are_told_apart(scene)) return DEM_OK;
+    const size_groups groups = size_groups_of(scene);
     result->radial_index = measure_radial_index(scene);
     const size_t particles = particles_count(&scene->spheres);
     int64_t *cell_of = array_create(2 * particles, sizeof *cell_of);
@@ -127,15 +147,15 @@ dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_r
     for (int slices = 0; slices < 2 && status == DEM_OK; slices++) {
         assign_cells(scene, slices, cell_of);
         const size_t cells = number_cells(cell_of, cell_of + particles, particles);
-        double *count = array_create(cells, sizeof *count), *of_species = array_create(cells, sizeof *of_species);
-        if (count && of_species) {
-            const mixing m = mixing_over_cells(cell_of, &scene->spheres, largest, count, of_species, cells);
+        double *count = array_create(cells, sizeof *count), *of_largest = array_create(cells, sizeof *of_largest);
+        if (count && of_largest) {
+            const mixing m = mixing_over_cells(cell_of, &scene->spheres, &groups, count, of_largest, cells);
             *(slices ? &result->axial_index : &result->lacey_index) = slices ? axial_index(m) : lacey_index(m);
         } else {
             status = DEM_NO_MEMORY;
         }
         free(count);
-        free(of_species);
+        free(of_largest);
     }
     free(cell_of);
     return status;

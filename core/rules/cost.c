@@ -14,7 +14,8 @@ static holding holding_of(const dem_scene_definition *d)
     for (size_t s = 0; s < d->species_count; s++) {
         const double r = dem_species_reach(&d->species[s]);
         h.reach = fmax(h.reach, r);
-        h.volume += d->species[s].share * 4.0 / 3.0 * DEM_PI * r * r * r;
+        h.volume +=
+            d->species[s].share * (d->species[s].sizes.law ? dem_species_volume(&d->species[s]) : 4.0 / 3.0 * DEM_PI * r * r * r);
     }
     return h;
 }

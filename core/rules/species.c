@@ -15,23 +15,32 @@ double dem_species_mass(const dem_species *s)
     return s->cluster.sphere_count ? s->cluster.volume * s->density : dem_sphere_mass(s->diameter, s->density);
 }
 
-double dem_species_diameter(const dem_species *s)
+static double largest_of(const dem_species *s) { return s->sizes.law ? s->sizes.maximum : s->diameter; }
+
+static double smallest_of(const dem_species *s) { return s->sizes.law ? s->sizes.minimum : s->diameter; }
+
+double dem_species_heaviest(const dem_species *s)
 {
-    return s->cluster.sphere_count ? cbrt(6.0 / DEM_PI * s->cluster.volume) : s->diameter;
+    return s->sizes.law ? dem_sphere_mass(s->sizes.maximum, s->density) : dem_species_mass(s);
 }
 
-double dem_species_reach(const dem_species *s) { return s->cluster.sphere_count ? s->cluster.reach : 0.5 * s->diameter; }
+double dem_species_diameter(const dem_species *s)
+{
+    return s->cluster.sphere_count ? cbrt(6.0 / DEM_PI * s->cluster.volume) : largest_of(s);
+}
+
+double dem_species_reach(const dem_species *s) { return s->cluster.sphere_count ? s->cluster.reach : 0.5 * largest_of(s); }
 
 double dem_species_smallest_sphere(const dem_species *s)
 {
-    double smallest = s->cluster.sphere_count ? INFINITY : s->diameter;
+    double smallest = s->cluster.sphere_count ? INFINITY : smallest_of(s);
     for (size_t k = 0; k < s->cluster.sphere_count; k++) smallest = fmin(smallest, s->cluster.sphere[k].diameter);
     return smallest;
 }
 
 double dem_species_largest_sphere(const dem_species *s)
 {
-    double largest = s->cluster.sphere_count ? 0.0 : s->diameter;
+    double largest = s->cluster.sphere_count ? 0.0 : largest_of(s);
     for (size_t k = 0; k < s->cluster.sphere_count; k++) largest = fmax(largest, s->cluster.sphere[k].diameter);
     return largest;
 }
@@ -46,7 +55,7 @@ double dem_largest_sphere(const dem_scene_definition *d)
 double dem_species_contact_mass(const dem_species *s)
 {
     const dem_cluster *c = &s->cluster;
-    if (c->sphere_count == 0) return dem_species_mass(s);
+    if (c->sphere_count == 0) return dem_sphere_mass(smallest_of(s), s->density);
     double arm2 = 0.0;
     for (size_t k = 0; k < c->sphere_count; k++) {
         const double *x = c->sphere[k].position;
@@ -69,6 +78,13 @@ double dem_species_compactness(const dem_species *s)
     double axes2 = 1.0; /* product of the squares of the semi-axes, over (5/V)^3 */
     for (int a = 0; a < 3; a++) axes2 *= 0.5 * (c->inertia[(a + 1) % 3] + c->inertia[(a + 2) % 3] - c->inertia[a]);
     return c->volume / (4.0 / 3.0 * DEM_PI * sqrt(axes2 * pow(5.0 / c->volume, 3.0)));
+}
+
+bool dem_have_sizes(const dem_species *species, size_t count)
+{
+    bool have = false;
+    for (size_t s = 0; s < count; s++) have = have || species[s].sizes.law != DEM_ONE_SIZE;
+    return have;
 }
 
 bool dem_has_clusters(const dem_species *species, size_t count)

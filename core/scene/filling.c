@@ -2,6 +2,7 @@
 
 #include "array.h"
 #include "dem_rules.h"
+#include "sizing.h"
 
 /* Solid fraction of the region that spheres grow into, and the one at which random placing one after the other
  * is still quick (it jams at 0.38). */
@@ -16,7 +17,7 @@ static void assign_spheres(spheres *s, const dem_species *species, size_t k, siz
     s->inverse_mass[k] = 1.0 / mass;
     s->inverse_inertia[k] = 1.0 / (0.4 * mass * r * r);
     for (size_t i = first; i < first + count; i++) {
-        s->species[i] = (int32_t)k;
+        s->species[i] = s->kind[i] = (int32_t)k;
         s->full_radius[i] = radius;
     }
 }
@@ -30,24 +31,21 @@ static void assign_clusters(spheres *s, const dem_species *species, size_t k, si
         s->clusters.body[b].species = (int32_t)k;
         s->clusters.body[b].first_sphere = (int32_t)sphere;
         for (size_t m = 0; m < cluster->sphere_count; m++, sphere++) {
-            s->species[sphere] = (int32_t)k;
+            s->species[sphere] = s->kind[sphere] = (int32_t)k;
             s->full_radius[sphere] = (real)(0.5 * cluster->sphere[m].diameter);
             s->clusters.of_sphere[sphere - s->single_count] = (int32_t)b;
         }
     }
 }
 
-static void set_extremes(spheres *s)
+/* What else follows once each has its species. */
+static dem_status assign_sizes(spheres *s, const dem_scene_definition *definition)
 {
-    s->smallest_diameter = INFINITY;
-    for (size_t i = 0; i < s->mobile_count; i++) {
-        s->smallest_diameter = fmin(s->smallest_diameter, 2 * s->full_radius[i]);
-        s->largest_diameter = fmax(s->largest_diameter, 2 * s->full_radius[i]);
-    }
-    for (size_t p = 0; p < particles_count(s); p++) s->largest_reach = fmax(s->largest_reach, particle_reach(s, p));
+    const dem_status status = sizing_draw(s, definition);
+    return status == DEM_OK ? sizing_complete(s, definition) : status;
 }
 
-static void assign_species(spheres *s, const dem_scene_definition *definition)
+static dem_status assign_species(spheres *s, const dem_scene_definition *definition)
 {
     size_t single = 0, body = 0, joined = s->single_count;
     for (size_t k = 0; k < definition->species_count; k++) {
@@ -62,10 +60,10 @@ static void assign_species(spheres *s, const dem_scene_definition *definition)
             joined += count * species->cluster.sphere_count;
         }
     }
-    set_extremes(s);
+    return assign_sizes(s, definition);
 }
 
-void filling_assign_in_order(spheres *s, const dem_scene_definition *definition, const int32_t *order)
+dem_status filling_assign_in_order(spheres *s, const dem_scene_definition *definition, const int32_t *order)
 {
     size_t single = 0, body = 0, joined = s->single_count;
     for (size_t p = 0; p < definition->particle_count; p++) {
@@ -78,7 +76,7 @@ void filling_assign_in_order(spheres *s, const dem_scene_definition *definition,
             joined += species->cluster.sphere_count;
         }
     }
-    set_extremes(s);
+    return assign_sizes(s, definition);
 }
 
 /* Particles placed so far, each as the sphere that holds it, in linked cells. */
@@ -86,6 +84,7 @@ typedef struct placing {
     int cells[3];
     double low[3], size[3], period, inverse_period; /* m, 1/m */
     int32_t *head, *next;
+    int32_t *order; /* of particles, the largest first; NULL: by species, which are each of one size */
 } placing;
 
 static int cell_index(const placing *p, const double x[3], int axis)
@@ -230,7 +229,8 @@ static dem_status placing_init(placing *p, const spheres *s, const container *ve
     while ((cells = placing_cells(p, vessel, size)) > MOST_CELLS_A_PARTICLE * particles_count(s)) size *= 1.26;
     p->head = array_create(cells, sizeof *p->head);
     p->next = array_create(particles_count(s), sizeof *p->next);
-    if (!p->head || !p->next) return DEM_NO_MEMORY;
+    if (s->have_sizes) p->order = sizing_order(s);
+    if (!p->head || !p->next || (s->have_sizes && !p->order)) return DEM_NO_MEMORY;
     for (size_t c = 0; c < cells; c++) p->head[c] = -1;
     return DEM_OK;
 }
@@ -240,6 +240,11 @@ static bool place_all(placing *p, spheres *s, const dem_scene_definition *defini
                       random_streams *random)
 {
     bool placed[DEM_MAXIMUM_SPECIES] = { false };
+    if (p->order) {
+        for (size_t i = 0; i < particles_count(s); i++)
+            if (!place_one(p, s, (size_t)p->order[i], region_of_centres, scale, random)) return false;
+        return true;
+    }
     for (size_t round = 0; round < definition->species_count; round++) {
         size_t largest = 0;
         while (placed[largest]) largest++; /* one is left in each round */
@@ -302,7 +307,8 @@ static region region_of_share(const container *c, const spheres *s, double share
 
 dem_status filling_place(filling *f, spheres *s, const container *vessel, const dem_scene_definition *definition)
 {
-    assign_species(s, definition);
+    dem_status status = assign_species(s, definition);
+    if (status != DEM_OK) return status;
     double held;
     const double volume = total_volume(s, definition, &held), fraction = volume / free_volume(vessel, definition);
     if (vessel->bars_from < 3 * s->largest_reach || vessel->inner_radius < 3 * s->largest_reach
@@ -315,7 +321,7 @@ dem_status filling_place(filling *f, spheres *s, const container *vessel, const 
     random_seed(&random.place, definition->seed);
     random_seed(&random.turn, ~definition->seed);
     placing p;
-    dem_status status = placing_init(&p, s, vessel);
+    status = placing_init(&p, s, vessel);
     /* A region few diameters across holds fewer: try again with smaller spheres that grow further. */
     double target = PLACING_FRACTION;
     for (bool done = false; status == DEM_OK && !done; target *= 0.7) {
@@ -329,6 +335,7 @@ dem_status filling_place(filling *f, spheres *s, const container *vessel, const 
     }
     free(p.head);
     free(p.next);
+    free(p.order);
     if (status != DEM_OK) return status;
     spheres_set_scale(s, f->start_scale);
     clusters_place_spheres(s, vessel);
@@ -337,11 +344,12 @@ dem_status filling_place(filling *f, spheres *s, const container *vessel, const 
     return DEM_OK;
 }
 
-void filling_leave_out(filling *f, spheres *s, const dem_scene_definition *definition)
+dem_status filling_leave_out(filling *f, spheres *s, const dem_scene_definition *definition)
 {
-    assign_species(s, definition);
+    const dem_status status = assign_species(s, definition);
     *f = (filling){ .start_scale = 1, .growing_steps = 1 };
     spheres_set_scale(s, 1);
+    return status;
 }
 
 double filling_scale(const filling *f, int64_t steps)

@@ -23,10 +23,10 @@ typedef struct filling {
  * Errors: DEM_DOES_NOT_FIT, DEM_NO_MEMORY. */
 dem_status filling_place(filling *filling, spheres *spheres, const container *vessel, const dem_scene_definition *definition);
 /* Mass, inertia and species alone, of particles in the order of their species (particles). */
-void filling_assign_in_order(spheres *spheres, const dem_scene_definition *definition, const int32_t *order);
+dem_status filling_assign_in_order(spheres *spheres, const dem_scene_definition *definition, const int32_t *order);
 quaternion filling_random_orientation(random_stream *random); /* evenly over all */
 /* The same without places: for particles that are put somewhere by other means, and are of full size at once. */
-void filling_leave_out(filling *filling, spheres *spheres, const dem_scene_definition *definition);
+dem_status filling_leave_out(filling *filling, spheres *spheres, const dem_scene_definition *definition);
 /* Share of full size after so many steps of growing. */
 double filling_scale(const filling *filling, int64_t steps);
 

@@ -4,6 +4,7 @@
 
 #include "dem_cluster.h"
 #include "dem_rules.h"
+#include "dem_sizes.h"
 #include "dem_stream.h"
 
 static bool is_positive(double x) { return isfinite(x) && x > 0; }
@@ -104,6 +105,15 @@ static bool is_container(const dem_scene_definition *d)
     return false;
 }
 
+/* A stream that has clusters takes spheres for clusters, too, which are all alike. */
+static bool are_sizes(const dem_scene_definition *d, const dem_species *s)
+{
+    if (s->sizes.law == DEM_ONE_SIZE) return true;
+    bool alone = s->cluster.sphere_count == 0;
+    for (size_t k = 0; d->stream.rate > 0 && k < d->species_count; k++) alone = alone && d->species[k].cluster.sphere_count == 0;
+    return alone && dem_sizes_are_good(&s->sizes);
+}
+
 static dem_status parameters_check(const dem_scene_definition *d)
 {
     const dem_contact_parameters *c = &d->contact;
@@ -119,7 +129,7 @@ static dem_status parameters_check(const dem_scene_definition *d)
     for (size_t k = 0; good && k < d->species_count; k++) {
         const dem_species *s = &d->species[k];
         good = (s->cluster.sphere_count ? is_positive(s->cluster.volume) : is_positive(s->diameter)) && is_positive(s->density)
-               && s->share >= 0;
+               && s->share >= 0 && are_sizes(d, s);
         shares += s->share;
         largest = fmax(largest, 2 * dem_species_reach(s));
     }
@@ -138,6 +148,7 @@ dem_status parameters_complete(dem_scene_definition *d)
     for (size_t k = 0; k < d->species_count && k < DEM_MAXIMUM_SPECIES; k++) {
         if (!is_cluster(&d->species[k].cluster)) return DEM_BAD_PARAMETER;
         if (d->species[k].cluster.volume == 0) dem_cluster_complete(&d->species[k].cluster);
+        if (dem_sizes_are_good(&d->species[k].sizes)) dem_sizes_complete(&d->species[k]);
     }
     return parameters_check(d);
 }

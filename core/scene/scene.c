@@ -25,7 +25,7 @@ dem_status dem_scene_create(const dem_scene_definition *definition, dem_scene **
     container_init(&scene->container, definition);
     status = spheres_init(&scene->spheres, definition, container_lining_count(definition));
     if (status == DEM_OK) spheres_set_period(&scene->spheres, definition, scene->container.period);
-    if (status == DEM_OK && definition->is_placed) filling_leave_out(&scene->filling, &scene->spheres, definition);
+    if (status == DEM_OK && definition->is_placed) status = filling_leave_out(&scene->filling, &scene->spheres, definition);
     else if (status == DEM_OK && has_stream(definition)) status = stream_init(scene);
     else if (status == DEM_OK) status = filling_place(&scene->filling, &scene->spheres, &scene->container, definition);
     if (status == DEM_OK) container_place_lining(&scene->container, definition, &scene->spheres);

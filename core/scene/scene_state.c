@@ -6,6 +6,7 @@
 
 #include "array.h"
 #include "lost.h"
+#include "sizing.h"
 #include "sorting.h"
 #include "step.h"
 #include "stream.h"
@@ -88,6 +89,14 @@ static bool save_clusters(dem_state *state, const clusters *c)
     return c->count == 0 || numbers != NULL;
 }
 
+/* Neither has one whose species are each of one size. */
+static bool save_sizes(dem_state *state, const spheres *s)
+{
+    double *radius = s->have_sizes ? state_add(state, "radius", DEM_FLOAT64, s->mobile_count, 1) : NULL;
+    for (size_t i = 0; radius && i < s->mobile_count; i++) radius[i] = (double)s->full_radius[i];
+    return !s->have_sizes || radius != NULL;
+}
+
 static bool save_surface(dem_state *state, const surface_meter *meter)
 {
     double *last = state_add(state, "surface", DEM_FLOAT64, 1, 2);
@@ -113,7 +122,7 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     double *numbers = state_add(state, "numbers", DEM_FLOAT64, 1, STATE_NUMBERS);
     int32_t *id = state_add(state, "particle", DEM_INT32, particles_count(s), 1);
     if (!integers || !numbers || !id || !save_spheres(state, s, false) || !save_clusters(state, &s->clusters)
-        || !save_surface(state, &scene->surface) || !save_spheres(state, s, true)
+        || !save_sizes(state, s) || !save_surface(state, &scene->surface) || !save_spheres(state, s, true)
         || !save_contacts(state, &scene->neighbors.pairs, "pair", "pair_history")
         || !save_contacts(state, &scene->neighbors.walls, "wall_contact", "wall_history")) {
         dem_state_clear(state);
@@ -239,6 +248,15 @@ static dem_status restore_order(spheres *s, const dem_state *state)
     return status;
 }
 
+static dem_status restore_sizes(dem_scene *scene, const dem_state *state)
+{
+    const spheres *s = &scene->spheres;
+    const dem_state_array *radius = state_find(state, "radius", DEM_FLOAT64, 1);
+    if (!s->have_sizes) return DEM_OK;
+    if (!radius || radius->rows != s->mobile_count || !sizing_fits(s, &scene->definition, radius->data)) return DEM_STATE_MISMATCH;
+    return sizing_restore(scene, radius->data);
+}
+
 dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
 {
     const dem_state_array *places = state_find(state, "position", DEM_FLOAT64, 3);
@@ -265,8 +283,9 @@ dem_status dem_scene_restore(dem_scene *scene, const dem_state *state)
         neighbor_list_invalidate(&scene->neighbors);
         return DEM_NO_MEMORY;
     }
-    const dem_status order = restore_order(&scene->spheres, state);
-    if (order != DEM_OK) return order;
+    dem_status status = restore_order(&scene->spheres, state);
+    if (status == DEM_OK) status = restore_sizes(scene, state);
+    if (status != DEM_OK) return status;
     /* Nothing can fail from here on but memory for new lists. */
     restore_contacts(state, pairs, "pair", "pair_history");
     restore_contacts(state, walls, "wall_contact", "wall_history");

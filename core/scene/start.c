@@ -58,6 +58,7 @@ dem_status dem_scene_continue(dem_scene *scene, const dem_state *state)
 /* Where a saved state keeps what is placed. */
 typedef struct placing_arrays {
     double *position, *velocity, *spin, *cluster;
+    double *radius; /* NULL: no species has sizes */
 } placing_arrays;
 
 static void place_sphere(const placing_arrays *to, size_t i, const dem_placed_particle *particle)
@@ -113,6 +114,7 @@ static bool place_all(const dem_scene *scene, const placing_arrays *to, const de
         const size_t p = next[species]++;
         dem_placed_particle wrapped = particles[k];
         wrapped.position[2] = wrap_axial(wrapped.position[2], scene->container.period, scene->container.inverse_period);
+        if (to->radius && p < s->single_count && wrapped.diameter > 0) to->radius[p] = 0.5 * wrapped.diameter;
         if (p < s->single_count) place_sphere(to, p, &wrapped);
         else place_cluster(to, s, &scene->container, p - s->single_count, &wrapped);
     }
@@ -131,7 +133,8 @@ dem_status dem_scene_place(dem_scene *scene, const dem_placed_particle *particle
     dem_status status = dem_scene_save(scene, &state);
     if (status != DEM_OK) return status;
     const placing_arrays to = { numbers_of(&state, "position", 3), numbers_of(&state, "velocity", 3),
-                                numbers_of(&state, "angular_velocity", 3), numbers_of(&state, "cluster", CLUSTER_NUMBERS) };
+                                numbers_of(&state, "angular_velocity", 3), numbers_of(&state, "cluster", CLUSTER_NUMBERS),
+                                numbers_of(&state, "radius", 1) };
     assert(to.position && to.velocity && to.spin);
     int64_t *counter = state_find(&state, "counters", DEM_INT64, STATE_INTEGERS)->data;
     counter[STATE_PHASE] = DEM_PHASE_RUNNING;

@@ -160,9 +160,9 @@ dem_status stream_init(dem_scene *scene)
     int32_t *order = shuffled_species(&scene->definition);
     if (!order) return DEM_NO_MEMORY;
     scene->stream = (stream){ .particles = particles_count(s), .spheres = s->mobile_count, .has_clusters = s->clusters.count > 0 };
-    filling_assign_in_order(s, &scene->definition, order);
+    const dem_status status = filling_assign_in_order(s, &scene->definition, order);
     free(order);
-    return DEM_OK;
+    return status;
 }
 
 void stream_begin(dem_scene *scene)

@@ -60,8 +60,11 @@ static const spec_field fields[] = {
       .meaning = "its spin, along the drum's axes" },
     { SPEC_PLACED, "orientation", FIELD_ORIENTATION, .unit = "", RANGE(-1.0, 1.0), .fallback = NAN, AT_PLACED(orientation),
       .meaning = "of a cluster, as snapshots have it: w, x, y, z of the turn from its principal axes. Default: not turned" },
-    { SPEC_PLACED, "species", FIELD_INTEGER, .unit = "", RANGE(0, DEM_MAXIMUM_SPECIES - 1), .fallback = 0, AT_PLACED(species),
-      .meaning = "which of the kinds of particles" },
+    { SPEC_PLACED, "species", FIELD_INTEGER, .unit = "", RANGE(0, DEM_MAXIMUM_SPECIES - 1), .fallback = 0,
+      .spared_beside = "diameter", AT_PLACED(species),
+      .meaning = "which of the kinds of particles. With diameter: the one that has it" },
+    { SPEC_PLACED, "diameter", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_PLACED(diameter),
+      .meaning = "of a sphere whose kind has a size distribution; else it tells the kind. Default: the kind's" },
 
     FIELDS_OF_CONTACT,
 

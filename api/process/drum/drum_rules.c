@@ -206,7 +206,7 @@ static void check_least(const scene_inputs *inputs, double count, problem_list *
                          SCENE_MOST_PARTICLES);
 }
 
-static void derive_particle_count(const scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
+static void derive_particle_count(scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
 {
     if (start_count_particles(inputs, drum, problems)) return;
     double count = inputs->particle_count;

@@ -117,6 +117,9 @@ void fill_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
     dem_scene_definition *scene = &spec->scene;
     standing_derive_scene(inputs, scene, seed_if_missing, problems);
     derive_cylinder(inputs, scene, problems);
+    if (dem_have_sizes(scene->species, scene->species_count) && scene_spheres_a_particle(scene) > 1.0)
+        problem_list_add(problems, "/inputs/particles",
+                         "are clusters and spheres with a size distribution; must be one or the other where a stream lets them in");
     const double weight = SPEED_OF_WEIGHT * sqrt(scene->gravity * dem_stream_level(scene, (double)scene->particle_count));
     spec->expected_overlap =
         scene_derive_contact(inputs, fmax(IMPACT_ON_OTHERS * inputs->fill.impact_speed, weight), scene, problems);

@@ -242,9 +242,9 @@ typedef struct bodies {
 static bodies bodies_of(const dem_species *one, const dem_species *other)
 {
     const double m = dem_species_contact_mass(one), r = 0.5 * dem_species_smallest_sphere(one);
-    if (!other) return (bodies){ m, dem_species_mass(one), r, dem_species_largest_sphere(one) };
+    if (!other) return (bodies){ m, dem_species_heaviest(one), r, dem_species_largest_sphere(one) };
     const double n = dem_species_contact_mass(other), q = 0.5 * dem_species_smallest_sphere(other);
-    return (bodies){ m * n / (m + n), fmax(dem_species_mass(one), dem_species_mass(other)), r * q / (r + q),
+    return (bodies){ m * n / (m + n), fmax(dem_species_heaviest(one), dem_species_heaviest(other)), r * q / (r + q),
                      fmax(dem_species_largest_sphere(one), dem_species_largest_sphere(other)) };
 }
 

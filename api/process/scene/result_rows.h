@@ -47,6 +47,25 @@
     { "run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", \
       LABEL("stiffness"), SHOWN(1, " N/m", 4), \
       .meaning = "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected" }, \
+    { "run", "sizes", "d10", RESULT_REAL, RUN(sizes.d10), "m", LABEL("D10 by volume"), \
+      .meaning = "of the particles of a size distribution, that a tenth of their volume is in smaller ones; null, as all below, " \
+                 "where there is none", IN_VIEW(890) }, \
+    { "run", "sizes", "d50", RESULT_REAL, RUN(sizes.d50), "m", LABEL("D50 by volume"), .meaning = "half of the volume", IN_VIEW(892) }, \
+    { "run", "sizes", "d90", RESULT_REAL, RUN(sizes.d90), "m", LABEL("D90 by volume"), .meaning = "nine tenths of it", IN_VIEW(894) }, \
+    { "run", "sizes", "number_d10", RESULT_REAL, RUN(sizes.number_d10), "m", LABEL("D10 by number"), \
+      .meaning = "the same by number", STORED }, \
+    { "run", "sizes", "number_d50", RESULT_REAL, RUN(sizes.number_d50), "m", LABEL("D50 by number"), \
+      .meaning = "the same by number", STORED }, \
+    { "run", "sizes", "number_d90", RESULT_REAL, RUN(sizes.number_d90), "m", LABEL("D90 by number"), \
+      .meaning = "the same by number", STORED }, \
+    { "run", "sizes", "sauter_mean", RESULT_REAL, RUN(sizes.sauter_mean), "m", LABEL("Sauter mean"), \
+      .meaning = "sum of d^3 over sum of d^2", IN_VIEW(896) }, \
+    { "run", "sizes", "smallest", RESULT_REAL, RUN(sizes.smallest), "m", LABEL("smallest"), .meaning = "smallest diameter", STORED }, \
+    { "run", "sizes", "largest", RESULT_REAL, RUN(sizes.largest), "m", LABEL("largest"), .meaning = "largest diameter", STORED }, \
+    { "run", "sizes", "cut_off_below", RESULT_REAL, RUN(sizes.cut_off_below), "", LABEL("cut off below"), SHOWN(100, " %", 3), \
+      .meaning = "share of the distribution asked for that is below its minimum; of several the largest", STORED }, \
+    { "run", "sizes", "cut_off_above", RESULT_REAL, RUN(sizes.cut_off_above), "", LABEL("cut off above"), SHOWN(100, " %", 3), \
+      .meaning = "likewise above its maximum", STORED }, \
     { "run", NULL, "samples", RESULT_WHOLE, RUN(samples), "", \
       LABEL("samples"), .meaning = "frames of measurement" }, \
     { "run", NULL, "snapshots", RESULT_WHOLE, RUN(snapshots), "", \

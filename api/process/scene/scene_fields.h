@@ -9,6 +9,9 @@
 #include "input_rows.h"
 
 static const char *const cohesion_choices[] = { "constant", "sjkr", "sjkr2", "jkr", "liquid-bridge", NULL }; /* dem_cohesion_law */
+static const char *const size_choices[] = { "lognormal", "normal", "rosin-rammler", "uniform", "table", NULL }; /* dem_size_law */
+static const char *const size_bases[] = { "mass", "volume", "number", NULL }; /* in the order of size_basis */
+_Static_assert(sizeof size_choices / sizeof *size_choices == DEM_SIEVES + 1, "each law of sizes has a name");
 enum { MOST_MATERIALS = 32, MOST_PAIRS = 400 };
 static const char *const shape_choices[] = { "sphere", "dumbbell", "tetrahedron", "cube", NULL }; /* as dem_shape counts them */
 static const char *const unloading_choices[] = { "constant", "variable", NULL };
@@ -22,6 +25,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
 #define AT_SPECIES(member) .offset = offsetof(species_inputs, member)
 #define AT_MATERIAL(member) .offset = offsetof(material_inputs, member)
 #define AT_PAIR(member) .offset = offsetof(pair_inputs, member)
+#define AT_SIZES(member) .offset = offsetof(species_inputs, sizes.member)
 #define AT_SPHERE(member) .offset = offsetof(dem_cluster_sphere, member)
 
 /* As they would stand in a table, but for the backslashes. */
@@ -42,12 +46,44 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "centre of the sphere, in any frame of the cluster's own" }, \
     { SPEC_SPHERES, "diameter", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SPHERE(diameter), \
       USUAL(1e-4, 0.05), SLIP("cm", 0.01), .meaning = "diameter of this sphere. Default: the particle's diameter" }, \
-    { SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .spared_by = "shape", .unit = "m", RANGE(1e-5, 1.0), \
+    { SPEC_PARTICLES, "diameter", FIELD_REAL, .required = true, .spared_by = "shape", \
+      .spared_by_too = "size_distribution", .excludes_too = "size_distribution", .unit = "m", RANGE(1e-5, 1.0), \
       .fallback = NAN, AT_SPECIES(diameter), \
       USUAL(1e-4, 0.05), SLIP("cm", 0.01), \
       COLUMN("diameter", REAL, scene.species[0].diameter), LISTED, IN_LIST(130, "× ", 1, NULL), IN_VIEW(200), \
       .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
-                 "cluster has its own" }, \
+                 "cluster has its own, or with size_distribution; the column then has that of the sphere of mean volume" }, \
+    { SPEC_PARTICLES, "size_distribution", FIELD_OBJECT_OR_NULL, SPEC_SIZES, .is_left_out_where_null = true, AT_SIZES(type), \
+      .meaning = "sizes of spheres that are not all alike, instead of diameter" }, \
+    { SPEC_SIZES, "type", FIELD_CHOICE, .unit = "", .choices = size_choices, AT_SIZES(type), \
+      .meaning = "lognormal (median, geometric_deviation), normal (mean, deviation), rosin-rammler (size, spread), uniform " \
+                 "(minimum, maximum), table (sizes, and cumulative or shares)" }, \
+    { SPEC_SIZES, "by", FIELD_CHOICE, .unit = "", .choices = size_bases, AT_SIZES(by), \
+      .meaning = "what the shares of the distribution are of: mass or volume, which are the same for one density, or number" }, \
+    { SPEC_SIZES, "median", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SIZES(median), \
+      .meaning = "of lognormal: half is smaller" }, \
+    { SPEC_SIZES, "geometric_deviation", FIELD_REAL, .unit = "", OPEN_RANGE(1.0, 10.0), .fallback = NAN, \
+      AT_SIZES(geometric_deviation), .meaning = "of lognormal: the size that 84.1 % is smaller than, over the median" }, \
+    { SPEC_SIZES, "mean", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SIZES(mean), .meaning = "of normal" }, \
+    { SPEC_SIZES, "deviation", FIELD_REAL, .unit = "m", OPEN_RANGE(0.0, 1.0), .fallback = NAN, AT_SIZES(deviation), \
+      .meaning = "of normal: standard deviation" }, \
+    { SPEC_SIZES, "size", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SIZES(size), \
+      .meaning = "of rosin-rammler: 63.2 % is smaller" }, \
+    { SPEC_SIZES, "spread", FIELD_REAL, .unit = "", RANGE(0.2, 100.0), .fallback = NAN, AT_SIZES(spread), \
+      .meaning = "of rosin-rammler: the exponent; the larger, the narrower" }, \
+    { SPEC_SIZES, "minimum", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SIZES(minimum), \
+      .meaning = "there are no smaller ones. Default: the size that 0.1 % of the distribution is smaller than; of table, the first" }, \
+    { SPEC_SIZES, "maximum", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SIZES(maximum), \
+      .meaning = "there are no larger ones. Default: the size that 99.9 % of the distribution is smaller than; of table, the last" }, \
+    { SPEC_SIZES, "sizes", FIELD_NUMBERS, .unit = "m", RANGE(1e-5, 1.0), .least_entries = 2, .most_entries = DEM_MAXIMUM_SIEVES, \
+      .fallback = NAN, AT_SIZES(sizes), .count_offset = offsetof(species_inputs, sizes.size_count), \
+      .meaning = "of table: openings of the sieves, ascending" }, \
+    { SPEC_SIZES, "cumulative", FIELD_NUMBERS, .unit = "", RANGE(0.0, 1.0), .least_entries = 2, .most_entries = DEM_MAXIMUM_SIEVES, \
+      .fallback = NAN, AT_SIZES(cumulative), .count_offset = offsetof(species_inputs, sizes.cumulative_count), \
+      .meaning = "of table: for each size, the share that is smaller; between them it goes in straight lines" }, \
+    { SPEC_SIZES, "shares", FIELD_NUMBERS, .unit = "", RANGE(0.0, 1.0), .least_entries = 1, .most_entries = DEM_MAXIMUM_SIEVES, \
+      .fallback = NAN, AT_SIZES(shares), .count_offset = offsetof(species_inputs, sizes.share_count), \
+      .meaning = "of table, instead of cumulative: the share between each size and the next" }, \
     { SPEC_PARTICLES, "material", FIELD_TEXT, .unit = "", RANGE(1, NAME_MOST), AT_SPECIES(material), \
       .meaning = "name of its material, a member of materials" }, \
     { SPEC_PARTICLES, "density", FIELD_REAL, .unit = "kg/m3", RANGE(1.0, 30000.0), .fallback = 2500.0, \

@@ -11,6 +11,7 @@
 #include "dem_cluster.h"
 #include "dem_rules.h"
 #include "pair_rules.h"
+#include "size_rules.h"
 
 #define MOST_STEPS 1e10
 #define MOST_SNAPSHOTS 1e5
@@ -98,6 +99,7 @@ void scene_derive_species(scene_inputs *inputs, dem_scene_definition *scene, pro
         if (isnan(species->shape) || has_left) scene->species[s].diameter = NAN; /* refused */
         else if (is_cluster) scene_cluster_derive(inputs->memory, species, s, &scene->species[s].cluster, problems);
         if (scene->species[s].cluster.sphere_count) scene->species[s].diameter = dem_species_largest_sphere(&scene->species[s]);
+        sizes_derive(species, s, &scene->species[s], problems);
     }
     if (scene->species_count == 0) { /* a refused list: not a number, so that nothing is said of what follows from it */
         scene->species_count = 1;
@@ -110,7 +112,14 @@ void scene_check_size_ratio(const dem_scene_definition *scene, problem_list *pro
 {
     const double largest_sphere = scene_of_species(scene, dem_species_largest_sphere, true);
     const double smallest_sphere = scene_of_species(scene, dem_species_smallest_sphere, false);
-    if (largest_sphere > SCENE_MOST_SIZE_RATIO * smallest_sphere)
+    const double beyond = largest_sphere / (SCENE_MOST_SIZE_RATIO * smallest_sphere);
+    if (beyond > 1.0 && dem_have_sizes(scene->species, scene->species_count))
+        problem_list_add(
+            problems, "/inputs/particles",
+            "have diameters from %g m to %g m; the largest must be at most %g of the smallest: at this ratio a run takes "
+            "%.3g times as many steps as at that",
+            smallest_sphere, largest_sphere, SCENE_MOST_SIZE_RATIO, pow(beyond, 2.5));
+    else if (beyond > 1.0)
         problem_list_add(problems, "/inputs/particles",
                          "have diameters from %g m to %g m; the largest must be at "
                          "most %g of the smallest",
@@ -249,7 +258,7 @@ double scene_derive_contact(scene_inputs *inputs, double impact_speed, dem_scene
 {
     const dem_contact_law law =
         inputs->contact_law > 0.0 ? (dem_contact_law)inputs->contact_law : DEM_WALTON_BRAUN; /* not of NaN */
-    collision worst = { scene_of_species(scene, dem_species_mass, true),
+    collision worst = { scene_of_species(scene, dem_species_heaviest, true),
                         scene_of_species(scene, dem_species_contact_mass, false),
                         scene_of_species(scene, dem_species_smallest_sphere, false),
                         scene_of_species(scene, dem_species_largest_sphere, true),
@@ -291,6 +300,7 @@ double scene_derive_contact(scene_inputs *inputs, double impact_speed, dem_scene
 
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems)
 {
+    if (problem_list_is_empty(problems)) sizes_check_cost(spec, problems);
     const job_estimate estimate = job_spec_estimate(spec, 0);
     if (estimate.steps > MOST_STEPS)
         problem_list_add(problems, duration,

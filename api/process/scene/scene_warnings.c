@@ -5,6 +5,7 @@
 
 #include "dem_rules.h"
 #include "scene_rules.h"
+#include "size_rules.h"
 
 #define SOFT_OVERLAP 0.05 /* of the smallest diameter: the most that maximum_overlap can ask for */
 
@@ -32,6 +33,7 @@ void scene_understand(const job_spec *spec, json_t *words)
 {
     json_object_set_new(words, "diameter_ratio", json_real(diameter_ratio(spec)));
     json_object_set_new(words, "expected_overlap", json_real(spec->expected_overlap));
+    sizes_understand(spec, words);
     if (!isnan(spec->bond_number)) json_object_set_new(words, "bond_number", json_real(spec->bond_number));
 }
 

@@ -86,12 +86,67 @@ static void refuse_species(size_t particle, double species, size_t kinds, proble
     problem_list_add(problems, pointer, "is %g; must be in [0, %zu]: particles has %zu kinds", species, kinds - 1, kinds);
 }
 
-bool start_count_particles(const scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
+/* Of a diameter that came through a file of six digits. */
+#define ALIKE 1e-5
+
+static bool has_size(const dem_species *species, double diameter)
 {
-    const start_inputs *start = &inputs->start;
+    if (species->cluster.sphere_count) return false;
+    return diameter >= dem_species_smallest_sphere(species) * (1.0 - ALIKE)
+           && diameter <= dem_species_largest_sphere(species) * (1.0 + ALIKE);
+}
+
+/* The one kind that has spheres of that diameter; NaN: none, or several, and a problem says so. */
+static double species_of_size(size_t particle, double diameter, const dem_scene_definition *drum, problem_list *problems)
+{
+    double found = NAN;
+    size_t kinds = 0;
+    for (size_t s = 0; s < drum->species_count; s++) {
+        if (isnan(drum->species[s].diameter)) return NAN; /* refused */
+        if (!has_size(&drum->species[s], diameter)) continue;
+        found = (double)s;
+        kinds++;
+    }
+    if (kinds == 1) return found;
+    char pointer[80];
+    snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/diameter", particle);
+    problem_list_add(problems, pointer,
+                     kinds ? "is %.9g m, which %zu of the kinds of particles have; give species, too"
+                           : "is %.9g m; must be what one of the kinds of particles has, and %zu of them have it",
+                     diameter, kinds);
+    return NAN;
+}
+
+/* Of a kind with a size distribution each has its diameter; it is kept within the ends that it may pass by the rounding of files. */
+static void check_size(size_t particle, start_particle *placed, const dem_species *species, problem_list *problems)
+{
+    char pointer[80];
+    snprintf(pointer, sizeof pointer, "/inputs/start/particles/%zu/diameter", particle);
+    if (isnan(placed->diameter) && species->sizes.law)
+        problem_list_add(problems, pointer, "is missing; must be given, since the particle's kind has a size distribution");
+    else if (!isnan(placed->diameter) && !isnan(species->diameter) && !has_size(species, placed->diameter))
+        problem_list_add(problems, pointer, "is %.9g m; must be in [%.9g, %.9g] m, as its kind is", placed->diameter,
+                         dem_species_smallest_sphere(species), dem_species_largest_sphere(species));
+    else if (species->sizes.law) placed->diameter = fmin(fmax(placed->diameter, species->sizes.minimum), species->sizes.maximum);
+}
+
+static void find_sizes(start_inputs *start, const dem_scene_definition *drum, problem_list *problems)
+{
+    for (size_t p = 0; p < start->particle_count && !problem_list_is_full(problems); p++) {
+        start_particle *placed = &start->particles[p];
+        if (isnan(placed->species) && !isnan(placed->diameter))
+            placed->species = species_of_size(p, placed->diameter, drum, problems);
+        if (placed->species < (double)drum->species_count) check_size(p, placed, &drum->species[(size_t)placed->species], problems);
+    }
+}
+
+bool start_count_particles(scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
+{
+    start_inputs *start = &inputs->start;
     const double count = (double)start->particle_count;
     double of_species[DEM_MAXIMUM_SPECIES] = { 0 };
     if (start->particle_count == 0) return false;
+    find_sizes(start, drum, problems);
     for (size_t p = 0; p < start->particle_count; p++) {
         const double species = start->particles[p].species;
         if (species < (double)inputs->species_count) of_species[(size_t)species] += 1.0;
@@ -139,8 +194,8 @@ static placed_sphere *all_spheres(const start_inputs *start, const dem_scene_def
             if (of_each && !isnan(particle->orientation[0]))
                 dem_turn(particle->orientation, species->cluster.sphere[k].position, r);
             else if (of_each) memcpy(r, species->cluster.sphere[k].position, sizeof r);
-            placed_sphere s = { .radius = 0.5 * (of_each ? species->cluster.sphere[k].diameter : species->diameter),
-                                .particle = p };
+            const double diameter = species->sizes.law ? particle->diameter : species->diameter;
+            placed_sphere s = { .radius = 0.5 * (of_each ? species->cluster.sphere[k].diameter : diameter), .particle = p };
             for (int c = 0; c < 3; c++) s.x[c] = particle->position[c] + r[c];
             if (s.radius > 0.0 && !isnan(s.x[0] + s.x[1] + s.x[2])) *next++ = s; /* one without a size was refused */
         }

@@ -9,7 +9,7 @@
  * becomes the bed's. */
 json_t *start_find(job_spec *spec, problem_list *problems);
 /* Shares and number of the particles that are given one by one. False: they are not. */
-bool start_count_particles(const scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems);
+bool start_count_particles(scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems);
 /* The drum complete: each particle in it, none too far within another. */
 void start_check_particles(const scene_inputs *inputs, const dem_scene_definition *drum, problem_list *problems);
 /* The same container and particles as the bed's own spec has. origin: of start_find; NULL: nothing to hold it against. */

@@ -99,6 +99,7 @@ bool start_file_bring(const char *path)
 
 typedef struct snapshot_arrays {
     float *position, *velocity, *spin, *orientation; /* (n,3), orientation (n,4) or NULL */
+    float *radius;                                   /* (n) */
     int32_t *species, *cluster;                      /* (n) */
     size_t count;
     double turned; /* rad */
@@ -118,6 +119,7 @@ static bool read_snapshot(hid_t file, snapshot_arrays *s)
     s->position = read_column(file, "/VTKHDF/Points", H5T_NATIVE_FLOAT, sizeof(float), 3 * s->count, &good);
     s->velocity = read_column(file, "/VTKHDF/PointData/velocity", H5T_NATIVE_FLOAT, sizeof(float), 3 * s->count, &good);
     s->spin = read_column(file, "/VTKHDF/PointData/angular_velocity", H5T_NATIVE_FLOAT, sizeof(float), 3 * s->count, &good);
+    s->radius = read_column(file, "/VTKHDF/PointData/radius", H5T_NATIVE_FLOAT, sizeof(float), s->count, &good);
     s->species = read_column(file, "/VTKHDF/PointData/species", H5T_NATIVE_INT32, sizeof(int32_t), s->count, &good);
     s->cluster = read_column(file, "/VTKHDF/PointData/cluster", H5T_NATIVE_INT32, sizeof(int32_t), s->count, &good);
     if (good && hdf_is_there(file, "/VTKHDF/PointData/orientation"))
@@ -131,6 +133,7 @@ static void snapshot_clear(snapshot_arrays *s)
     free(s->velocity);
     free(s->spin);
     free(s->orientation);
+    free(s->radius);
     free(s->species);
     free(s->cluster);
 }
@@ -155,6 +158,7 @@ static dem_placed_particle particle_of(const snapshot_arrays *s, size_t i, const
     }
     for (int c = 0; c < 4 && species->cluster.sphere_count; c++)
         p.orientation[c] = s->orientation ? (double)s->orientation[4 * i + (size_t)c] : p.orientation[c];
+    if (species->sizes.law) p.diameter = 2.0 * (double)s->radius[i];
     if (is_mirrored) mirror_particle(&p);
     if (species->cluster.sphere_count == 0) return p;
     dem_turn(p.orientation, species->cluster.sphere[0].position, r);
@@ -237,6 +241,7 @@ static dem_status start_from_list(const job_spec *spec, dem_scene *scene)
     for (size_t p = 0; p < start->particle_count; p++) {
         const start_particle *from = &start->particles[p];
         particles[p] = (dem_placed_particle){ .orientation = { 1, 0, 0, 0 }, .species = (int32_t)from->species };
+        if (!isnan(from->diameter)) particles[p].diameter = from->diameter;
         memcpy(particles[p].position, from->position, sizeof from->position);
         memcpy(particles[p].velocity, from->velocity, sizeof from->velocity);
         memcpy(particles[p].angular_velocity, from->angular_velocity, sizeof from->angular_velocity);

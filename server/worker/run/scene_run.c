@@ -21,6 +21,7 @@
 #include "process_type.h"
 #include "run_summary.h"
 #include "shared_bed.h"
+#include "size_facts.h"
 #include "snapshot_file.h"
 #include "start_file.h"
 #include "walls_file.h"
@@ -262,7 +263,7 @@ run_facts scene_run_facts(const scene_run *r)
     const dem_scene_definition *drum = &r->spec->scene;
     const double spheres = (double)dem_scene_sphere_count(r->scene);
     const double steps = (double)dem_scene_step_count(r->scene), wall = progress_wall_seconds(&r->progress);
-    return (run_facts){
+    run_facts facts = {
         .particles = (double)dem_scene_particle_count(r->scene),
         .spheres = spheres,
         .steps = steps,
@@ -284,6 +285,8 @@ run_facts scene_run_facts(const scene_run *r)
         .settled_by = *r->settled_by ? r->settled_by : NULL,
         .ended_by = r->ended_by ? r->ended_by : r->test->ended_by_time(r->spec),
     };
+    size_facts_measure(r->spec, r->scene, &facts);
+    return facts;
 }
 
 static enum worker_exit write_result(scene_run *r)
