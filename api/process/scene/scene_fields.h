@@ -114,7 +114,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       COLUMN("rolling_law", WORD, inputs.rolling_law), IN_VIEW(267), \
       .meaning = "of all contacts that resist rolling. epsd: an elastic spring that yields at the limit; epsd-damped: with a " \
                  "dashpot until it yields; constant: the limit throughout, against the relative spin" }, \
-    { SPEC_CONTACT, "rolling_damping", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = NAN, AT(rolling_damping), \
+    { SPEC_CONTACT, "rolling_damping", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = NAN, AT(rolling_damping), \
       .meaning = "of epsd-damped: share of critical damping of its spring. Default: 0.3" }, \
     { SPEC_CONTACT, "restitution", FIELD_REAL, .unit = "", RANGE(0.1, 1.0), .fallback = 0.8, \
       .excludes = "unloading_slope", AT(restitution), \
@@ -147,7 +147,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "of particles and wall; used by hertz-mindlin alone" }, \
     { SPEC_CONTACT, "steps_per_contact", FIELD_REAL, .unit = "", RANGE(10.0, 200.0), .fallback = NAN, AT(steps_per_contact), \
       .meaning = "time steps in a collision of the two lightest particles, which the time step follows from. Default: 14 for " \
-                 "spheres of walton-braun whose restitution is 0.7 or more, else 20" }
+                 "spheres of walton-braun and epsd whose restitution is 0.7 or more, else 20" }
 
 #define FIELDS_OF_MATERIALS \
     { SPEC_INPUTS, "materials", FIELD_NAMED_LIST, SPEC_MATERIALS, RANGE(0, MOST_MATERIALS), AT(materials), \

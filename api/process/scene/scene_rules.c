@@ -250,7 +250,7 @@ static double least_of_pairs(const dem_scene_definition *scene)
  * fast: core/NUMERICS.md, "Time step". */
 static double usual_steps_per_contact(dem_contact_law law, const dem_scene_definition *scene)
 {
-    const bool is_slow = law == DEM_WALTON_BRAUN && least_of_pairs(scene) >= 0.7;
+    const bool is_slow = law == DEM_WALTON_BRAUN && scene->contact.rolling_law == DEM_EPSD && least_of_pairs(scene) >= 0.7;
     return is_slow && !dem_has_clusters(scene->species, scene->species_count) ? 14.0 : DEM_STEPS_PER_CONTACT;
 }
 

@@ -76,7 +76,7 @@ static void contacts_resist_rolling_where_asked_for(void **state)
     job_spec_clear(&spec);
     expect_problem("contact/rolling_law", "\"cdt\"",
                    "/inputs/contact/rolling_law: is \"cdt\"; available: \"epsd\", \"epsd-damped\", \"constant\"\n");
-    expect_problem("contact/rolling_damping", "1.2", "/inputs/contact/rolling_damping: is 1.2; must be in [0, 1]\n");
+    expect_problem("contact/rolling_damping", "1.2", "/inputs/contact/rolling_damping: is 1.2; must be in [0, 0.5]\n");
     expect_problem(
         "contact/rolling_damping", "0.2",
         "/inputs/contact/rolling_damping: is 0.2, but rolling_law is \"epsd\", which has no share of damping to choose; give "
