@@ -141,6 +141,7 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
     if (problem_list_is_empty(problems) && !spec->label) problem_list_add(problems, "/label", "could not be kept: out of memory");
     if (problem_list_is_empty(problems)) return true;
     job_spec_clear(spec);
+    memset(spec, 0, sizeof *spec);
     return false;
 }
 
@@ -151,7 +152,9 @@ void job_spec_clear(job_spec *spec)
     json_decref(spec->given);
     json_decref(spec->subscriber);
     if (spec->type) spec_inputs_clear(spec->type->inputs, (char *)spec + spec->type->inputs_at);
-    memset(spec, 0, sizeof *spec);
+    /* A tenth of a megabyte, of which nothing else is owned. */
+    spec->type = NULL;
+    spec->label = spec->wanted = spec->given = spec->subscriber = NULL;
 }
 
 json_t *job_spec_to_json(const job_spec *spec)

@@ -34,7 +34,9 @@ void json_value_text(const json_t *value, char *text, size_t size)
 
 void pointer_to_member(char pointer[LONGEST_POINTER], const char *parent, const char *name)
 {
-    size_t length = (size_t)snprintf(pointer, LONGEST_POINTER - 1, "%s/", parent);
+    size_t length = strnlen(parent, LONGEST_POINTER - 2);
+    memcpy(pointer, parent, length);
+    pointer[length++] = '/';
     for (; *name && length + 3 < LONGEST_POINTER; name++) {
         if (*name == '~' || *name == '/') {
             pointer[length++] = '~';

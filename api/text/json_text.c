@@ -3,9 +3,12 @@
 #include <ctype.h>
 #include <errno.h>
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+#include "text_buffer.h"
 
 /* What of a number is shown in a message. */
 enum { LONGEST_SHOWN = 20 };
@@ -89,76 +92,107 @@ json_t *json_text_load(const char *text, size_t length, problem_list *problems)
     return NULL;
 }
 
-static void write_value(FILE *stream, const json_t *value, int depth);
+static void write_value(text_buffer *out, const json_t *value, int depth);
 
-static void write_real(FILE *stream, double number)
+static void write_char(text_buffer *out, char c) { text_buffer_add(out, &c, 1); }
+
+/* Without a point or an exponent it would be read back as an integer. */
+static void write_real(text_buffer *out, double number)
 {
     char text[40];
     int digits = 15;
     do snprintf(text, sizeof text, "%.*g", digits, number);
     while (strtod(text, NULL) != number && ++digits <= 17);
-    /* Without a point or an exponent it would be read back as an integer. */
-    fprintf(stream, strpbrk(text, ".e") ? "%s" : "%s.0", text);
+    text_buffer_add(out, text, strlen(text));
+    if (!strpbrk(text, ".e")) text_buffer_add(out, ".0", 2);
 }
 
-static void write_indent(FILE *stream, int depth) { fprintf(stream, "\n%*s", 2 * depth, ""); }
+/* Nearly all are plain, and written as they are; the rest as the library does. */
+static void write_string(text_buffer *out, const char *text, size_t length)
+{
+    size_t plain = 0;
+    while (plain < length && (unsigned char)text[plain] >= 0x20 && text[plain] != '"' && text[plain] != '\\') plain++;
+    if (plain < length) {
+        json_t *string = json_stringn(text, length);
+        char *escaped = json_dumps(string, JSON_ENCODE_ANY);
+        if (escaped) text_buffer_add(out, escaped, strlen(escaped));
+        else out->failed = true;
+        free(escaped);
+        json_decref(string);
+        return;
+    }
+    write_char(out, '"');
+    text_buffer_add(out, text, length);
+    write_char(out, '"');
+}
 
-static void write_object(FILE *stream, const json_t *object, int depth)
+static void write_indent(text_buffer *out, int depth)
+{
+    static const char spaces[] = "\n                                ";
+    const size_t step = sizeof spaces - 2;
+    size_t left = 2 * (size_t)depth, now = left < step ? left : step;
+    text_buffer_add(out, spaces, 1 + now);
+    for (left -= now; left > 0; left -= now) {
+        now = left < step ? left : step;
+        text_buffer_add(out, spaces + 1, now);
+    }
+}
+
+static void write_object(text_buffer *out, const json_t *object, int depth)
 {
     const char *name;
     json_t *value;
     bool first = true;
-    fputc('{', stream);
+    write_char(out, '{');
     json_object_foreach((json_t *)object, name, value)
     {
-        if (!first) fputc(',', stream);
+        if (!first) write_char(out, ',');
         first = false;
-        write_indent(stream, depth + 1);
-        json_t *quoted = json_string(name);
-        json_dumpf(quoted, stream, JSON_ENCODE_ANY);
-        json_decref(quoted);
-        fputs(": ", stream);
-        write_value(stream, value, depth + 1);
+        write_indent(out, depth + 1);
+        write_string(out, name, strlen(name));
+        text_buffer_add(out, ": ", 2);
+        write_value(out, value, depth + 1);
     }
-    if (!first) write_indent(stream, depth);
-    fputc('}', stream);
+    if (!first) write_indent(out, depth);
+    write_char(out, '}');
 }
 
-static void write_array(FILE *stream, const json_t *array, int depth)
+static void write_array(text_buffer *out, const json_t *array, int depth)
 {
     size_t index;
     json_t *value;
-    fputc('[', stream);
+    write_char(out, '[');
     json_array_foreach(array, index, value)
     {
-        if (index) fputc(',', stream);
-        write_indent(stream, depth + 1);
-        write_value(stream, value, depth + 1);
+        if (index) write_char(out, ',');
+        write_indent(out, depth + 1);
+        write_value(out, value, depth + 1);
     }
-    if (json_array_size(array)) write_indent(stream, depth);
-    fputc(']', stream);
+    if (json_array_size(array)) write_indent(out, depth);
+    write_char(out, ']');
 }
 
-static void write_value(FILE *stream, const json_t *value, int depth)
+static void write_value(text_buffer *out, const json_t *value, int depth)
 {
-    if (json_is_object(value)) write_object(stream, value, depth);
-    else if (json_is_array(value)) write_array(stream, value, depth);
-    else if (json_is_real(value)) write_real(stream, json_real_value(value));
-    else json_dumpf(value, stream, JSON_ENCODE_ANY);
+    if (json_is_object(value)) write_object(out, value, depth);
+    else if (json_is_array(value)) write_array(out, value, depth);
+    else if (json_is_real(value)) write_real(out, json_real_value(value));
+    else if (json_is_string(value)) write_string(out, json_string_value(value), json_string_length(value));
+    else if (json_is_integer(value)) text_buffer_print(out, "%" JSON_INTEGER_FORMAT, json_integer_value(value));
+    else if (json_is_null(value)) text_buffer_add(out, "null", 4);
+    else if (json_is_true(value)) text_buffer_add(out, "true", 4);
+    else text_buffer_add(out, "false", 5);
 }
 
 static char *write_text(const json_t *value, int depth, const char *end)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *stream = value ? open_memstream(&text, &length) : NULL;
-    if (!stream) return NULL;
-    write_value(stream, value, depth);
-    fputs(end, stream);
-    const bool failed = ferror(stream) != 0;
-    if (fclose(stream) == 0 && !failed) return text;
-    free(text);
-    return NULL;
+    text_buffer out;
+    if (!value) return NULL;
+    text_buffer_init(&out, SIZE_MAX / 4);
+    write_value(&out, value, depth);
+    text_buffer_add(&out, end, strlen(end));
+    if (out.failed) text_buffer_clear(&out);
+    return out.text;
 }
 
 char *json_text_write(const json_t *document) { return write_text(document, 0, "\n"); }

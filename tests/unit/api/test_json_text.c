@@ -129,5 +129,25 @@ static void numbers_are_written_in_the_fewest_digits_that_read_back_the_same(voi
     }
 }
 
-UNIT_TESTS(a_number_that_would_turn_into_0_is_refused, a_message_holds_no_byte_that_was_not_sent, bodies_are_read_by_their_length,
-           digits_inside_a_text_are_no_numbers, numbers_are_written_in_the_fewest_digits_that_read_back_the_same)
+/* The library's own writer is the oracle; only reals differ. */
+static void texts_are_escaped_and_indented_as_the_library_does(void **state)
+{
+    (void)state;
+    json_t *document = json_pack("{s:s%, s:[s, s, b, b, n, I, I, []], s:{}, s:s}", "zero", "a\0b", (size_t)3, "list",
+                                 "plain \u00b5 / \x7f", "\"\\\b\f\n\r\t\x01\x1f", 1, 0, (json_int_t)-9007199254740993,
+                                 (json_int_t)0, "none", "\xf0\x9f\x98\x80\n\"", "\xe2\x82\xac");
+    assert_non_null(document);
+    for (int depth = 0; depth < 40; depth++)
+        document = depth % 2 ? json_pack("{s:o}", "deeper", document) : json_pack("[o]", document);
+    char *text = json_text_write(document), *expected = json_dumps(document, JSON_INDENT(2));
+    assert_non_null(text);
+    assert_int_equal(strlen(text), strlen(expected) + 1);
+    assert_memory_equal(text, expected, strlen(expected));
+    free(text);
+    free(expected);
+    json_decref(document);
+}
+
+UNIT_TESTS(texts_are_escaped_and_indented_as_the_library_does, a_number_that_would_turn_into_0_is_refused,
+           a_message_holds_no_byte_that_was_not_sent, bodies_are_read_by_their_length, digits_inside_a_text_are_no_numbers,
+           numbers_are_written_in_the_fewest_digits_that_read_back_the_same)
