@@ -1,6 +1,9 @@
 """Calibrations of materials whose parameters are known: how often the answer's regions hold them."""
+import json
 import math
 import random
+import statistics
+import subprocess
 import sys
 from pathlib import Path
 
@@ -8,7 +11,7 @@ import pytest
 
 SECTION = "Calibrations"
 sys.path.append(str(Path(__file__).parents[1] / "service"))
-from plan_loop import FRICTION, ROLLING, calibrate, made_up, request_of  # noqa: E402
+from plan_loop import FRICTION, REPOSE, ROLLING, calibrate, made_up, request_of  # noqa: E402
 
 
 @pytest.mark.minutes
@@ -28,3 +31,49 @@ def test_regions_hold_the_truth_as_often_as_they_say(record):
     record.between("24 made-up materials, two parameters each: truths of 48 in the 68 % regions", held["68"], 23, 42,
                    "68 % are 33, give or take 20 in 100")
     record.between("the same in the 95 % regions", held["95"], 41, 48, "95 % are 46; 17 of 20 are 41")
+
+
+# Two drums and a heap of soft spheres, each a second or two of processor time.
+DRUM = {"drum": {"diameter": 0.05, "length": 0.012, "rotation_rate": 1.5}, "particles": [{"diameter": 0.004}],
+        "contact": {"maximum_overlap": 0.04}, "duration": {"seconds": 2.5}}
+REAL = [{"process": "drum", "inputs": {}, "result": "/repose/angle_deg"},
+        {"process": "drum", "inputs": {"drum": {"rotation_rate": 6.0}}, "result": "/repose/angle_deg"},
+        {"process": "heap", "inputs": {"tube": {"diameter": 0.03, "lift_speed": 0.02}, "plate": {"diameter": 0.05, "rim_height": 0.0015},
+                                       "particle_count": 300}, "result": "/repose/angle_deg"}]
+
+
+def run_for_real(folder):
+    def run(case):
+        done = subprocess.run([str(REPOSE), "run", "-", "--out", str(folder / str(case["number"])), "--json"],
+                              input=json.dumps(case["request"]), capture_output=True, text=True, timeout=600)
+        return json.loads(done.stdout) if done.returncode == 0 else None
+    return run
+
+
+@pytest.mark.long
+def test_frictions_of_own_runs_are_found_again(record, tmp_path):
+    truth, beds = (0.45, 0.12), 6
+    request = {"name": "own runs", "base": {"process": "drum", "inputs": DRUM}, "seed": 3, "stop": {"jobs": 90},
+               "parameters": {FRICTION: {"range": [0.1, 0.9]}, ROLLING: {"range": [0.0, 0.35]}}}
+    known = [dict(test, value=0, standard_error=1) for test in REAL]
+    plan = json.loads(subprocess.run([str(REPOSE), "plan", "-"], input=json.dumps({"request": request | {"targets": known}}),
+                                     capture_output=True, text=True, check=True).stdout)
+    run = run_for_real(tmp_path)
+    for test, target in enumerate(known):
+        job = next(case["request"] for case in plan["cases"] if case["test"] == test)
+        job["inputs"]["contact"] |= {"friction": truth[0], "rolling_friction": truth[1]}
+        angles = []
+        for bed in range(beds):
+            job["inputs"]["seed"] = 1000 * test + bed
+            angles.append(run({"number": f"truth {test} {bed}", "request": job})["repose"]["angle_deg"])
+        target["value"] = statistics.mean(angles)
+        target["standard_error"] = max(statistics.stdev(angles) / math.sqrt(beds), 0.4)
+    answer, runs, _ = calibrate(request | {"targets": known}, run, at_once=2)
+    (tmp_path / "answer.json").write_text(json.dumps(answer, indent=1))
+    for name, value in zip((FRICTION, ROLLING), truth):
+        low, high = answer["credible"][name]["95"]
+        record.between(f"{name[8:]} of own runs, {len(runs)} jobs, status {answer['status']}", value, low, high,
+                       "the middle 95 % of the posterior hold the truth")
+    z = [result["z"] for one in answer["family"] for result in one["results"]]
+    record.between("verified sets: mean square of what the runs differ from the emulators by, in errors",
+                   sum(value * value for value in z) / len(z), 0.2, 2.2, "chi square of 15 over 15: 99 of 100 lie between 0.31 and 2.2")

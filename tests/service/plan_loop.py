@@ -4,6 +4,7 @@ import os
 import pathlib
 import random
 import subprocess
+from concurrent.futures import ThreadPoolExecutor
 
 REPOSE = pathlib.Path(os.environ.get("REPOSED_BUILD", pathlib.Path(__file__).resolve().parents[2] / "build")).absolute() / "repose"
 FRICTION = "/inputs/contact/friction"
@@ -24,8 +25,8 @@ def run_of(case, results, status=None):
     return run | {"status": status or ("failed" if results is None else "successful"), "results": results}
 
 
-def calibrate(request, model, workers=2, most_rounds=400):
-    """model(case) gives the results of a run, or None where it fails. Returns the answer, the runs and what was printed last."""
+def calibrate(request, model, workers=2, most_rounds=400, at_once=1):
+    """model(case) gives the results of a run, or None where it fails; at_once: how many of them. Returns the answer, the runs and what was printed last."""
     runs = []
     for _ in range(most_rounds):
         code, text = plan({"request": request, "runs": runs, "workers": workers})
@@ -34,7 +35,8 @@ def calibrate(request, model, workers=2, most_rounds=400):
         if said["state"] == "done":
             return said["answer"], runs, text
         assert said["state"] == "runs" and said["cases"], said
-        runs += [run_of(case, model(case)) for case in said["cases"]]
+        with ThreadPoolExecutor(at_once) as pool:
+            runs += [run_of(case, results) for case, results in zip(said["cases"], pool.map(model, said["cases"]))]
     raise AssertionError("the planner does not come to an end")
 
 

@@ -201,6 +201,88 @@ def test_a_heap_beside_a_drum_takes_what_the_base_has_for_both():
     assert heap["inputs"]["particles"] == [{"diameter": 0.004}] and set(heap["inputs"]["contact"]) == {"friction", "rolling_friction"}
 
 
+def test_three_and_four_parameters_are_found_with_the_errors_of_least_squares():
+    names = [FRICTION, ROLLING, "/inputs/contact/restitution", "/inputs/wall/friction"]
+    ranges = [(0.05, 1.0), (0.0, 0.5), (0.3, 0.9), (0.1, 1.1)]
+    truth = [0.4, 0.2, 0.7, 0.5]
+    for count, slopes in ((3, [[20, 10, 0], [5, 40, 5], [0, 10, 30]]), (4, [[20, 10, 0, 0], [5, 40, 5, 0], [0, 10, 30, 5], [5, 0, 5, 20]])):
+        def function(row, values):
+            return 20 + sum(slope * value for slope, value in zip(row, values))
+
+        def model(case):
+            values = [case["parameters"][name] for name in names[:count]]
+            return made_up([lambda m, r: function(slopes[case["test"]], values)] * 4, scatter=0.1, own=0.1)(case | {
+                "parameters": {FRICTION: 0, ROLLING: 0}})
+        request = request_of([function(row, truth) for row in slopes], stop={"jobs": 250})
+        request["parameters"] = {name: {"range": list(ends)} for name, ends in zip(names[:count], ranges)}
+        answer, _, _ = calibrate(request, model)
+        assert answer["status"] == "identified" and len(answer["family"]) == 2 * count + 1
+        errors = 0.6 * np.sqrt(np.diag(np.linalg.inv(np.array(slopes).T @ np.array(slopes))))
+        for name, value, error in zip(names, truth, errors):
+            assert 0.85 * error < answer["credible"][name]["standard_deviation"] < 1.25 * error
+            assert abs(answer["credible"][name]["median"] - value) < 1.5 * error
+
+
+def test_a_curve_is_fitted_point_by_point():
+    """Heaps whose height falls from 20 mm by a slope that follows friction, and rises all over with rolling friction."""
+    def model(case):
+        m, r = case["parameters"][FRICTION], case["parameters"][ROLLING]
+        dice = random.Random(case["request"]["inputs"]["seed"])
+        radius = [0.002 * k for k in range(1, 12)]
+        height = [0.010 + 0.01 * r + 0.5 * m * (0.024 - at) + dice.gauss(0, 5e-5) for at in radius]
+        return {"surface": {"profile": {"radius": radius, "height": height, "standard_error": [1e-4] * len(radius)}}}
+    request = request_of([])
+    request["base"] = {"process": "heap", "inputs": {"tube": {"diameter": 0.03}, "particles": [{"diameter": 0.003}]}}
+    points = [[at, 0.010 + 0.01 * 0.2 + 0.5 * 0.4 * (0.024 - at), 2e-4] for at in (0.003, 0.008, 0.013, 0.018, 0.0215)]
+    request["targets"] = [{"curve": "profile", "points": points}]
+    answer, _, _ = calibrate(request, model)
+    assert answer["status"] == "identified" and len(answer["best"]["targets"]) == 5
+    # Least squares again: 0.5 (0.024 - r) and 0.01 for each point, errors of 0.2 mm.
+    slopes = np.array([[0.5 * (0.024 - at), 0.01] for at, _, _ in points])
+    errors = 2e-4 * np.sqrt(np.diag(np.linalg.inv(slopes.T @ slopes)))
+    for name, value, error in zip((FRICTION, ROLLING), (0.4, 0.2), errors):
+        assert 0.85 * error < answer["credible"][name]["standard_deviation"] < 1.3 * error
+        assert abs(answer["credible"][name]["median"] - value) < error
+
+
+def test_hold_outs_are_predicted_from_the_posterior():
+    request = request_of([30, 35])
+    request["hold_out"] = [
+        {"inputs": {"drum": {"rotation_rate": 2.0}}, "result": "/repose/minimum_deg", "value": 24.0, "standard_error": 0.5},
+        {"inputs": {"drum": {"rotation_rate": 9.0}}, "result": "/repose/angle_deg", "value": 46.0, "standard_error": 0.5},
+        {"inputs": {"drum": {"rotation_rate": 9.0}}, "result": "/repose/other_methods/chord", "value": 60.0, "standard_error": 0.5}]
+
+    def model(case):
+        m, r = case["parameters"][FRICTION], case["parameters"][ROLLING]
+        results = made_up([*LINEAR, lambda m, r: 30 + 20 * m + 40 * r])(case)
+        results["repose"] |= {"minimum_deg": 20 + 10 * m, "other_methods": {"chord": 40 + 10 * m + 5 * r}}
+        return results
+    answer, runs, _ = calibrate(request, model)
+    assert {run["test"] for run in runs if run["stage"] != "verify"} == {0, 1}
+    assert {run["test"] for run in runs if run["stage"] == "verify"} == {0, 1, 2}
+    of_known_runs, of_own_runs, far_off = answer["validation"]
+    assert of_known_runs["predicted_by"].startswith("the emulator") and of_own_runs["predicted_by"].startswith("the runs")
+    assert of_known_runs["predicted"] == pytest.approx(24, abs=0.5) and of_own_runs["predicted"] == pytest.approx(46, abs=1.5)
+    assert abs(of_known_runs["z"]) < 1.5 and abs(of_own_runs["z"]) < 2 and far_off["z"] < -10
+
+
+def test_of_two_tests_that_might_be_next_the_one_that_tells_more_is_first():
+    request = request_of([20 + 60 * 0.09])
+    request["next_tests"] = [
+        {"name": "the same again", "inputs": {"drum": {"rotation_rate": 5.0}}, "result": "/repose/angle_deg", "standard_error": 0.6},
+        {"name": "friction alone", "inputs": {"drum": {"rotation_rate": 6.0}}, "result": "/repose/angle_deg", "standard_error": 0.6}]
+    tests = [lambda m, r: 20 + 60 * m * r, lambda m, r: 22 + 60 * m * r, lambda m, r: 20 + 20 * m]
+    answer, runs, _ = calibrate(request, made_up(tests))
+    assert answer["status"] == "ridge"
+    first, second = answer["next_test"]
+    assert first["name"] == "friction alone" and first["inputs"]["drum"]["rotation_rate"] == 6.0 and first["estimated_seconds"] == 5.0
+    # It tells friction to 0.6 / 20 of some 0.23 along the ridge, and the emulator of five runs takes its part of that.
+    assert 0.5 < first["would_shrink"] < 0.9 and second["would_shrink"] < 0.3
+    request["targets"].append(request["next_tests"].pop() | {"value": 26.0})
+    answer, _, _ = calibrate(request, made_up([tests[0], tests[2], tests[1]]))
+    assert answer["status"] == "identified"
+
+
 def refused(request):
     """Pointers, and the sentences at them."""
     code, text = plan({"request": request})
