@@ -7,7 +7,7 @@
 #include "job_spec.h"
 #include "spec_text.h"
 
-enum { MOST_REPEATS = 20, MOST_JOBS = 10000, USUAL_JOBS = 120 };
+enum { MOST_REPEATS = 20, MOST_JOBS = 10000, USUAL_JOBS = 120, LONGEST_NAME = 200, LONGEST_DESCRIPTION = 2000 };
 
 static void refuse_value(problem_list *problems, const char *pointer, const json_t *value, const char *must)
 {
@@ -164,11 +164,36 @@ static void read_end(plan_request *request, const json_t *document, problem_list
     else if (seed) refuse_value(problems, "/seed", seed, "a whole number in [0, 9007199254740991]");
 }
 
+/* What only names the calibration and its jobs. */
+static void check_names(const json_t *document, problem_list *problems)
+{
+    static const char *const texts[] = { "name", "description" };
+    static const size_t longest[] = { LONGEST_NAME, LONGEST_DESCRIPTION };
+    const json_t *label = json_object_get(document, "label");
+    const char *name;
+    json_t *value;
+    char place[LONGEST_POINTER];
+    for (size_t k = 0; k < 2; k++) {
+        const json_t *text = json_object_get(document, texts[k]);
+        pointer_to_member(place, "", texts[k]);
+        if (text && (!json_is_string(text) || json_string_length(text) == 0 || json_string_length(text) > longest[k]))
+            problem_list_add(problems, place, "must be a text of 1 to %zu bytes", longest[k]);
+    }
+    if (label && !json_is_object(label)) refuse_value(problems, "/label", label, "an object of texts and numbers");
+    json_object_foreach((json_t *)label, name, value)
+    {
+        pointer_to_member(place, "/label", name);
+        if (!json_is_string(value) && !json_is_number(value)) refuse_value(problems, place, value, "a text or a number");
+    }
+    read_priority(json_object_get(document, "priority"), problems);
+}
+
 static void read_all(plan_request *request, const json_t *document, problem_list *problems)
 {
     static const char *const known[] = { "name", "description", "base", "parameters", "targets",  "hold_out", "next_tests",
                                          "stop", "repeats",     "seed", "label",      "priority", NULL };
     refuse_unknown_members(document, "", known, problems);
+    check_names(document, problems);
     const json_t *base = json_object_get(document, "base"), *inputs = json_object_get(base, "inputs");
     if (!json_is_object(base) || !json_is_object(inputs)) {
         refuse_value(problems, json_is_object(base) ? "/base/inputs" : "/base", json_is_object(base) ? inputs : base, "an object");

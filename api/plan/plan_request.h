@@ -71,7 +71,7 @@ bool plan_request_parse(const json_t *document, plan_request *request, problem_l
 void plan_request_clear(plan_request *request);
 
 /* The request of the job that runs the test with these values of the parameters: a number for each, or NULL for none of them.
- * New reference; NULL: no memory. */
+ * A drum that is told nothing of its duration turns until its angle is known twice as well as the best of its targets. New reference; NULL: no memory. */
 json_t *plan_test_request(const plan_request *request, size_t test, const double *values);
 
 /* plan_tests.c, for plan_request.c alone: the test of a target with this process and these inputs, one there is or a new one.

@@ -136,6 +136,21 @@ bool plan_test_add(plan_request *request, const json_t *base, const json_t *targ
     return true;
 }
 
+/* Until its angle is known twice as well as the best of its targets, where the process can do so and the test doesn't say how long
+ * it takes. */
+static void shorten(const plan_request *request, size_t test, const process_type *type, json_t *inputs)
+{
+    double least = INFINITY;
+    for (size_t m = 0; m < request->measures; m++)
+        if (request->measure[m].test == test && strncmp(request->measure[m].pointer, "/repose/", 8) == 0)
+            least = fmin(least, 0.5 * request->measure[m].error);
+    if (!isfinite(least) || json_object_get(inputs, "duration")) return;
+    const spec_field *until = spec_field_find(type->inputs, SPEC_DURATION, "until_standard_error_deg");
+    if (!until) return;
+    json_object_set_new(inputs, "duration",
+                        json_pack("{s:f}", "until_standard_error_deg", fmin(fmax(least, until->minimum), until->maximum)));
+}
+
 json_t *plan_test_request(const plan_request *request, size_t test, const double *values)
 {
     json_t *job = json_deep_copy(request->test[test].request);
@@ -151,7 +166,11 @@ json_t *plan_test_request(const plan_request *request, size_t test, const double
         is_set = json_pointer_set(job, pointer, value);
         json_decref(value);
     }
-    if (is_set) return job;
+    if (is_set) {
+        const process_type *type = process_type_find(json_string_value(json_object_get(job, "process")));
+        shorten(request, test, type, json_object_get(job, "inputs"));
+        return job;
+    }
     json_decref(job);
     return NULL;
 }

@@ -11,10 +11,11 @@
 #define PLANE_VARIANCE 100.0
 /* Keeps the factor from failing where runs say the same without noise. */
 #define JITTER 1e-8
-enum { MOST_EVALUATIONS = 250 };
+enum { MOST_EVALUATIONS = 300 };
 
-/* Of the logarithms of length, variance and scatter: where the weak priors are centred, and how wide they are. */
-static const double length_prior[2] = { -0.22, 1.0 }, variance_prior[2] = { -0.7, 2.0 }, scatter_prior[2] = { -5.0, 3.0 };
+/* Of the logarithms of length, variance, scatter and the factor of own variances: where the weak priors are centred, and how wide they are. */
+static const double length_prior[2] = { -0.22, 1.0 }, variance_prior[2] = { -0.7, 2.0 }, scatter_prior[2] = { -5.0, 3.0 },
+                    own_prior[2] = { 0.0, 1.0 };
 
 static double covariance_of(const emulator *e, const double *a, const double *b)
 {
@@ -34,7 +35,7 @@ static bool factor(emulator *e)
     const size_t n = e->points;
     for (size_t j = 0; j < n; j++) {
         for (size_t i = j; i < n; i++) e->factor[j * n + i] = covariance_of(e, &e->x[i * e->parameters], &e->x[j * e->parameters]);
-        e->factor[j * n + j] += e->noise[j] + e->scatter + JITTER;
+        e->factor[j * n + j] += e->own * e->noise[j] + e->scatter + JITTER;
     }
     if (!cholesky_factor(n, e->factor)) return false;
     memcpy(e->weight, e->y, n * sizeof *e->weight);
@@ -47,6 +48,7 @@ static void take_logarithms(emulator *e, const double *x)
     for (size_t k = 0; k < e->parameters; k++) e->length[k] = exp(x[k]);
     e->variance = exp(x[e->parameters]);
     e->scatter = exp(x[e->parameters + 1]);
+    e->own = exp(x[e->parameters + 2]);
 }
 
 static double penalty(double x, const double prior[2]) { return 0.5 * (x - prior[0]) * (x - prior[0]) / (prior[1] * prior[1]); }
@@ -55,7 +57,8 @@ static double penalty(double x, const double prior[2]) { return 0.5 * (x - prior
 static double misfit(void *context, const double *x)
 {
     emulator *e = context;
-    double sum = penalty(x[e->parameters], variance_prior) + penalty(x[e->parameters + 1], scatter_prior);
+    double sum = penalty(x[e->parameters], variance_prior) + penalty(x[e->parameters + 1], scatter_prior)
+                 + penalty(x[e->parameters + 2], own_prior);
     for (size_t k = 0; k < e->parameters; k++) sum += penalty(x[k], length_prior);
     if (!(sum < 500.0)) return INFINITY;
     take_logarithms(e, x);
@@ -73,7 +76,8 @@ static bool fit_likeliest(emulator *e)
         for (size_t k = 0; k < e->parameters; k++) x[k] = beginning ? 0.7 : -0.5;
         x[e->parameters] = beginning ? -2.0 : 0.0;
         x[e->parameters + 1] = beginning ? -1.5 : -6.0;
-        const double value = simplex_minimize(misfit, e, e->parameters + 2, x, 0.8, 1e-4, MOST_EVALUATIONS);
+        x[e->parameters + 2] = 0.0;
+        const double value = simplex_minimize(misfit, e, e->parameters + 3, x, 0.8, 1e-4, MOST_EVALUATIONS);
         if (value < least) memcpy(best, x, sizeof best);
         least = fmin(least, value);
     }
@@ -99,12 +103,13 @@ bool emulator_fit(emulator *e, size_t parameters, size_t points, const double *x
         return false;
     }
     memcpy(e->x, x, points * parameters * sizeof *x);
-    double squares = 0.0;
+    double squares = 0.0, errors = 0.0;
     for (size_t i = 0; i < points; i++) e->middle += y[i] / (double)points;
     for (size_t i = 0; i < points; i++) squares += (y[i] - e->middle) * (y[i] - e->middle) / (double)points;
-    /* Values that are all the same have no spread of their own. */
+    for (size_t i = 0; i < points; i++) errors += error[i] * error[i] / (double)points;
+    /* Values that are all the same have no spread of their own, but what their errors say. */
     const double floor = 1e-9 * fmax(fabs(e->middle), 1e-300);
-    e->spread = fmax(sqrt(squares), floor);
+    e->spread = fmax(sqrt(fmax(squares, errors)), floor);
     for (size_t i = 0; i < points; i++) {
         e->y[i] = (y[i] - e->middle) / e->spread;
         e->noise[i] = error[i] * error[i] / (e->spread * e->spread);
@@ -125,6 +130,8 @@ void emulator_clear(emulator *e)
 }
 
 double emulator_scatter(const emulator *e) { return sqrt(e->scatter) * e->spread; }
+
+double emulator_run_deviation(const emulator *e, double error) { return hypot(sqrt(e->own) * error, emulator_scatter(e)); }
 
 /* (points,count): covariance of each run with each place. To be freed; NULL: no memory. */
 static double *covariance_with_runs(const emulator *e, size_t count, const double *x)

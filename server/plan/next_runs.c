@@ -50,13 +50,22 @@ static bool covariances(choosing *c)
         if (is_needed && fit->error_in[fit->measure_of[v]] <= PLAN_ENOUGH * fit->measured[v].error) continue;
         c->covariance[v] = malloc(sizeof(double) * PLACES * PLACES);
         if (!c->covariance[v] || !emulator_covariance(e, PLACES, c->x, c->covariance[v])) return false;
-        c->noise[v] = e->scatter * e->spread * e->spread;
-        for (size_t i = 0; i < e->points; i++) c->noise[v] += e->noise[i] * e->spread * e->spread / (double)e->points;
+        c->noise[v] = pow(emulator_run_deviation(e, fit->usual_error[fit->measure_of[v]]), 2.0);
     }
     return true;
 }
 
-/* Where the nearest run of the test has failed, another would. */
+/* Tells any of the targets. */
+static bool has_told(const plan_fit *fit, const plan_run *run)
+{
+    double value, error;
+    for (size_t m = 0; m < fit->request->measures; m++)
+        if (fit->request->measure[m].use == PLAN_FITTED && plan_run_tells(run, &fit->request->measure[m], &value, &error))
+            return true;
+    return false;
+}
+
+/* Where the nearest run of the test has told nothing, another would not. */
 static bool fails_there(const plan_fit *fit, size_t test, const double *x)
 {
     double nearest = INFINITY;
@@ -66,7 +75,7 @@ static bool fails_there(const plan_fit *fit, size_t test, const double *x)
         if (run->test != test || run->stage == STAGE_VERIFY) continue;
         double apart = 0.0;
         for (size_t k = 0; k < fit->request->parameters; k++) apart += (run->x[k] - x[k]) * (run->x[k] - x[k]);
-        if (apart < nearest) has_failed = !run->results;
+        if (apart < nearest) has_failed = !has_told(fit, run);
         nearest = fmin(nearest, apart);
     }
     return has_failed;

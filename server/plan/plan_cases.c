@@ -1,7 +1,5 @@
 #include "plan_cases.h"
 
-#include <assert.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -9,54 +7,6 @@
 #include "even_points.h"
 #include "json_text.h"
 #include "process_type.h"
-
-enum { POINTS_A_PARAMETER = 8, MOST_SETS = 9 };
-
-static size_t tests_for(const plan_request *request, bool fitted_alone)
-{
-    size_t count = 0;
-    for (size_t t = 0; t < request->tests; t++) count += !fitted_alone || request->test[t].use == PLAN_FITTED;
-    return count;
-}
-
-/* Five sets for up to two parameters, seven for three, nine for four; the start comes first, and where few jobs are allowed, it
- * takes seven in ten of them; or all, where those would be fewer points than an emulator begins with. */
-plan_budget plan_budget_make(const plan_request *request)
-{
-    const size_t jobs = (size_t)request->most_jobs, fitted = tests_for(request, true), all = tests_for(request, false);
-    assert(fitted > 0 && all > 0); /* a request without targets is refused */
-    const size_t d = request->parameters, repeats = (size_t)request->repeats;
-    plan_budget budget = { .points = POINTS_A_PARAMETER * d, .repeated = repeats > 1 ? 0 : d + 1 };
-    if (repeats == 1) budget.points -= budget.repeated;
-    const size_t wanted = (budget.points * repeats + budget.repeated) * fitted;
-    if (10 * wanted > 7 * jobs) {
-        budget.repeated = 0;
-        budget.points = 7 * jobs / (10 * fitted * repeats);
-        if (budget.points < d + 3) budget.points = jobs / (fitted * repeats);
-        if (budget.points == 0) budget.points = 1;
-    }
-    const size_t start = (budget.points * repeats + budget.repeated) * fitted;
-    budget.sets = d <= 2 ? 5 : d == 3 ? 7 : MOST_SETS;
-    const size_t left = jobs > start ? (jobs - start) / all : 0;
-    if (budget.sets > left) budget.sets = left;
-    budget.explore = jobs > budget.sets * all ? jobs - budget.sets * all : 0;
-    return budget;
-}
-
-/* Until its angle is known twice as well as the best of its targets, where the process can do so and the test doesn't say how long
- * it takes. */
-static void shorten(const plan_request *request, size_t test, const process_type *type, json_t *inputs)
-{
-    double least = INFINITY;
-    for (size_t m = 0; m < request->measures; m++)
-        if (request->measure[m].test == test && strncmp(request->measure[m].pointer, "/repose/", 8) == 0)
-            least = fmin(least, 0.5 * request->measure[m].error);
-    if (!isfinite(least) || json_object_get(inputs, "duration")) return;
-    const spec_field *until = spec_field_find(type->inputs, SPEC_DURATION, "until_standard_error_deg");
-    if (!until) return;
-    json_object_set_new(inputs, "duration",
-                        json_pack("{s:f}", "until_standard_error_deg", fmin(fmax(least, until->minimum), until->maximum)));
-}
 
 static json_t *label_of(const json_t *document, const char *name)
 {
@@ -81,7 +31,6 @@ static json_t *case_of(const plan_request *request, const json_t *document, cons
     json_t *inputs = json_object_get(job, "inputs");
     const uint64_t seed = mix_bits(mix_bits(request->seed + 1) + (uint64_t)run->number) & LARGEST_WHOLE_NUMBER;
     if (spec_field_find(type->inputs, SPEC_INPUTS, "seed")) json_object_set_new(inputs, "seed", json_integer((json_int_t)seed));
-    shorten(request, run->test, type, inputs);
     snprintf(name, sizeof name, "%s %lld, test %zu", plan_stage_names[run->stage], (long long)run->number, run->test);
     json_object_set_new(job, "label", label_of(document, name));
     for (size_t p = 0; p < request->parameters; p++)

@@ -3,6 +3,27 @@
 #include <math.h>
 #include <stdlib.h>
 
+/* A run that does not tell its error is taken to be as good as the others. */
+static double fill_in_errors(double *error, size_t count)
+{
+    double sum = 0.0;
+    size_t known = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (isnan(error[i])) continue;
+        sum += error[i] * error[i];
+        known++;
+    }
+    const double usual = known ? sqrt(sum / (double)known) : 0.0;
+    for (size_t i = 0; i < count; i++)
+        if (isnan(error[i])) error[i] = usual;
+    return usual;
+}
+
+double plan_fit_run_deviation(const plan_fit *fit, size_t measure, double error)
+{
+    return emulator_run_deviation(&fit->of[measure], isnan(error) ? fit->usual_error[measure] : error);
+}
+
 /* Of all runs of its test that were made to know it, not to verify. */
 static bool fit_measure(plan_fit *fit, size_t m)
 {
@@ -19,6 +40,7 @@ static bool fit_measure(plan_fit *fit, size_t m)
         count++;
     }
     fit->told[m] = count;
+    fit->usual_error[m] = fill_in_errors(error, count);
     emulator_fit(&fit->of[m], d, count, x, y, error);
     free(x);
     return true;

@@ -12,10 +12,11 @@
 typedef struct plan_fit {
     const plan_request *request;
     const plan_table *table;
-    emulator of[PLAN_MOST_MEASURES];     /* points 0: too few runs tell it */
-    size_t told[PLAN_MOST_MEASURES];     /* runs that do */
-    double error_in[PLAN_MOST_MEASURES]; /* root of the mean of the emulator's variance within the posterior */
-    size_t values;                       /* fitted measures that have an emulator */
+    emulator of[PLAN_MOST_MEASURES];        /* points 0: too few runs tell it */
+    size_t told[PLAN_MOST_MEASURES];        /* runs that do */
+    double usual_error[PLAN_MOST_MEASURES]; /* of a run of its own, root mean square; 0: none tells it */
+    double error_in[PLAN_MOST_MEASURES];    /* root of the mean of the emulator's variance within the posterior */
+    size_t values;                          /* fitted measures that have an emulator */
     measured_value measured[PLAN_MOST_MEASURES];
     size_t measure_of[PLAN_MOST_MEASURES]; /* (values) */
     bool is_complete;                      /* every fitted measure has an emulator */
@@ -28,6 +29,8 @@ void plan_fit_clear(plan_fit *fit);
 
 /* The emulators' errors are small beside those of the targets. */
 bool plan_fit_is_enough(const plan_fit *fit);
+/* How far a run may be off the mean over beds: by its own error, or the usual one where it tells none (NaN), and by the scatter. */
+double plan_fit_run_deviation(const plan_fit *fit, size_t measure, double error);
 /* The standard deviation of a parameter over the draws, in its own units. */
 double plan_fit_deviation(const plan_fit *fit, size_t parameter);
 

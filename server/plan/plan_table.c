@@ -93,7 +93,7 @@ bool plan_table_read(const plan_request *request, const json_t *runs, plan_table
         read_run(request, json_array_get(runs, i), i, &table->run[i], problems);
         table->waiting += !table->run[i].is_over;
     }
-    if (!problem_list_is_empty(problems)) return false;
+    if (!table->run || !problem_list_is_empty(problems)) return false;
     qsort(table->run, table->count, sizeof *table->run, by_number);
     for (size_t i = 1; i < table->count; i++)
         if (table->run[i].number == table->run[i - 1].number)
@@ -131,7 +131,7 @@ static bool find_number(const json_t *results, const char *pointer, double *numb
 static double own_error(const json_t *results, const char *pointer)
 {
     char folder[JSON_POINTER_SIZE], at[2 * JSON_POINTER_SIZE + 40];
-    double error = 0.0;
+    double error;
     snprintf(folder, sizeof folder, "%s", pointer);
     char *name = strrchr(folder, '/');
     *name++ = '\0';
@@ -141,7 +141,7 @@ static double own_error(const json_t *results, const char *pointer)
     else if (is_deg) snprintf(at, sizeof at, "%s/%.*s_standard_error_deg", folder, (int)length - 4, name);
     else if (strcmp(folder, "/repose/other_methods") == 0) snprintf(at, sizeof at, "%s_standard_error_deg/%s", folder, name);
     else snprintf(at, sizeof at, "%s/%s_standard_error", folder, name);
-    return strlen(at) < JSON_POINTER_SIZE && find_number(results, at, &error) ? fabs(error) : 0.0;
+    return strlen(at) < JSON_POINTER_SIZE && find_number(results, at, &error) ? fabs(error) : NAN;
 }
 
 /* Between the two entries of the list `across`, which grows, that the place lies between; at its ends, the end's. */
@@ -160,8 +160,9 @@ static bool along_curve(const json_t *curve, const plan_measure *measure, double
     const double from = json_number_value(json_array_get(across, before)), to = json_number_value(json_array_get(across, after));
     const double share = to > from ? fmin(fmax((measure->at - from) / (to - from), 0.0), 1.0) : 0.0;
     *value = (1.0 - share) * json_number_value(ends[0]) + share * json_number_value(ends[1]);
-    *error = (1.0 - share) * json_number_value(json_array_get(errors, before))
-             + share * json_number_value(json_array_get(errors, after));
+    const json_t *own[2] = { json_array_get(errors, before), json_array_get(errors, after) };
+    const bool known = json_is_number(own[0]) && json_is_number(own[1]);
+    *error = known ? (1.0 - share) * json_number_value(own[0]) + share * json_number_value(own[1]) : NAN;
     return true;
 }
 

@@ -38,7 +38,7 @@ size_t plan_table_count(const plan_table *table, plan_stage stage);
 double plan_to_cube(const plan_parameter *parameter, double value);
 double plan_from_cube(const plan_parameter *parameter, double x);
 
-/* What a run says of the measure, and its own standard error of that (0: it tells none). False: it says nothing. */
+/* What a run says of the measure, and its own standard error of that (NaN: it tells none). False: it says nothing. */
 bool plan_run_tells(const plan_run *run, const plan_measure *measure, double *value, double *error);
 
 /* A number of the "run" of its results; fallback where there is none. */

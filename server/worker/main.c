@@ -20,6 +20,7 @@
 #include "job_run.h"
 #include "json_text.h"
 #include "machine_error.h"
+#include "plan_report.h"
 #include "run_profile.h"
 #include "run_summary.h"
 #include "spec_file.h"
@@ -46,7 +47,8 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "    --save-bed                keep the settled bed as bed.hdf, for other jobs of a study that would settle the same\n"
 #define HELP_CHECK                                                                                                                 \
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"              \
-    "                              memory; or every problem it has. Of a study: its cases and what it costs\n"                     \
+    "                              memory; or every problem it has. Of a study: its cases and what it costs; of a\n"               \
+    "                              calibration: its tests and what it takes at most\n"                                             \
     "    --data DIR                where this machine's speed is kept once it is measured (./data where it is there,\n"            \
     "                              else in the user's cache alone)\n"
 #define HELP_CALIBRATE                                                                                                             \
@@ -224,9 +226,10 @@ static enum worker_exit load_spec(const char *name, const char *folder, job_spec
     return exit;
 }
 
-/* What a job's or a study's document would make. New reference; NULL: problems say why. */
+/* What a job's, a study's or a calibration's document would make. New reference; NULL: problems say why. */
 static json_t *check_document(const json_t *document, const calibration *machine, problem_list *problems)
 {
+    if (plan_report_is_calibration(document)) return plan_report(document, machine, problems);
     if (study_report_is_study(document)) return study_report(document, random_seed(), machine, problems);
     job_spec spec;
     if (!job_spec_parse_with(&start_files, NULL, document, random_seed(), &spec, problems)) return NULL;

@@ -2,11 +2,13 @@
 import json
 import math
 import random
+import subprocess
 
 import numpy as np
 import pytest
 
-from plan_loop import FRICTION, ROLLING, calibrate, made_up, plan, request_of, run_of
+from conftest import ready_calibration
+from plan_loop import FRICTION, REPOSE, ROLLING, calibrate, made_up, plan, request_of, run_of
 
 # Two tests that tell both frictions apart.
 LINEAR = [lambda m, r: 20 + 20 * m + 10 * r, lambda m, r: 25 + 5 * m + 40 * r]
@@ -77,6 +79,42 @@ def test_targets_that_contradict_each_other_are_told_by_chi_square():
     # Two at 30 and one at 40, errors of 0.6: the mean is off by 3.33, 3.33 and 6.67; the emulators' errors take a little away.
     assert 120 < answer["best"]["chi_square"] < (2 * 3.333 ** 2 + 6.667 ** 2) / 0.36 + 5
     assert any("contradict" in sentence for sentence in answer["words"])
+
+
+def test_fresh_runs_that_refute_the_emulators_are_said_to():
+    """Where the sets are verified, the tests give what they gave nowhere before."""
+    def model(case):
+        shift = 5 if case["stage"] == "verify" else 0
+        return made_up([lambda m, r: LINEAR[0](m, r) + shift, LINEAR[1]])(case)
+    answer, _, _ = calibrate(request_of([30, 35]), model)
+    assert answer["status"] == "unfinished" and any("not to be trusted" in sentence for sentence in answer["words"])
+    assert all(set_["results"][0]["z"] > 4 for set_ in answer["family"])
+
+
+def test_it_ends_where_parameters_are_known_as_well_as_was_asked():
+    model = made_up(LINEAR, scatter=1.0, own=1.0)
+    _, whole, _ = calibrate(request_of([30, 35], stop={"jobs": 64}), model)
+    asked = {FRICTION: 0.08, ROLLING: 0.04}
+    answer, short, _ = calibrate(request_of([30, 35], stop={"jobs": 64, "standard_error": asked}), model)
+    assert len(short) < len(whole) - 10
+    assert all(answer["credible"][name]["standard_deviation"] <= error for name, error in asked.items())
+
+
+def test_where_a_result_is_missing_no_more_runs_are_made():
+    def model(case):
+        results = made_up(LINEAR, scatter=1.0)(case)
+        if case["parameters"][FRICTION] > 0.3:
+            results["repose"]["angle_deg"] = None
+        return results
+    _, runs, _ = calibrate(request_of([30, 35], stop={"jobs": 70}), model)
+    missing, refined = 0, [run for run in runs if run["stage"] == "refine"]
+    for place, run in enumerate(refined):
+        earlier = [other for other in runs[:32 + 2 * (place // 2)] if other["test"] == run["test"]]
+        nearest = min(earlier, key=lambda other: math.hypot((other["parameters"][FRICTION] - run["parameters"][FRICTION]) / 0.95,
+                                                            (other["parameters"][ROLLING] - run["parameters"][ROLLING]) / 0.5))
+        assert nearest["results"]["repose"]["angle_deg"] is not None
+        missing += run["results"]["repose"]["angle_deg"] is None
+    assert missing  # the values sought are where there is no result: the planner has looked
 
 
 def test_a_parameter_without_effect_is_said_to_have_none():
@@ -297,7 +335,9 @@ def test_a_request_is_refused_whole_with_every_problem():
     request["targets"][1]["result"] = "/repose/colour"
     request["targets"][2]["process"] = "hep"
     request["stop"] = {"jobs": 0, "secnds": 3}
+    request |= {"name": 3, "label": {"lot": [7]}, "priority": 99}
     problems = refused(request)
+    assert {"/request/name", "/request/label/lot", "/request/priority"} <= set(problems)
     assert "/request/targets/0/standard_error" in problems and "/request/targets/1/result" in problems
     assert '"drum", "fill", "heap"' in problems["/request/targets/2/process"]
     assert "/request/stop/jobs" in problems and "/request/stop/secnds" in problems
@@ -323,6 +363,26 @@ def test_a_parameter_that_cannot_be_varied_is_refused(pointer, given, place, wor
     at = "/request/parameters/" + pointer.replace("/", "~1") + place
     problems = refused(request)
     assert list(problems) == [at] and words in problems[at]
+
+
+def test_check_tells_what_a_calibration_takes(tmp_path):
+    request = request_of([30, 35], name="two drums", stop={"jobs": 60})
+    request["base"]["inputs"]["duration"] = {"seconds": 2}
+    request["targets"][1]["inputs"]["duration"] = {"seconds": 4}
+    def check():
+        (tmp_path / "request.json").write_text(json.dumps(request))
+        done = subprocess.run([str(REPOSE), "check", str(tmp_path / "request.json"), "--data", str(tmp_path)], capture_output=True, text=True)
+        return done.returncode, json.loads(done.stdout)
+    ready_calibration()
+    code, said = check()
+    assert code == 0 and said["name"] == "two drums" and [test["targets"] for test in said["tests"]] == [["drum 0"], ["drum 1"]]
+    assert said["estimate"]["jobs"] == 60 and said["estimate"]["wall_seconds"] > 0
+    steps = said["estimate"]["steps"]
+    request["stop"]["jobs"] = 120
+    assert check()[1]["estimate"]["steps"] == pytest.approx(2 * steps, rel=1e-6)
+    request["parameters"][FRICTION]["range"] = [0, 12]
+    code, said = check()
+    assert code == 2 and said["errors"][0]["pointer"].startswith("/parameters/")
 
 
 def test_a_parameter_of_one_target_alone():

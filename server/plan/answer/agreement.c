@@ -8,7 +8,6 @@
 
 enum { PLACES = 2048 };
 #define FARTHEST 3.0
-#define LEAST_PROBABILITY 0.003
 
 /* The incomplete gamma function from a half or from 1 upwards (Abramowitz & Stegun 26.4.4 and 26.4.5). */
 double chi_square_beyond(double chi_square, int degrees)

@@ -4,6 +4,9 @@
 
 #include "plan_fit.h"
 
+/* What chance makes in fewer cases than this is not taken for chance. */
+#define LEAST_PROBABILITY 0.003
+
 typedef struct agreement {
     double chi_square;    /* at the best place, of measurement and emulator errors */
     int degrees;          /* of freedom */

@@ -16,7 +16,7 @@ static const char *status_of(const findings *f)
     bool is_identified = f->shape.islands < 2;
     for (size_t d = 0; d < f->fit->request->parameters; d++) is_identified = is_identified && f->shape.direction[d].is_identified;
     if (f->agreement.is_out || f->agreement.is_contradicted) return "unreachable";
-    if (!plan_fit_is_enough(f->fit)) return "unfinished";
+    if (!plan_fit_is_enough(f->fit) || f->check.is_refuted) return "unfinished";
     return is_identified ? "identified" : "ridge";
 }
 
@@ -208,7 +208,8 @@ json_t *answer_make(const plan_fit *fit, const double *sets, size_t count)
     if (good) *f = (findings){ .fit = fit, .status = "unfinished", .verified = count };
     for (size_t m = 0; good && m < fit->request->measures; m++)
         if (fit->of[m].points > 0) good = sensitivity_measure(&fit->of[m], fit->request->seed, &f->sensitivity[m]);
-    good = good && shape_measure(fit, &f->shape) && agreement_measure(fit, &f->agreement);
+    good = good && shape_measure(fit, &f->shape) && agreement_measure(fit, &f->agreement)
+           && family_compare(fit, sets, count, &f->check);
     json_t *answer = NULL;
     if (good) {
         json_t *parameters = json_array();

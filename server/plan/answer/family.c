@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "agreement.h"
 #include "json_text.h"
 
 static int by_size(const void *a, const void *b)
@@ -94,10 +95,28 @@ static json_t *result_of(const plan_fit *fit, const double *x, const plan_run *r
     double value = NAN, error = NAN, mean = NAN, variance = NAN;
     if (!run || !plan_run_tells(run, &fit->request->measure[m], &value, &error)) value = error = NAN;
     if (e->points > 0 && !emulator_predict(e, 1, x, &mean, &variance)) return NULL;
-    const double scatter = e->points > 0 ? emulator_scatter(e) : 0.0, all = sqrt(error * error + scatter * scatter);
+    const double all = e->points > 0 && !isnan(value) ? plan_fit_run_deviation(fit, m, error) : error;
     return json_pack("{s:s, s:o, s:o, s:o, s:o, s:o}", "target", fit->request->measure[m].name, "result", json_real_or_null(value),
                      "standard_error", json_real_or_null(all), "predicted", json_real_or_null(mean), "predicted_standard_error",
                      json_real_or_null(sqrt(variance)), "z", json_real_or_null((value - mean) / sqrt(all * all + variance)));
+}
+
+bool family_compare(const plan_fit *fit, const double *sets, size_t count, family_check *check)
+{
+    *check = (family_check){ .runs = 0 };
+    for (size_t s = 0; s < count; s++)
+        for (size_t v = 0; v < fit->values; v++) {
+            const size_t m = fit->measure_of[v];
+            const plan_run *run = family_run(fit, s, fit->request->measure[m].test);
+            double value, error, mean, variance;
+            if (!run || !plan_run_tells(run, &fit->request->measure[m], &value, &error)) continue;
+            if (!emulator_predict(&fit->of[m], 1, &sets[s * fit->request->parameters], &mean, &variance)) return false;
+            const double all = pow(plan_fit_run_deviation(fit, m, error), 2.0) + variance;
+            check->chi_square += (value - mean) * (value - mean) / all;
+            check->runs++;
+        }
+    check->is_refuted = check->runs > 0 && chi_square_beyond(check->chi_square, check->runs) < LEAST_PROBABILITY;
+    return true;
 }
 
 json_t *family_to_json(const plan_fit *fit, const double *sets, size_t count)

@@ -15,6 +15,13 @@ const plan_run *family_run(const plan_fit *fit, size_t set, size_t test);
 
 /* New references, NULL: no memory. Each set with what its runs gave beside what was foretold; and each hold-out. */
 json_t *family_to_json(const plan_fit *fit, const double *sets, size_t count);
+/* How far the family's runs are off what the emulators of the targets foretold for them. */
+typedef struct family_check {
+    double chi_square;
+    int runs;        /* values that were compared */
+    bool is_refuted; /* chance makes so much in fewer than 3 of 1000 cases */
+} family_check;
+bool family_compare(const plan_fit *fit, const double *sets, size_t count, family_check *check);
 json_t *validation_to_json(const plan_fit *fit, size_t count);
 /* {pointer: value} at a place of the unit cube. */
 json_t *parameters_to_json(const plan_request *request, const double *x);

@@ -18,6 +18,7 @@ static bool emulate(const plan_fit *fit, size_t m, const double *sets, size_t co
         const plan_run *run = family_run(fit, s, fit->request->measure[m].test);
         if (!run || !plan_run_tells(run, &fit->request->measure[m], &y[told], &error[told])) continue;
         for (size_t k = 0; k < d; k++) x[told * d + k] = sets[s * d + k];
+        if (isnan(error[told])) error[told] = 0.0;
         told++;
     }
     return told >= LEAST_RUNS && told > d + 1 && emulator_fit(e, d, told, x, y, error);

@@ -164,6 +164,16 @@ static void say_failed(const findings *f, json_t *words)
                                 failed, f->fit->table->count));
 }
 
+static void say_verified(const findings *f, json_t *words)
+{
+    if (f->verified == 0) say(words, json_string("Nothing was verified by fresh runs: no jobs were left for it."));
+    if (f->check.is_refuted)
+        say(words,
+            json_sprintf("The fresh runs differ from what the emulators foretold by more than their errors (chi square %.3g of %d "
+                         "values): the tests vary in ways that these runs have not caught, and the posterior is not to be trusted.",
+                         f->check.chi_square, f->check.runs));
+}
+
 json_t *words_of_answer(const findings *f)
 {
     json_t *words = json_array();
@@ -177,6 +187,6 @@ json_t *words_of_answer(const findings *f)
     }
     say_effects(f, words);
     say_failed(f, words);
-    if (f->verified == 0) say(words, json_string("Nothing was verified by fresh runs: no jobs were left for it."));
+    say_verified(f, words);
     return words;
 }

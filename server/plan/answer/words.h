@@ -3,6 +3,7 @@
 #define WORDS_H
 
 #include "agreement.h"
+#include "family.h"
 #include "sensitivity.h"
 #include "shape.h"
 
@@ -13,6 +14,7 @@ typedef struct findings {
     sensitivity sensitivity[PLAN_MOST_MEASURES]; /* of the measures that have an emulator */
     const char *status;
     size_t verified; /* sets */
+    family_check check;
 } findings;
 
 /* A list of sentences: why the status is what it is, and what else there is to know. New reference. */

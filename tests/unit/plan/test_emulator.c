@@ -69,7 +69,7 @@ static double solve(const emulator *e, const runs *r, size_t left_out, const dou
         for (size_t j = 0; j < RUNS; j++) {
             if (j == left_out) continue;
             m[row][column] = kernel(e, &r->x[2 * i], &r->x[2 * j]);
-            if (i == j) m[row][column] += r->error[i] * r->error[i] + e->spread * e->spread * (e->scatter + 1e-8);
+            if (i == j) m[row][column] += e->own * r->error[i] * r->error[i] + e->spread * e->spread * (e->scatter + 1e-8);
             column++;
         }
         m[row++][column] = right[i];
@@ -143,7 +143,7 @@ static void leaving_one_out_is_as_if_it_had_not_been(void **state)
     for (size_t i = 0; i < RUNS; i++) {
         double mean, variance;
         mean_and_variance(&e, &r, i, &r.x[2 * i], &mean, &variance);
-        const double all = variance + r.error[i] * r.error[i] + emulator_scatter(&e) * emulator_scatter(&e);
+        const double all = variance + e.own * r.error[i] * r.error[i] + emulator_scatter(&e) * emulator_scatter(&e);
         CHECK_NEAR(deviation[i], (r.y[i] - mean) / sqrt(all), 1e-4);
     }
     emulator_clear(&e);
@@ -157,6 +157,7 @@ static double misfit(const emulator *e, const runs *r)
     double sum = 0.5 * solve(e, r, RUNS, right, weight);
     for (size_t i = 0; i < RUNS; i++) sum += 0.5 * right[i] * weight[i];
     for (size_t k = 0; k < 2; k++) sum += 0.5 * pow(log(e->length[k]) + 0.22, 2);
+    sum += 0.5 * pow(log(e->own), 2);
     return sum + 0.5 * pow((log(e->variance) + 0.7) / 2, 2) + 0.5 * pow((log(e->scatter) + 5) / 3, 2);
 }
 
@@ -166,8 +167,8 @@ static void no_other_lengths_or_variances_are_likelier(void **state)
     const runs r = some_runs();
     emulator e = fitted(&r);
     const double least = misfit(&e, &r);
-    double *const numbers[] = { &e.length[0], &e.length[1], &e.variance, &e.scatter };
-    for (size_t k = 0; k < 4; k++)
+    double *const numbers[] = { &e.length[0], &e.length[1], &e.variance, &e.scatter, &e.own };
+    for (size_t k = 0; k < 5; k++)
         for (int side = -1; side <= 1; side += 2) {
             const double kept = *numbers[k];
             *numbers[k] *= exp(0.3 * side);
@@ -191,6 +192,25 @@ static void repeats_tell_the_scatter_from_bed_to_bed(void **state)
     emulator e;
     assert_true(emulator_fit(&e, 1, 60, x, y, error));
     CHECK_BETWEEN(emulator_scatter(&e), 0.7 * 0.75, 0.7 * 1.25); /* of 60 numbers, a tenth is one standard deviation */
+    emulator_clear(&e);
+}
+
+/* The runs scatter by 0.2 and claim 0.5. */
+static void errors_that_are_told_too_large_are_found_out(void **state)
+{
+    (void)state;
+    double x[80], y[80], error[80];
+    dice d = { 8 };
+    for (size_t i = 0; i < 80; i++) {
+        x[i] = (double)(i / 2) / 40;
+        double normal = 0;
+        for (int k = 0; k < 12; k++) normal += dice_uniform(&d, -0.5, 0.5);
+        error[i] = dice_uniform(&d, 0.4, 0.6);
+        y[i] = 5 * x[i] + 0.4 * error[i] * normal;
+    }
+    emulator e;
+    assert_true(emulator_fit(&e, 1, 80, x, y, error));
+    CHECK_BETWEEN(emulator_run_deviation(&e, 0.5), 0.2 * 0.75, 0.2 * 1.25);
     emulator_clear(&e);
 }
 
@@ -237,4 +257,5 @@ static void sensitivities_are_those_of_ishigamis_function(void **state)
 
 UNIT_TESTS(predictions_are_those_of_the_equations, covariances_have_the_variances_on_their_diagonal,
            leaving_one_out_is_as_if_it_had_not_been, no_other_lengths_or_variances_are_likelier,
-           repeats_tell_the_scatter_from_bed_to_bed, too_few_points_make_no_emulator, sensitivities_are_those_of_ishigamis_function)
+           repeats_tell_the_scatter_from_bed_to_bed, errors_that_are_told_too_large_are_found_out, too_few_points_make_no_emulator,
+           sensitivities_are_those_of_ishigamis_function)

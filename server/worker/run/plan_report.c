@@ -1,0 +1,43 @@
+#include "plan_report.h"
+
+#include "plan_budget.h"
+#include "process_type.h"
+
+bool plan_report_is_calibration(const json_t *document) { return json_object_get(document, "targets") != NULL; }
+
+static json_t *targets_of(const plan_request *request, size_t test)
+{
+    json_t *targets = json_array();
+    for (size_t m = 0; m < request->measures; m++)
+        if (request->measure[m].test == test) json_array_append_new(targets, json_string(request->measure[m].name));
+    return targets;
+}
+
+static json_t *tests_of(const plan_request *request)
+{
+    json_t *tests = json_array();
+    for (size_t t = 0; t < request->tests; t++) {
+        json_t *test = plan_test_request(request, t, NULL);
+        if (test) json_object_set_new(test, "targets", targets_of(request, t));
+        json_array_append_new(tests, test);
+    }
+    return tests;
+}
+
+json_t *plan_report(const json_t *document, const calibration *machine, problem_list *problems)
+{
+    plan_request request;
+    json_t *report = NULL;
+    if (plan_request_parse(document, &request, problems)) {
+        const plan_estimate estimate = plan_estimate_make(&request, machine);
+        const json_t *name = json_object_get(document, "name");
+        char words[TIME_IN_WORDS_SIZE];
+        time_in_words(estimate.wall_seconds, words);
+        report = json_pack("{s:s, s:O, s:o, s:{s:I, s:I, s:f, s:s}}", "name", name ? json_string_value(name) : "calibration",
+                           "parameters", json_object_get(document, "parameters"), "tests", tests_of(&request), "estimate", "jobs",
+                           (json_int_t)(estimate.jobs + 0.5), "steps", (json_int_t)estimate.steps, "wall_seconds",
+                           estimate.wall_seconds, "wall_time", words);
+    }
+    plan_request_clear(&request);
+    return report;
+}
