@@ -72,6 +72,12 @@ dem_status dem_frame_measure(dem_scene *scene, double *frame);
  * Errors: DEM_TOO_FEW_FRAMES (fewer than 8), DEM_NO_MEMORY. */
 dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results);
 
+/* The same of one stage of the drum's rotation alone, as if it were a run of its own that turns the positive way: of a stage with a
+ * rate below 0 the frames are mirrored. Of a stage of rest there is neither verdict nor regime, and its angles have no error.
+ * dem_drum_results_measure of a drum with stages gives the last one in which it turns. */
+dem_status dem_drum_stage_measure(const dem_scene *scene, size_t stage, const double *frames, size_t count,
+                                  dem_drum_results *results);
+
 /* Fields over the cross-section, averaged over frames: the caller keeps a table of dem_fields_size numbers, all zero at
  * first, adds to it at regular intervals while the drum rotates, and asks for the fields at the end. The grid has
  * dem_fields_cells a side, over the drum's diameter. */

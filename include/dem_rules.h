@@ -165,6 +165,11 @@ double dem_memory_estimate(double sphere_count);
 double dem_field_cells(double drum_diameter, double mean_diameter, double particles);
 
 /* Of particles, walls, ends or plate: then every contact carries a moment. */
+/* Which stage of its rotation a drum is in that long after rotation began. since: becomes when it began, s. */
+size_t dem_stage_at(const dem_scene_definition *definition, double time, double *since);
+/* The last stage in which it turns; where there is none, or there are no stages: stage_count. since: likewise. */
+size_t dem_last_turning_stage(const dem_scene_definition *definition, double *since);
+
 bool dem_has_rolling_friction(const dem_scene_definition *d);
 
 #endif

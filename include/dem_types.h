@@ -167,7 +167,14 @@ typedef struct dem_lifters {
     double height; /* m, from the wall towards the axis */
     double width;  /* m, across */
     double friction;
+    double angle; /* rad, from the radius at the bar's foot; more than 0: its top leans the way that a positive rate turns */
 } dem_lifters;
+
+/* A stage of a drum's rotation. */
+typedef struct dem_rotation_stage {
+    double rate;    /* rad/s; 0: the drum stands still */
+    double seconds; /* of the last one: until the run ends */
+} dem_rotation_stage;
 
 /* How the tube is raised, from when the bed in it is at rest (DEM_PHASE_RUNNING) on. */
 typedef struct dem_lift {
@@ -189,7 +196,7 @@ typedef struct dem_stream {
     double impact_speed; /* m/s, at the level of the bed */
 } dem_stream;
 
-enum { DEM_MAXIMUM_LIFTERS = 64 };
+enum { DEM_MAXIMUM_LIFTERS = 64, DEM_MAXIMUM_STAGES = 64 };
 
 typedef struct dem_scene_definition {
     dem_container_kind container;
@@ -201,8 +208,11 @@ typedef struct dem_scene_definition {
     dem_lift lift;        /* of the tube alone */
     dem_plate plate;      /* of the tube alone; a cylinder's floor has ends.friction */
     dem_stream stream;    /* of the cylinder alone */
-    double rotation_rate; /* rad/s; the drum's */
+    double rotation_rate; /* rad/s; the drum's, where it has no stages */
+    size_t stage_count;   /* of the drum's rotation, one after the other; 0: it turns at one rate */
+    dem_rotation_stage stage[DEM_MAXIMUM_STAGES];
     double gravity;       /* m/s2 */
+    double tilt;          /* rad, of a drum's axis from the horizontal, its end at -z being the lower one; 0 without end walls */
     double fill_fraction; /* share of the cross-section below the free surface at a bed solid fraction of 0.6 */
     size_t particle_count;
     size_t species_count;

@@ -1,6 +1,6 @@
 // The results of a run in readable form.
 import { h } from './dom.js';
-import { count, degrees, NO_ANGLE, regimeInWords, verdictInWords } from './format.js';
+import { count, degrees, NO_ANGLE, regimeInWords, significant, verdictInWords } from './format.js';
 import { drumPicture } from './drum_picture.js';
 import { inWords, METHODS } from './words.js';
 
@@ -58,14 +58,27 @@ export function answer(repose, regime, summary) {
       h('span', null, [regime?.name && regimeInWords(regime.name, regime.certain), verdictInWords(repose)].filter(Boolean).join(', '))));
 }
 
+// A row a stage of the drum's rotation.
+function stageTable(stages) {
+  return h('section', null, h('h3', null, 'Stages'),
+    h('table', { class: 'methods' },
+      h('thead', null, h('tr', null, ['rate', 'from', 'to', 'angle ± standard error', 'regime', 'verdict'].map(name => h('th', { scope: 'col' }, name)))),
+      h('tbody', null, stages.map(stage => h('tr', null,
+        h('th', { scope: 'row' }, `${significant(stage.rate, 4)} rad/s`),
+        [`${significant(stage.from, 4)} s`, `${significant(stage.to, 4)} s`,
+          stage.angle_deg === null ? NO_ANGLE : degrees(stage.angle_deg, stage.standard_error_deg),
+          stage.regime ?? '', stage.verdict ?? ''].map(text => h('td', null, text)))))));
+}
+
 export function resultsInWords(results, schemas) {
-  const { repose = {}, regime = {}, segregation, packing, drive, run, ...others } = results;
+  const { repose = {}, regime = {}, segregation, packing, drive, run, stages = [], ...others } = results;
   const hidden = ['angle_deg', 'standard_error_deg', 'minimum_deg', 'maximum_deg', 'method'];
   const rest = Object.fromEntries(Object.entries(repose).filter(([name]) => !hidden.includes(name)));
   const of = (output, group) => group ? schemas[output]?.properties?.[group] : schemas[output];
   return h('div', { class: 'results' },
     section('Angle of repose', { ...rest, ...repose.window },
       { properties: { ...of('repose')?.properties, ...of('repose', 'window')?.properties } }, angleTable(repose)),
+    stages.length ? stageTable(stages) : null,
     repose.slumps?.count ? section('Slumps', repose.slumps, of('repose', 'slumps')) : null,
     section('Regime', { name: regime.name, ...regime }, of('regime')),
     isRecord(regime.predicted) ? section('Predicted boundaries of ω²R/g', regime.predicted, of('regime', 'predicted')) : null,

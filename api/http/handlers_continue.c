@@ -35,11 +35,27 @@ static void check_members(const json_t *wanted, problem_list *problems)
     if (label && !json_is_object(label)) problem_list_add(problems, "/label", "must be an object of texts and numbers");
 }
 
+/* A drum that turned in stages goes on at the rate of the last that turned the way of the first, which contacts remember. */
+static void end_stages(json_t *drum)
+{
+    size_t k;
+    json_t *stage, *rate = NULL;
+    json_array_foreach(json_object_get(drum, "rotation"), k, stage)
+    {
+        json_t *const one = json_object_get(stage, "rate");
+        const double value = json_number_value(one);
+        if (rate ? value * json_number_value(rate) > 0.0 : fabs(value) > 0.0) rate = one;
+    }
+    if (rate) json_object_set(drum, "rotation_rate", rate);
+    json_object_del(drum, "rotation");
+}
+
 /* In place of how long the parent ran, and at which rate. */
 static void set_wanted(json_t *inputs, const json_t *wanted)
 {
     json_t *drum = json_object_get(inputs, "drum");
     json_object_set_new(inputs, "duration", json_object());
+    end_stages(drum);
     for (int m = 0; m < MEMBERS; m++) {
         json_t *value = json_object_get(wanted, members[m].name);
         if (!value) continue;

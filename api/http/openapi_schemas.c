@@ -45,7 +45,8 @@ static json_t *results_of_any(void)
 static void close_objects(json_t *schema)
 {
     const char *name;
-    json_t *member, *properties = json_object_get(schema, "properties");
+    json_t *member, *properties = json_object_get(schema, "properties"), *items = json_object_get(schema, "items");
+    if (items && !json_object_get(items, "required")) close_objects(items); /* an output that is a list */
     if (!properties) return;
     json_t *required = json_array();
     json_object_foreach(properties, name, member)

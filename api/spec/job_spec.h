@@ -62,6 +62,11 @@ typedef struct pair_inputs {
     cohesion_inputs cohesion;
 } pair_inputs;
 
+/* A stage of a drum's rotation; NaN: not given. */
+typedef struct stage_inputs {
+    double rate, revolutions, seconds; /* one of the last two */
+} stage_inputs;
+
 /* A particle of a bed that is given particle by particle. */
 typedef struct start_particle {
     double position[3], velocity[3], angular_velocity[3];
@@ -100,6 +105,9 @@ typedef struct scene_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
     double rotation_rate_rpm; /* given instead; NaN once rotation_rate is set by it */
     double rate_was_rpm;      /* NaN: it was not */
+    size_t stage_count;       /* with stages there is no rotation_rate */
+    stage_inputs *stages;     /* (stage_count) owned */
+    double tilt_deg;
     size_t species_count;
     species_inputs species[DEM_MAXIMUM_SPECIES];
     double share_by; /* a share_basis */
@@ -118,8 +126,9 @@ typedef struct scene_inputs {
     double poissons_ratio, steps_per_contact;
     double wall_friction, wall_rolling_friction, end_friction, end_rolling_friction, lining_diameter, lining_pitch;
     double lifter_count, lifter_height, lifter_width, lifter_friction; /* NaN: no lifters */
-    double revolutions, seconds, until_standard_error;                 /* one of the three */
-    double at_most_revolutions;                                        /* beside the last */
+    double lifter_angle_deg;
+    double revolutions, seconds, until_standard_error; /* one of the three */
+    double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
     double seed, threads, gravity, corrector_passes;
     double precision; /* 0: single, 1: double */
@@ -163,10 +172,11 @@ typedef struct job_spec {
     json_t *subscriber; /* who is called back (subscriber.h), owned; NULL: nobody. Likewise */
 
     /* Of all that advance a scene: */
-    scene_inputs inputs;         /* as asked for */
-    dem_scene_definition scene;  /* the scene, complete: stiffness, time step and particle count derived */
-    bool is_mirrored;            /* rotation_rate is below 0: the scene is the mirror image, x for -x, of what was asked for */
-    double maximum_overlap;      /* asked for, share of the smallest diameter; 0: stiffness was given */
+    scene_inputs inputs;        /* as asked for */
+    dem_scene_definition scene; /* the scene, complete: stiffness, time step and particle count derived */
+    double rotation_rate;       /* rad/s, as asked for; of a drum with stages the fastest */
+    bool is_mirrored;       /* it turns first with a rate below 0: the scene is the mirror image, x for -x, of what was asked for */
+    double maximum_overlap; /* asked for, share of the smallest diameter; 0: stiffness was given */
     double expected_overlap;     /* of the hardest impact, likewise; follows from the stiffness where that was given */
     double bond_number;          /* largest pull-off between particles over the weight of the mean one; NaN: nothing coheres */
     double duration;             /* s from when rotation, filling or lifting starts; at most, where the run ends by itself */

@@ -111,6 +111,22 @@ static json_t *exclusion(const spec_field *field, const char *other)
     return json_pack("{s:{s:[s, s]}}", "not", "required", field->name, other);
 }
 
+/* A required field or what spares it. */
+static json_t *one_of_siblings(const spec_field *field)
+{
+    const char *const names[] = { field->name, field->spared_by, field->spared_by_too };
+    json_t *list = json_array();
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (names[k]) json_array_append_new(list, json_pack("{s:[s]}", "required", names[k]));
+    return json_pack("{s:o}", "anyOf", list);
+}
+
+static bool is_list(const spec_table *table, spec_group group, const char *name)
+{
+    const spec_field *field = spec_field_find(table, group, name);
+    return field && field->kind == FIELD_LONG_LIST;
+}
+
 static json_t *group_schema(const spec_table *table, spec_group group)
 {
     json_t *properties = json_object(), *required = json_array(), *exclusions = json_array();
@@ -120,10 +136,9 @@ static json_t *group_schema(const spec_table *table, spec_group group)
         json_object_set_new(properties, field->name, field_schema(table, field));
         if (field->required && !field->spared_by) json_array_append_new(required, json_string(field->name));
         const spec_field *other = field->required && field->spared_by ? spec_field_find(table, group, field->spared_by) : NULL;
-        if (other && other->kind == FIELD_REAL)
-            json_array_append_new(exclusions,
-                                  json_pack("{s:[{s:[s]}, {s:[s]}]}", "anyOf", "required", field->name, "required", other->name));
-        if (field->excludes && !isnan(field->fallback)) json_array_append_new(exclusions, exclusion(field, field->excludes));
+        if (other && other->kind == FIELD_REAL) json_array_append_new(exclusions, one_of_siblings(field));
+        if (field->excludes && (!isnan(field->fallback) || is_list(table, group, field->excludes)))
+            json_array_append_new(exclusions, exclusion(field, field->excludes));
         if (field->excludes_too) json_array_append_new(exclusions, exclusion(field, field->excludes_too));
     }
     json_t *schema = json_pack("{s:s, s:o, s:b}", "type", "object", "properties", properties, "additionalProperties", 0);

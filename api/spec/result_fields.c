@@ -55,20 +55,29 @@ static json_t *properties_of(json_t *properties, const char *group)
     return json_object_get(json_object_get(properties, group), "properties");
 }
 
+static json_t *schema_of_members(const result_table *table, const char *output)
+{
+    json_t *properties = json_object();
+    if (table->describe_words) table->describe_words(properties, output);
+    for (size_t f = 0; f < table->count; f++) {
+        const result_field *field = &table->field[f];
+        if (strcmp(field->output, output) != 0) continue;
+        json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field));
+    }
+    return json_pack("{s:s, s:o}", "type", "object", "properties", properties);
+}
+
 json_t *result_outputs_description(const result_table *table)
 {
     json_t *description = json_object();
     for (size_t o = 0; o < table->output_count; o++) {
-        json_t *properties = json_object();
-        if (table->describe_words) table->describe_words(properties, table->output[o].name);
-        for (size_t f = 0; f < table->count; f++) {
-            const result_field *field = &table->field[f];
-            if (strcmp(field->output, table->output[o].name) != 0) continue;
-            json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field));
-        }
-        json_object_set_new(description, table->output[o].name,
-                            json_pack("{s:s, s:s, s:{s:s, s:o}}", "title", table->output[o].name, "description",
-                                      table->output[o].meaning, "schema", "type", "object", "properties", properties));
+        const result_output *output = &table->output[o];
+        const bool is_list = table->list && strcmp(table->list, output->name) == 0;
+        json_t *schema = is_list
+                             ? json_pack("{s:s, s:o}", "type", "array", "items", schema_of_members(table->entries, output->name))
+                             : schema_of_members(table, output->name);
+        json_object_set_new(description, output->name,
+                            json_pack("{s:s, s:s, s:o}", "title", output->name, "description", output->meaning, "schema", schema));
     }
     return description;
 }

@@ -52,7 +52,9 @@ typedef struct result_table {
     size_t output_count;
     /* Describes members of an output that are not in the table; NULL: there are none. */
     void (*describe_words)(json_t *properties, const char *output);
-    const char *const *other_angles; /* definitions in other_methods of repose, ends with NULL; NULL: there are none */
+    const char *list;                   /* the output that is a list of objects, not an object; NULL: there is none */
+    const struct result_table *entries; /* what each of these has */
+    const char *const *other_angles;    /* definitions in other_methods of repose, ends with NULL; NULL: there are none */
 } result_table;
 
 /* Its rows and its outputs, of two arrays. */

@@ -35,8 +35,8 @@ static bool settles(const job_spec *spec)
 char *spec_bed_text(const job_spec *spec)
 {
     if (!settles(spec)) return NULL;
-    /* Spheres are their own mirror image. */
-    const bool is_mirrored = spec->is_mirrored && has_clusters(&spec->scene);
+    /* Spheres are their own mirror image, and so are bars along the radius. */
+    const bool is_mirrored = spec->is_mirrored && (has_clusters(&spec->scene) || spec->scene.lifters.angle != 0.0);
     json_t *bed =
         json_pack("{s:s, s:o, s:o, s:b}", "process", spec->process, "inputs", spec_inputs_of_bed(spec->type->inputs, &spec->inputs),
                   "derived", derived_numbers(&spec->scene), "mirrored", is_mirrored);

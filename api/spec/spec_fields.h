@@ -33,7 +33,8 @@ typedef enum spec_group {
     SPEC_CONTACT_COHESION,
     SPEC_WALL_COHESION,
     SPEC_PAIR_COHESION,
-    SPEC_SIZES
+    SPEC_SIZES,
+    SPEC_ROTATION
 } spec_group;
 
 typedef enum field_kind {
@@ -74,7 +75,7 @@ typedef struct spec_field {
     spec_group child; /* objects and lists: whose members they hold */
     bool required;
     const char *spared_by;              /* a required field: the sibling that, given as an object or a number, makes it optional */
-    const char *spared_by_too;          /* another such sibling */
+    const char *spared_by_too;          /* another such sibling, or a list */
     const char *unit;                   /* "" for a pure number */
     double minimum, maximum;            /* lists: of their length */
     bool minimum_open;                  /* the minimum itself is not allowed */

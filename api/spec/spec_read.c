@@ -317,7 +317,7 @@ static double read_true(const json_t *value, const char *pointer, problem_list *
 static bool is_spared(const char *by, const json_t *object)
 {
     const json_t *sparing = by ? json_object_get(object, by) : NULL;
-    return json_is_object(sparing) || json_is_number(sparing);
+    return json_is_object(sparing) || json_is_array(sparing) || json_is_number(sparing);
 }
 
 /* A member that has a number or a word; the other of two alternatives stays NaN. */

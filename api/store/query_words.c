@@ -10,6 +10,7 @@ static const table_row tables[] = {
     { "run_summary", "one row a run of any process that has ended well or failed: what it was given and what came out" },
     { "job_input", "one row an input of a job: its value, its default, and whether the request had it" },
     { "input_field", "one row an input of a process, as job_input has them" },
+    { "stage", "one row a stage of a drum's rotation, of jobs that have ended well" },
     { "job", "one row a job" },
     { "study", "one row a study" },
     { "study_case", "one row a case of a study" },
@@ -43,6 +44,7 @@ static const column_row rows[] = {
     { "study_case", "name", "", "its name" },
     { "study_case", "inputs", "", "JSON: the inputs in which cases differ" },
     { "study_case", "label", "", "JSON: the label of its jobs" },
+    { "stage", "number", "", "which stage of the job it is, from 0" },
     { "sample", "number", "", "which sample of the job it is, from 0" },
     { "sample", "measures", "", "JSON: what was measured" },
     { "sample", "angle_deg", "degrees", "of them the angle" },
@@ -144,11 +146,25 @@ static bool is_other_angle(const char *column, bool *is_error)
     return false;
 }
 
+static const result_field *find_entry(const char *column)
+{
+    for (size_t p = 0; process_types[p]; p++) {
+        const result_table *entries = process_types[p]->results->entries;
+        for (size_t f = 0; entries && f < entries->count; f++) {
+            const result_field *field = &entries->field[f];
+            if (strcmp(field->view_name ? field->view_name : field->name, column) == 0) return field;
+        }
+    }
+    return NULL;
+}
+
 column_words query_column_words(const field_columns *columns, const char *table, const char *column)
 {
     const field_column *field = find_field(columns, table, column);
     if (field && field->input) return (column_words){ field->input->unit ? field->input->unit : "", field->input->meaning };
     if (field) return (column_words){ field->result->unit ? field->result->unit : "", field->result->meaning };
+    const result_field *entry = strcmp(table, "stage") == 0 ? find_entry(column) : NULL;
+    if (entry) return (column_words){ entry->unit, entry->meaning };
     for (size_t r = 0; r < sizeof rows / sizeof rows[0]; r++)
         if ((!*rows[r].table || strcmp(rows[r].table, table) == 0) && strcmp(rows[r].column, column) == 0)
             return (column_words){ rows[r].unit, rows[r].meaning };

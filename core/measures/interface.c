@@ -41,6 +41,29 @@ void interface_set(const dem_scene *scene, const surface_heights *surface, doubl
     }
 }
 
+static void exchange(double *a, double *b)
+{
+    const double kept = *a;
+    *a = *b;
+    *b = kept;
+}
+
+/* Columns are as far from the middle on either side. */
+void interface_mirror(const dem_scene *scene, double *frame)
+{
+    const interface_layout layout = layout_of(scene);
+    double *numbers = frame + DEM_FRAME_SCALARS;
+    size_t count = layout.columns;
+    if (layout.is_sparse)
+        for (count = 0; count < layout.pairs && !isnan(numbers[2 * count]);) count++;
+    for (size_t k = 0; k < count / 2; k++) {
+        const size_t other = count - 1 - k;
+        if (!layout.is_sparse) exchange(&numbers[k], &numbers[other]);
+        else exchange(&numbers[2 * k], &numbers[2 * other]), exchange(&numbers[2 * k + 1], &numbers[2 * other + 1]);
+    }
+    for (size_t k = 0; layout.is_sparse && k < count; k++) numbers[2 * k] = (double)layout.columns - 1 - numbers[2 * k];
+}
+
 /* Pairs are ascending, and NaN behind the last. */
 static double height_in_frame(const interface_layout *layout, const double *frame, size_t column)
 {

@@ -15,4 +15,7 @@ double interface_chord_angle(const dem_scene *scene, const frame_window *window)
 /* m, deviation in time of the height of a column, averaged over those nearer than `reach` (m) to the axis; NaN: none. */
 double interface_fluctuation(const dem_scene *scene, const frame_window *window, double reach);
 
+/* The interface of a frame seen in a mirror, x for -x. Errors: none. */
+void interface_mirror(const dem_scene *scene, double *frame);
+
 #endif

@@ -172,7 +172,7 @@ static void claim_what_a_repeat_would_show(const dem_scene *scene, const frame_w
     slumps->start_deg.standard_error = slumps->stop_deg.standard_error = slumps->size_deg.standard_error = NAN;
 }
 
-dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results)
+dem_status measure_results(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results)
 {
     enum { LEAST_FRAMES = 8 };
     if (count < LEAST_FRAMES) return DEM_TOO_FEW_FRAMES;
@@ -194,4 +194,11 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
     measure_drive_results(scene, &window, &results->drive);
     claim_what_a_repeat_would_show(scene, &window, results);
     return arrays_end(measure_segregation_results(scene, &results->segregation));
+}
+
+dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results)
+{
+    double since;
+    if (scene->definition.stage_count == 0) return measure_results(scene, frames, count, results);
+    return dem_drum_stage_measure(scene, dem_last_turning_stage(&scene->definition, &since), frames, count, results);
 }

@@ -90,4 +90,7 @@ dem_status measure_slumps(const double *time, const double *angle, size_t count,
 double measure_radial_index(const dem_scene *scene);
 dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_result *result);
 
+/* dem_drum_results_measure of a drum that turns at one rate, definition.rotation_rate. */
+dem_status measure_results(const dem_scene *scene, const double *frames, size_t count, dem_drum_results *results);
+
 #endif

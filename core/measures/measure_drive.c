@@ -16,7 +16,7 @@ void measure_drive_frame(dem_scene *scene, double *frame)
     scene->torque = (torque_meter){ 0 };
     double moment = 0.0; /* kg m */
     for (size_t p = 0; p < particles_count(s); p++) moment += particle_mass(s, p) * particle_place(s, p)[0];
-    frame[FRAME_WEIGHT_TORQUE] = moment * scene->definition.gravity;
+    frame[FRAME_WEIGHT_TORQUE] = moment * (scene->definition.gravity * scene->container.up[1]);
 }
 
 static dem_mean mean_of_column(const dem_scene *scene, const frame_window *window, size_t column)

@@ -53,11 +53,16 @@ static double surface_lag(dem_scene *scene, double inner, double d)
 {
     spheres *s = &scene->spheres;
     surface_meter *meter = &scene->surface;
-    const double rate = scene->definition.rotation_rate, time = dem_scene_time(scene), turned = rate * (time - meter->since);
+    const bool has_stages = scene->definition.stage_count > 0;
+    const double rate = scene->container.rotation_rate, time = dem_scene_time(scene);
+    double stage_began;
+    dem_stage_at(&scene->definition, time, &stage_began);
+    if (has_stages && meter->since < stage_began) *meter = (surface_meter){ NAN, NAN };
+    const double azimuth = has_stages ? scene->container.angle : rate * time, turned = rate * (time - meter->since);
     const bool begins = !(fabs(turned) < 2 * DEM_PI * (1 - 1e-9)); /* also where none has yet */
     mean way = { 0 };
     for (size_t i = 0; i < s->mobile_count; i++) {
-        const double *x = sphere_place(s, i), angle = remainder(atan2(x[1], x[0]) - rate * time, 2 * DEM_PI);
+        const double *x = sphere_place(s, i), angle = remainder(atan2(x[1], x[0]) - azimuth, 2 * DEM_PI);
         surface_track *track = &s->surface_track[i];
         const double further = angle - (double)track->angle;
         track->angle = (float)angle;
@@ -73,7 +78,7 @@ static double surface_lag(dem_scene *scene, double inner, double d)
 void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *frame)
 {
     spheres *s = &scene->spheres;
-    const double d = mean_diameter(scene), rate = scene->definition.rotation_rate, time = dem_scene_time(scene);
+    const double d = mean_diameter(scene), rate = scene->container.rotation_rate, time = dem_scene_time(scene);
     const double wall = scene->container.inner_radius, inner = inner_radius(scene);
     const double angle = frame[FRAME_SURFACE_FIT] * (DEM_PI / 180), c = cos(angle), sine = sin(angle);
     /* The chord that the fill makes in the frame of the surface: in flight is what is well above it without contact. */
@@ -106,9 +111,10 @@ void measure_regime_frame(dem_scene *scene, const int32_t *contacts, double *fra
     frame[FRAME_SURFACE_LAG] = rate != 0 ? surface_lag(scene, inner, d) : NAN;
 }
 
-/* Share of particles seen nearer the axis than R_i - 2d since then. */
+/* Share of particles seen nearer the axis than R_i - 2d since then. Who fell in a stage is not remembered beyond it. */
 static double fallen_fraction(const dem_scene *scene, double since)
 {
+    if (scene->definition.stage_count > 0) return NAN;
     double fallen = 0.0;
     for (size_t i = 0; i < scene->spheres.mobile_count; i++) fallen += scene->spheres.fallen_time[i] >= (float)since;
     return fallen / (double)scene->spheres.mobile_count;
@@ -150,7 +156,7 @@ static dem_regime slow_regime(const dem_regime_result *r)
 void measure_regime_results(const dem_scene *scene, const frame_window *window, const dem_repose_result *repose,
                             dem_regime_result *r)
 {
-    const double rate = scene->definition.rotation_rate, g = scene->definition.gravity;
+    const double rate = scene->definition.rotation_rate, g = scene->definition.gravity * scene->container.up[1];
     r->omega2_outer = rate * rate * scene->container.radius / g;
     r->omega2_inner = rate * rate * inner_radius(scene) / g;
     const double tangent = tan(repose->angle[DEM_SURFACE_FIT].mean_deg * (DEM_PI / 180));
@@ -170,5 +176,6 @@ void measure_regime_results(const dem_scene *scene, const frame_window *window, 
     r->wall_coverage = frame_window_mean(&last, FRAME_WALL_COVERAGE);
     const bool is_fast = r->wall_coverage > 0.95 && r->omega2_outer > 1;
     r->regime = is_fast ? fast_regime(r) : slow_regime(r);
-    r->is_told = is_fast ? particles_count(&scene->spheres) >= DEM_LEAST_BED_PARTICLES : measure_has_bed(scene);
+    r->is_told = is_fast ? !isnan(r->fallen_fraction) && particles_count(&scene->spheres) >= DEM_LEAST_BED_PARTICLES
+                         : measure_has_bed(scene);
 }

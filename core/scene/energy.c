@@ -22,12 +22,12 @@ double energy_contact_power(const spheres *s, const row8 *load)
     return power;
 }
 
-double energy_of_particles(const spheres *s, double gravity, double dt)
+double energy_of_particles(const spheres *s, const double up[3], double gravity, double dt)
 {
     double energy = spheres_kinetic_energy(s);
     for (size_t p = 0; p < particles_count(s); p++) {
         const vector4 v = p < s->single_count ? s->velocity[p] : s->clusters.body[p - s->single_count].velocity;
-        energy += particle_mass(s, p) * gravity * (particle_place(s, p)[1] - 0.5 * dt * v[1]);
+        for (int c = 0; c < 3; c++) energy += particle_mass(s, p) * gravity * up[c] * (particle_place(s, p)[c] - 0.5 * dt * v[c]);
     }
     return energy;
 }

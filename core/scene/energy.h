@@ -29,6 +29,6 @@ double energy_contact_power(const spheres *spheres, const row8 *load);
 /* Kinetic and potential energy, J, of the particles half a step ago, where velocities are known; height counts from the axis. Only
  * the contacts' work changes it: leap-frog keeps that balance to the last digit, where the work is taken with the forces at a
  * step and the mean of the velocities half a step before and after. */
-double energy_of_particles(const spheres *spheres, double gravity, double dt);
+double energy_of_particles(const spheres *spheres, const double up[3], double gravity, double dt);
 
 #endif

@@ -339,8 +339,10 @@ dem_status filling_place(filling *f, spheres *s, const container *vessel, const 
     if (status != DEM_OK) return status;
     spheres_set_scale(s, f->start_scale);
     clusters_place_spheres(s, vessel);
-    set_schedule(f, s, vessel->kind == DEM_DRUM ? definition->diameter : fmax(definition->diameter, region_of_centres.height),
-                 definition);
+    const double size = vessel->kind != DEM_DRUM ? fmax(definition->diameter, region_of_centres.height)
+                        : definition->tilt > 0   ? fmax(definition->diameter, definition->length)
+                                                 : definition->diameter;
+    set_schedule(f, s, size, definition);
     return DEM_OK;
 }
 

@@ -114,10 +114,23 @@ static bool are_sizes(const dem_scene_definition *d, const dem_species *s)
     return alone && dem_sizes_are_good(&s->sizes);
 }
 
+static bool is_rotation(const dem_scene_definition *d)
+{
+    bool good =
+        isfinite(d->rotation_rate) && d->stage_count <= DEM_MAXIMUM_STAGES && (d->stage_count == 0 || d->container == DEM_DRUM);
+    for (size_t k = 0; good && k < d->stage_count; k++) good = isfinite(d->stage[k].rate) && is_positive(d->stage[k].seconds);
+    return good;
+}
+
+static bool is_tilt(const dem_scene_definition *d)
+{
+    return d->tilt >= 0 && d->tilt < DEM_PI / 2 && (d->tilt == 0 || (d->container == DEM_DRUM && d->ends.are_walls));
+}
+
 static dem_status parameters_check(const dem_scene_definition *d)
 {
     const dem_contact_parameters *c = &d->contact;
-    bool good = is_positive(d->diameter) && is_positive(d->length) && isfinite(d->rotation_rate) && is_positive(d->gravity)
+    bool good = is_positive(d->diameter) && is_positive(d->length) && is_rotation(d) && is_tilt(d) && is_positive(d->gravity)
                 && is_positive(d->time_step) && d->particle_count > 0 && d->particle_count < INT32_MAX / 2 && d->threads >= 1
                 && d->species_count >= 1 && d->species_count <= DEM_MAXIMUM_SPECIES && d->corrector_passes >= 0;
     good = good && is_law(c) && c->unloading_slope >= 0 && isfinite(c->unloading_slope) && c->restitution > 0 && c->restitution <= 1

@@ -114,6 +114,14 @@ static void restore_surface(dem_scene *scene, const dem_state *state)
     if (!is_there) spheres_forget_surface(&scene->spheres);
 }
 
+/* Of a drum with stages the mean, by which a run that goes on from here finds how far it has turned. */
+static double rate_of_run(const dem_scene *scene)
+{
+    const double time = scene_time_in_motion(scene);
+    if (scene->definition.stage_count == 0) return scene->definition.rotation_rate;
+    return scene->run_start >= 0 && time > 0 ? (scene->container.angle - scene->container.angle_before) / time : 0;
+}
+
 dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
 {
     const spheres *s = &scene->spheres;
@@ -138,7 +146,7 @@ dem_status dem_scene_save(const dem_scene *scene, dem_state *state)
     numbers[STATE_TORQUE_SUM] = scene->torque.sum;
     numbers[STATE_TORQUE_COUNT] = scene->torque.count;
     numbers[STATE_ANGLE_BEFORE] = scene->container.angle_before;
-    numbers[STATE_RATE] = scene->definition.rotation_rate;
+    numbers[STATE_RATE] = rate_of_run(scene);
     numbers[STATE_TIME_STEP] = scene->definition.time_step;
     for (size_t p = 0; p < particles_count(s); p++) id[p] = particle_id(s, p);
     return DEM_OK;

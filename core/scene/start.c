@@ -21,8 +21,8 @@ static void begin_anew(dem_scene *scene, double elapsed)
 static void keep_angle(dem_scene *scene, const int64_t *counter, const double *number)
 {
     const int64_t steps = counter[STATE_STEP] - counter[STATE_RUN_START] + counter[STATE_STEPS_BEFORE];
-    const bool alike =
-        number[STATE_RATE] == scene->definition.rotation_rate && number[STATE_TIME_STEP] == scene->definition.time_step;
+    const bool alike = scene->definition.stage_count == 0 && number[STATE_RATE] == scene->definition.rotation_rate
+                       && number[STATE_TIME_STEP] == scene->definition.time_step;
     scene->steps_before = alike ? steps : 0;
     scene->container.angle_before = number[STATE_ANGLE_BEFORE];
     if (!alike) scene->container.angle_before += number[STATE_RATE] * ((double)steps * number[STATE_TIME_STEP]);

@@ -26,7 +26,7 @@ static int64_t until_next(int64_t count, int64_t every) { return every - count %
  *                      cylinder and end walls look the same at each angle, and so may turn on unseen.
  *     no lifters       They do not look the same at each angle: in each step they are elsewhere.
  *     its rate         Where the definition's rate is not the walls' yet, container_move changes the walls' velocity at the
- *                      end of the next step.
+ *                      end of the next step; and so it does between two stages of rotation.
  *     no profile       The profile tells what the parts of a step cost, and in a wave those of several steps are mixed.
  *     no audit         The audit of energy needs all loads and all velocities of one moment, before and after the motion. */
 static bool is_possible(const dem_scene *scene)
@@ -35,7 +35,7 @@ static bool is_possible(const dem_scene *scene)
     const container *c = &scene->container;
     const bool turns = scene->phase == DEM_PHASE_RUNNING;
     return s->in_waves && scene->definition.threads == 1 && scene->phase != DEM_PHASE_GROWING && s->single_count == s->mobile_count
-           && s->lining_count == 0 && c->kind == DEM_DRUM && c->bar_count == 0
+           && s->lining_count == 0 && c->kind == DEM_DRUM && c->bar_count == 0 && scene->definition.stage_count == 0
            && c->rotation_rate == (turns ? scene->definition.rotation_rate : 0.0) && !scene->profile && !scene->audit.is_on;
 }
 

@@ -34,11 +34,17 @@ static void drum_walls(container *c, const dem_scene_definition *definition)
     c->first_bar = c->wall_count;
     c->bar_count = (int)definition->lifters.count;
     c->bars_from = c->bar_count ? c->radius - definition->lifters.height : c->radius;
+    /* A bar that leans by `lean` has its foot on the wall, at the same places as one that does not. */
+    const double lean = definition->lifters.angle, half_width = 0.5 * definition->lifters.width;
+    const double top = lean != 0 ? c->radius * cos(lean) - definition->lifters.height : c->bars_from;
+    const double aside = lean != 0 ? c->radius * sin(lean) : 0;
+    if (lean != 0) c->bars_from = hypot(fmax(top, 0), fmax(fabs(aside) - half_width, 0));
     for (int k = 0; k < c->bar_count; k++) {
-        const double angle = 2 * DEM_PI * k / c->bar_count;
+        const double angle = 2 * DEM_PI * k / c->bar_count - lean;
         container_wall *bar = add_wall(c, WALL_BAR, 0);
-        bar->radius = c->bars_from;
-        bar->half_width = 0.5 * definition->lifters.width;
+        bar->radius = top;
+        bar->half_width = half_width;
+        bar->aside = aside;
         bar->middle[0] = bar->place[0] = cos(angle);
         bar->middle[1] = bar->place[1] = sin(angle);
     }
@@ -84,6 +90,7 @@ void container_init(container *c, const dem_scene_definition *definition)
             c->period = c->length;
             c->inverse_period = 1.0 / c->length;
         }
+        if (definition->tilt > 0) c->up[1] = cos(definition->tilt), c->up[2] = sin(definition->tilt);
         set_box(c, c->radius, -0.5 * c->length, 0.5 * c->length);
         drum_walls(c, definition);
         break;
@@ -129,10 +136,24 @@ void container_set_friction(container *c, const dem_scene_definition *definition
     }
 }
 
-static bool turn_drum(container *c, double rate, double time)
+/* Its rate `time` after it began to turn. turned: rad until then. */
+static double rate_at(const dem_scene_definition *definition, double time, double *turned)
+{
+    if (definition->stage_count == 0) {
+        *turned = definition->rotation_rate * time;
+        return definition->rotation_rate;
+    }
+    double since, before = 0;
+    const size_t now = dem_stage_at(definition, time, &since);
+    for (size_t k = 0; k < now; k++) before += definition->stage[k].rate * definition->stage[k].seconds;
+    *turned = before + definition->stage[now].rate * (time - since);
+    return definition->stage[now].rate;
+}
+
+static bool turn_drum(container *c, double rate, double turned)
 {
     const bool changes = rate != c->rotation_rate;
-    c->angle = c->angle_before + rate * time;
+    c->angle = c->angle_before + turned;
     for (int k = 0; changes && k < c->wall_count; k++) c->wall[k].rotation_rate = rate;
     c->rotation_rate = rate;
     if (c->bar_count == 0) return changes;
@@ -157,8 +178,12 @@ static bool raise_tube(container *c, const dem_lift *lift, bool has_begun, doubl
 
 bool container_move(container *c, const dem_scene_definition *definition, bool has_begun, double time)
 {
+    double turned = 0;
     switch (c->kind) {
-    case DEM_DRUM: return turn_drum(c, has_begun ? definition->rotation_rate : 0.0, has_begun ? time : 0.0);
+    case DEM_DRUM: {
+        const double rate = has_begun ? rate_at(definition, time, &turned) : 0;
+        return turn_drum(c, rate, turned);
+    }
     case DEM_TUBE_ON_PLATE: return raise_tube(c, &definition->lift, has_begun, time);
     case DEM_CYLINDER: break;
     }

@@ -43,7 +43,7 @@ static wall_sight shell_seen(const container_wall *w, const double x[3])
 static wall_sight bar_seen(const container_wall *w, const double x[3])
 {
     const double e_x = w->middle[0], e_y = w->middle[1]; /* outward; (-e_y, e_x) is across */
-    const double out = x[0] * e_x + x[1] * e_y, across = x[1] * e_x - x[0] * e_y, back = across < 0 ? 1 : -1;
+    const double out = x[0] * e_x + x[1] * e_y, across = x[1] * e_x - x[0] * e_y - w->aside, back = across < 0 ? 1 : -1;
     const double to_top = w->radius - out, to_side = fabs(across) - w->half_width;
     if (to_top <= 0 && to_side <= 0) /* behind the surface: by the least of both */
         return to_top > to_side ? (wall_sight){ { e_x, e_y, 0 }, to_top } : (wall_sight){ { -back * e_y, back * e_x, 0 }, to_side };

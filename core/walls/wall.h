@@ -18,12 +18,13 @@ typedef struct container_wall {
     wall_kind kind;
     dem_surface surface; /* whose material it has */
     double friction, rolling_friction;
-    double radius;        /* m: of cylinder, disc and shell; of a bar, the distance of its top from the axis */
-    double low, high;     /* m: the shell's edges along z; plane and disc are at low */
-    double facing;        /* plane: 1 up z, -1 down z */
-    double half_width;    /* m: of the bar */
-    double place[2];      /* bar: unit vector from the axis to its middle, before anything turned */
-    double middle[2];     /* bar: the same now */
+    double radius;     /* m: of cylinder, disc and shell; of a bar, the place of its top along the direction of `middle` */
+    double low, high;  /* m: the shell's edges along z; plane and disc are at low */
+    double facing;     /* plane: 1 up z, -1 down z */
+    double half_width; /* m: of the bar */
+    double aside;      /* m: by which the bar's middle passes the axis, to the left of its direction; 0 of one along the radius */
+    double place[2];   /* bar: unit vector outward along it, before anything turned */
+    double middle[2];  /* bar: the same now */
     double rotation_rate; /* rad/s about z, now */
     double rise;          /* m/s along z, now */
 } container_wall;

@@ -77,6 +77,7 @@ RESULT = {
                "verdict": "steady", "drift_deg_per_revolution": 0.1, "drift_bound_deg_per_revolution": 0.4,
                "window": {"start": 1.0, "end": 5.0, "revolutions": 2.5, "correlation_times": 30.0}, "layers": 6.5, "method": "surface-fit", "other_methods": {"chord": 23.1},
                "interface_fluctuation": 1e-4, "slumps": {"count": 12, "period": 0.56, "start_deg": 13.5}, "hysteresis_deg": 15.5},
+    "stages": [],
     "regime": {"name": "rolling", "certain": True, "omega2_outer": 0.07, "omega2_inner": 0.01, "predicted": {}, "evidence": {}},
     "segregation": {"radial_index": None, "axial_index": None, "lacey_index": None},
     "packing": {"solid_fraction": 0.59, "coordination_number": 4.4, "mean_overlap": 0.001, "overlap_99": 0.004},

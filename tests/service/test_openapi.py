@@ -312,10 +312,11 @@ def test_documented_results_are_those_of_the_process_description(daemon, contrac
     documented = contract.document["components"]["schemas"][f"{schemas}Results"]["properties"]
     assert set(documented) == set(description)
     for output, given in description.items():
-        assert set(documented[output]["properties"]) == set(given["schema"]["properties"]), output
-        for name, schema in given["schema"]["properties"].items():
-            assert documented[output]["properties"][name].get("type") == schema.get("type"), (output, name)
-            assert documented[output]["properties"][name].get("x-unit") == schema.get("x-unit"), (output, name)
+        told, given = documented[output].get("items", documented[output]), given["schema"].get("items", given["schema"])
+        assert set(told["properties"]) == set(given["properties"]), output
+        for name, schema in given["properties"].items():
+            assert told["properties"][name].get("type") == schema.get("type"), (output, name)
+            assert told["properties"][name].get("x-unit") == schema.get("x-unit"), (output, name)
 
 
 @pytest.mark.parametrize("inputs", [{"friction": 0.5, "rotation_rate": 18.0}, {"friction": 0.02}])

@@ -4,6 +4,7 @@
 
 static const char *const ends_choices[] = { "periodic", "walls", NULL };
 
+#define AT_STAGE(member) .offset = offsetof(stage_inputs, member)
 #define AT_PLACED(member) .offset = offsetof(start_particle, member)
 
 static const spec_field fields[] = {
@@ -20,13 +21,27 @@ static const spec_field fields[] = {
                  "discs that turn with it" },
     { SPEC_DRUM, "lifters", FIELD_OBJECT_OR_NULL, SPEC_LIFTERS, AT(lifter_count), COLUMN("lifters", COUNT, scene.lifters.count),
       IN_VIEW(40), .meaning = "straight bars of rectangular section along the wall, evenly spaced, turning with it; null: none" },
-    { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .spared_by = "rotation_rate_rpm", .unit = "rad/s",
-      RANGE(-500.0, 500.0), .least_size = 0.001, .fallback = NAN, AT(rotation_rate),
-      COLUMN("rotation_rate", REAL, inputs.rotation_rate), LISTED, IN_LIST(20, "", 1, NULL), IN_VIEW(150), FREE_OF_BED, ACTS_LATER,
-      .meaning = "rate of rotation; below 0: the other way, the mirror image" },
+    { SPEC_DRUM, "rotation_rate", FIELD_REAL, .required = true, .spared_by = "rotation_rate_rpm", .spared_by_too = "rotation",
+      .unit = "rad/s", RANGE(-500.0, 500.0), .least_size = 0.001, .fallback = NAN, .excludes = "rotation", AT(rotation_rate),
+      COLUMN("rotation_rate", REAL, rotation_rate), LISTED, IN_LIST(20, "", 1, NULL), IN_VIEW(150), FREE_OF_BED, ACTS_LATER,
+      .meaning = "rate of rotation; below 0: the other way, the mirror image. The column of a drum with stages has the fastest" },
     { SPEC_DRUM, "rotation_rate_rpm", FIELD_REAL, .unit = "1/min", RANGE(-4770.0, 4770.0), .least_size = 0.01, .fallback = NAN,
-      .excludes_too = "rotation_rate", AT(rotation_rate_rpm), ACTS_LATER,
+      .excludes = "rotation", .excludes_too = "rotation_rate", AT(rotation_rate_rpm), ACTS_LATER,
       .meaning = "revolutions a minute, instead of rotation_rate" },
+    { SPEC_DRUM, "rotation", FIELD_LONG_LIST, SPEC_ROTATION, RANGE(1, DEM_MAXIMUM_STAGES), AT(stages),
+      .count_offset = offsetof(scene_inputs, stage_count), .entry_size = sizeof(stage_inputs), FREE_OF_BED, ACTS_LATER,
+      .meaning = "stages of rotation one after the other, each with results of its own, instead of rotation_rate and duration" },
+    { SPEC_ROTATION, "rate", FIELD_REAL, .required = true, .unit = "rad/s", RANGE(-500.0, 500.0), .fallback = NAN, AT_STAGE(rate),
+      .meaning = "rate of rotation in this stage; below 0: the other way; 0: the drum stands still" },
+    { SPEC_ROTATION, "revolutions", FIELD_REAL, .unit = "revolutions", OPEN_RANGE(0.0, 1e5), .fallback = NAN,
+      .excludes_too = "seconds", AT_STAGE(revolutions), .meaning = "how far the drum turns in it; not of a stage of rest" },
+    { SPEC_ROTATION, "seconds", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 1e6), .fallback = NAN, AT_STAGE(seconds),
+      .meaning = "how long it lasts, instead of revolutions" },
+    { SPEC_DRUM, "tilt_deg", FIELD_REAL, .unit = "degrees", RANGE(0.0, 60.0), .fallback = 0.0, AT(tilt_deg),
+      COLUMN("tilt_deg", REAL, inputs.tilt_deg), IN_VIEW(165), FREE_OF_BED,
+      .meaning =
+          "of the axis from the horizontal, the end at -z being the lower one; with end walls alone. Angles are those of the "
+          "cross-section" },
 
     FIELDS_OF_PARTICLES,
 
@@ -98,6 +113,8 @@ static const spec_field fields[] = {
       USUAL(1e-4, 0.5), SLIP("cm", 0.01), .meaning = "of a bar, around the wall" },
     { SPEC_LIFTERS, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT(lifter_friction), USUAL(0.0, 1.5),
       FREE_OF_BED, .meaning = "coefficient of friction between a particle and a bar. Default: the wall's" },
+    { SPEC_LIFTERS, "angle_deg", FIELD_REAL, .unit = "degrees", RANGE(-60.0, 60.0), .fallback = 0.0, AT(lifter_angle_deg),
+      .meaning = "between a bar and the radius at its foot; above 0: its top leans the way that a positive rate turns" },
 
     { SPEC_INPUTS, "duration", FIELD_OBJECT, SPEC_DURATION, COLUMN("duration", REAL, duration), LISTED, IN_VIEW(310), .unit = "s",
       ACTS_LATER, .meaning = "how long the drum turns" },

@@ -15,10 +15,21 @@ typedef struct drum_result {
     run_facts run;
 } drum_result;
 
+/* A stage of its rotation. */
+typedef struct drum_stage_result {
+    double rate, begins, ends; /* rad/s as asked for; s since rotation began */
+    dem_drum_results measured;
+    double steady, certain;
+    const char *verdict, *regime;
+} drum_stage_result;
+
 /* Every measure NaN, as when there were too few frames to measure. */
 void drum_result_init(drum_result *result);
 
 /* The results document: NaN becomes null. New reference; NULL: no memory. */
 json_t *drum_result_to_json(const drum_result *result);
+/* Every measure NaN, and an entry of the list of stages. */
+void drum_stage_result_init(drum_stage_result *result);
+json_t *drum_stage_result_to_json(const drum_stage_result *result);
 
 #endif

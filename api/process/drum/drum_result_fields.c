@@ -17,7 +17,7 @@
 #define TEXT_OF(number) #number
 #define LEAST(number) "; least for a verdict: " TEXT_OF(number)
 
-static const char *const verdicts[] = { "steady", "drifting", "too-short", "too-few", NULL };
+const char *const drum_verdicts[] = { "steady", "drifting", "too-short", "too-few", NULL };
 
 static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees", LABEL("angle of repose"),
@@ -35,7 +35,7 @@ static const result_field fields[] = {
       .meaning =
           "steady; drifting, which includes slumps and avalanches; too-short or too-few (particles, layers) to tell; null: the bed "
           "has no surface",
-      .choices = verdicts, IN_VIEW(450), LISTED, IN_STUDY(3) },
+      .choices = drum_verdicts, IN_VIEW(450), LISTED, IN_STUDY(3) },
     { "repose", NULL, "drift_deg_per_revolution", RESULT_REAL, REPOSE(drift_deg_per_revolution), "degrees", LABEL("drift"),
       SHOWN(1, "° a revolution", 2), .meaning = "slope of the angle over the window; null: too short to tell", IN_VIEW(460),
       IN_STUDY(40) },
@@ -168,6 +168,9 @@ static const result_output outputs[] = {
     { "segregation", "segregation of the species" },
     { "packing", "packing of the bed" },
     { "drive", "torque and power that turn the drum" },
+    { "stages",
+      "each stage of the drum's rotation, as if it were a run of its own; empty where it turns at one rate. All else in the "
+      "results is of the last stage that turns" },
     { "run", "how the run went" },
 };
 
@@ -179,7 +182,6 @@ static void describe_words(json_t *properties, const char *output)
 }
 
 const result_table drum_result_fields = {
-    RESULT_TABLE(fields, outputs),
-    .describe_words = describe_words,
-    .other_angles = other_angles,
+    RESULT_TABLE(fields, outputs), .describe_words = describe_words, .list = "stages",
+    .entries = &drum_stage_fields, .other_angles = other_angles,
 };

@@ -6,7 +6,9 @@
 
 #include "dem_cluster.h"
 #include "dem_rules.h"
+#include "drum_lifters.h"
 #include "drum_process.h"
+#include "drum_stages.h"
 #include "scene_rules.h"
 #include "start_rules.h"
 
@@ -46,12 +48,21 @@ static void derive_rate(scene_inputs *inputs)
     inputs->rotation_rate_rpm = NAN; /* one spelling in the canonical specification */
 }
 
+/* Where there are stages, they say how long the drum turns, and at which rates. */
+static void derive_rotation(job_spec *spec, problem_list *problems)
+{
+    derive_rate(&spec->inputs);
+    spec->rotation_rate = spec->inputs.stage_count > 0 ? stages_fastest(&spec->inputs) : spec->inputs.rotation_rate;
+    if (spec->inputs.stage_count > 0) stages_derive(spec, problems);
+    else derive_duration(&spec->inputs, spec, problems);
+}
+
 /* A drum that turns the other way is the mirror image of one that turns this way, and that is what runs: so all that is
  * measured is the same to the last bit. What is read and written is mirrored. A cluster is, too, in its own frame: z for
  * -z, which is what turns its orientation w, x, y, z of the one into y, z, w, x of the other. */
 static void mirror(job_spec *spec)
 {
-    spec->is_mirrored = spec->inputs.rotation_rate < 0.0;
+    spec->is_mirrored = turns_back(&spec->inputs);
     for (size_t s = 0; spec->is_mirrored && s < spec->scene.species_count; s++) {
         dem_cluster *cluster = &spec->scene.species[s].cluster;
         for (size_t k = 0; k < cluster->sphere_count; k++) cluster->sphere[k].position[2] = -cluster->sphere[k].position[2];
@@ -70,8 +81,9 @@ static void set_dependent_defaults(scene_inputs *inputs, double duration, uint64
     if (isnan(inputs->sample_interval)) {
         const double per_revolution = inputs->until_standard_error > 0.0 ? SAMPLES_PER_REVOLUTION_TO_END : SAMPLES_PER_REVOLUTION;
         const double revolution = 2.0 * DEM_PI / fabs(inputs->rotation_rate);
-        inputs->sample_interval =
-            fmin(SCENE_SAMPLE_INTERVAL_MOST, fmin(duration / SCENE_SAMPLES_PER_RUN, revolution / per_revolution));
+        const double enough = inputs->stage_count > 0 ? stages_sample_interval(inputs, per_revolution)
+                                                      : fmin(duration / SCENE_SAMPLES_PER_RUN, revolution / per_revolution);
+        inputs->sample_interval = fmin(SCENE_SAMPLE_INTERVAL_MOST, enough);
     }
 }
 
@@ -130,28 +142,6 @@ static void check_ends(const scene_inputs *inputs, problem_list *problems)
         if (!isnan(given[k].value) && inputs->drum_ends == 0.0)
             problem_list_add(problems, given[k].pointer,
                              "is %g, but the drum's ends are periodic; give /inputs/drum/ends as \"walls\", too", given[k].value);
-}
-
-/* Bars whose corners are within the drum, apart from each other, and which leave the largest particle its room. */
-static bool check_lifters(const scene_inputs *inputs, const dem_scene_definition *drum, problem_list *problems)
-{
-    const size_t before = json_array_size(problems->errors);
-    const double radius = 0.5 * inputs->drum_diameter, top = radius - inputs->lifter_height;
-    const double highest = radius - 1.5 * scene_of_species(drum, scene_species_width, true);
-    double widest = 2.0 * sqrt(fmax(radius * radius - top * top, 0.0));
-    if (inputs->lifter_count >= 3.0) widest = fmin(widest, 1.99 * top * tan(DEM_PI / inputs->lifter_count));
-    if (!isnan(inputs->lining_diameter) && !isnan(inputs->lifter_count))
-        problem_list_add(problems, "/inputs/drum/lifters", "are %.0f bars in a drum with a lining; give one of the two",
-                         inputs->lifter_count);
-    if (inputs->lifter_height > highest)
-        problem_list_add(problems, "/inputs/drum/lifters/height",
-                         "is %g m; must be at most %g m, the drum's radius less 1.5 of the largest particle diameters",
-                         inputs->lifter_height, highest);
-    else if (inputs->lifter_count >= 1.0 && inputs->lifter_width > widest)
-        problem_list_add(problems, "/inputs/drum/lifters/width",
-                         "is %g m; must be at most %g m, for that many bars of that height to lie within the drum and apart",
-                         inputs->lifter_width, widest);
-    return json_array_size(problems->errors) == before;
 }
 
 /* Share of the drum that bars take up. */
@@ -235,22 +225,33 @@ static void derive_particle_count(scene_inputs *inputs, dem_scene_definition *dr
     drum->particle_count = count >= 0.0 && count <= SCENE_MOST_PARTICLES ? (size_t)count : 0;
 }
 
-static double largest_impact(const scene_inputs *inputs, const dem_scene_definition *drum)
+static void check_tilt(const scene_inputs *inputs, problem_list *problems)
 {
-    const double rolling =
-        dem_impact_speed(drum->diameter, scene_of_species(drum, dem_species_diameter, true), drum->gravity,
-                         dem_bed_friction(inputs->friction, drum->species, drum->species_count), drum->rotation_rate);
-    if (drum->lifters.count == 0) return rolling;
-    return fmax(rolling, dem_lifted_speed(drum->diameter, drum->gravity, drum->fill_fraction, drum->rotation_rate));
+    if (inputs->tilt_deg > 0.0 && inputs->drum_ends == 0.0)
+        problem_list_add(problems, "/inputs/drum/tilt_deg",
+                         "is %g degrees, but the drum's ends are periodic, so that nothing holds the bed along the axis; give "
+                         "/inputs/drum/ends as \"walls\", too",
+                         inputs->tilt_deg);
 }
 
-/* Returns what scene_derive_contact does. */
-static double derive_drum(scene_inputs *inputs, dem_scene_definition *drum, problem_list *problems)
+/* NaN stays NaN. Along a tilted axis a particle may slide for all its length. */
+static double largest_impact(const scene_inputs *inputs, const dem_scene_definition *drum)
+{
+    double speed = dem_impact_speed(drum->diameter, scene_of_species(drum, dem_species_diameter, true), drum->gravity,
+                                    dem_bed_friction(inputs->friction, drum->species, drum->species_count), drum->rotation_rate);
+    if (drum->tilt > 0.0 && speed > 0.0) speed = fmax(speed, sqrt(2.0 * drum->gravity * sin(drum->tilt) * drum->length));
+    if (drum->lifters.count == 0) return speed;
+    return fmax(speed, dem_lifted_speed(drum->diameter, drum->gravity, drum->fill_fraction, drum->rotation_rate));
+}
+
+/* rate: rad/s, the fastest. Returns what scene_derive_contact does. */
+static double derive_drum(scene_inputs *inputs, double rate, dem_scene_definition *drum, problem_list *problems)
 {
     *drum = (dem_scene_definition){
         .diameter = inputs->drum_diameter,
         .length = inputs->drum_length,
-        .rotation_rate = fabs(inputs->rotation_rate),
+        .rotation_rate = fabs(rate),
+        .tilt = inputs->tilt_deg > 0.0 ? inputs->tilt_deg * DEM_PI / 180.0 : 0.0, /* not of NaN */
         .gravity = inputs->gravity,
         .is_placed = !isnan(inputs->start.given),
         .seed = isnan(inputs->seed) ? 0 : (uint64_t)inputs->seed,
@@ -258,14 +259,20 @@ static double derive_drum(scene_inputs *inputs, dem_scene_definition *drum, prob
     };
     if (!isnan(inputs->lining_diameter)) drum->lining = (dem_lining){ inputs->lining_diameter, inputs->lining_pitch };
     if (has_end_walls(inputs)) drum->ends = (dem_drum_ends){ true, inputs->end_friction, inputs->end_rolling_friction };
+    const double lean = isnan(inputs->lifter_angle_deg) ? 0.0 : inputs->lifter_angle_deg * DEM_PI / 180.0;
     if (inputs->lifter_count > 0.0)
-        drum->lifters =
-            (dem_lifters){ (size_t)inputs->lifter_count, inputs->lifter_height, inputs->lifter_width, inputs->lifter_friction };
+        drum->lifters = (dem_lifters){ .count = (size_t)inputs->lifter_count,
+                                       .height = inputs->lifter_height,
+                                       .width = inputs->lifter_width,
+                                       .friction = inputs->lifter_friction,
+                                       .angle = turns_back(inputs) ? -lean : lean };
+    stages_define(inputs, drum);
     scene_derive_species(inputs, drum, problems);
     check_sizes(inputs, drum, problems);
     check_lining(inputs, problems);
     check_ends(inputs, problems);
-    const bool good_lifters = check_lifters(inputs, drum, problems);
+    check_tilt(inputs, problems);
+    const bool good_lifters = lifters_check(inputs, drum, problems);
     derive_particle_count(inputs, drum, problems);
     if (good_lifters && !drum->is_placed) check_room(inputs, drum, problems);
     return scene_derive_contact(inputs, largest_impact(inputs, drum), drum, problems);
@@ -275,16 +282,16 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
 {
     scene_inputs *inputs = &spec->inputs;
     json_t *origin = start_find(spec, problems);
-    derive_rate(inputs);
-    derive_duration(inputs, spec, problems);
+    derive_rotation(spec, problems);
     if (inputs->start.particle_count == 0) scene_share_out(inputs, problems);
     set_dependent_defaults(inputs, spec->duration, seed_if_missing);
-    spec->expected_overlap = derive_drum(inputs, &spec->scene, problems);
+    spec->expected_overlap = derive_drum(inputs, spec->rotation_rate, &spec->scene, problems);
     scene_set_common(spec);
     scene_check_amounts(spec,
-                        spec->until_standard_error > 0.0 ? "/inputs/duration/at_most_revolutions"
-                        : isnan(inputs->revolutions)     ? "/inputs/duration/seconds"
-                                                         : "/inputs/duration/revolutions",
+                        inputs->stage_count > 0            ? "/inputs/drum/rotation"
+                        : spec->until_standard_error > 0.0 ? "/inputs/duration/at_most_revolutions"
+                        : isnan(inputs->revolutions)       ? "/inputs/duration/seconds"
+                                                           : "/inputs/duration/revolutions",
                         problems);
     start_check_particles(inputs, &spec->scene, problems);
     start_compare(spec, origin, problems);

@@ -11,29 +11,38 @@
 
 static double froude_of(const job_spec *spec)
 {
-    return froude_number(spec->inputs.rotation_rate, 0.5 * spec->scene.diameter, spec->scene.gravity);
+    return froude_number(spec->rotation_rate, 0.5 * spec->scene.diameter, spec->scene.gravity);
 }
 
 /* Revolutions a minute taken for radians a second make nine times the rate. */
 static void warn_of_rate(const job_spec *spec, problem_list *warnings)
 {
-    const double rate = spec->inputs.rotation_rate, froude = froude_of(spec);
+    const double rate = spec->rotation_rate, froude = froude_of(spec);
     const char *what = froude >= 1.0 ? "the drum holds particles against its wall" : "the surface is no longer straight";
     if (froude > FAST_FROUDE && !isnan(spec->inputs.rate_was_rpm))
         problem_list_add(warnings, "/inputs/drum/rotation_rate_rpm", "is %.6g, which is %.4g rad/s and a Froude number of %.3g: %s",
                          spec->inputs.rate_was_rpm, rate, froude, what);
     else if (froude > FAST_FROUDE)
-        problem_list_add(warnings, "/inputs/drum/rotation_rate",
+        problem_list_add(warnings, spec->scene.stage_count > 0 ? "/inputs/drum/rotation" : "/inputs/drum/rotation_rate",
                          "is %.6g rad/s, which is %.4g revolutions a minute and a Froude number of %.3g: %s; if %.6g revolutions a "
                          "minute were meant, give that as rotation_rate_rpm, or %.6g rad/s",
                          rate, revolutions_a_minute(rate), froude, what, rate, rotation_of_rpm(rate));
+}
+
+/* Of all stages, whichever way. */
+static double revolutions_of(const job_spec *spec)
+{
+    const dem_scene_definition *drum = &spec->scene;
+    double turned = drum->stage_count == 0 ? spec->duration * fabs(spec->rotation_rate) : 0.0;
+    for (size_t k = 0; k < drum->stage_count; k++) turned += fabs(drum->stage[k].rate) * drum->stage[k].seconds;
+    return turned / (2.0 * DEM_PI);
 }
 
 /* What its result will say, too, in its verdict. */
 static void warn_of_what_cannot_be_told(const job_spec *spec, problem_list *warnings)
 {
     const dem_scene_definition *drum = &spec->scene;
-    const double revolutions = spec->duration * fabs(drum->rotation_rate) / (2.0 * DEM_PI);
+    const double revolutions = revolutions_of(spec);
     const double grain = cbrt(6.0 / DEM_PI * dem_mean_volume(drum->species, drum->species_count));
     const double layers = dem_bed_layers(drum->diameter, fmin(drum->fill_fraction, 1.0), grain);
     if (revolutions < DEM_LEAST_REVOLUTIONS)
@@ -63,9 +72,9 @@ void drum_warn(const job_spec *spec, problem_list *warnings)
 void drum_understand(const job_spec *spec, json_t *words)
 {
     char time[TIME_IN_WORDS_SIZE];
-    const double revolutions = spec->duration * fabs(spec->inputs.rotation_rate) / (2.0 * DEM_PI);
+    const double revolutions = revolutions_of(spec);
     time_in_words(spec->duration, time);
-    rotation_understand(spec->inputs.rotation_rate, froude_of(spec), words);
+    rotation_understand(spec->rotation_rate, froude_of(spec), words);
     scene_understand(spec, words);
     json_object_set_new(words, "duration",
                         json_sprintf("%s%.4g revolution%s, %s of rotation", spec->until_standard_error > 0.0 ? "at most " : "",

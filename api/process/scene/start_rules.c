@@ -226,11 +226,12 @@ static void check_inside(const placed_sphere *s, const dem_scene_definition *dru
 static double depth_in_bars(const double x[2], double radius, const dem_scene_definition *drum)
 {
     const dem_lifters *bars = &drum->lifters;
+    const double top = 0.5 * drum->diameter * cos(bars->angle) - bars->height, aside = 0.5 * drum->diameter * sin(bars->angle);
     double deepest = -INFINITY;
     for (size_t k = 0; k < bars->count; k++) {
-        const double angle = 2.0 * DEM_PI * (double)k / (double)bars->count;
-        const double along = x[0] * cos(angle) + x[1] * sin(angle), across = x[1] * cos(angle) - x[0] * sin(angle);
-        const double below = 0.5 * drum->diameter - bars->height - along, beside = fabs(across) - 0.5 * bars->width;
+        const double angle = 2.0 * DEM_PI * (double)k / (double)bars->count - bars->angle;
+        const double along = x[0] * cos(angle) + x[1] * sin(angle), across = x[1] * cos(angle) - x[0] * sin(angle) - aside;
+        const double below = top - along, beside = fabs(across) - 0.5 * bars->width;
         const double away =
             below > 0.0 && beside > 0.0 ? sqrt(below * below + beside * beside) : fmax(below, beside); /* of the centre */
         if (along > 0.0) deepest = fmax(deepest, radius - away);
@@ -251,10 +252,10 @@ static double depth_in_lining(const placed_sphere *s, const double x[2], const d
     return s->radius + 0.5 * lining->diameter - sqrt(dx * dx + dy * dy + dz * dz);
 }
 
-/* rate: of rotation as asked for; below 0 bars and lining are the mirror image, too. */
-static void check_beside_wall(const placed_sphere *s, const dem_scene_definition *drum, double rate, problem_list *problems)
+/* is_mirrored: bars and lining are the mirror image of what was asked for. */
+static void check_beside_wall(const placed_sphere *s, const dem_scene_definition *drum, bool is_mirrored, problem_list *problems)
 {
-    const double x[2] = { rate < 0.0 ? -s->x[0] : s->x[0], s->x[1] };
+    const double x[2] = { is_mirrored ? -s->x[0] : s->x[0], s->x[1] };
     const double in_bars = drum->lifters.count ? depth_in_bars(x, s->radius, drum) : -INFINITY;
     const double in_lining = drum->lining.diameter > 0.0 ? depth_in_lining(s, x, drum) : -INFINITY;
     const double most =
@@ -300,7 +301,7 @@ void start_check_particles(const scene_inputs *inputs, const dem_scene_definitio
     }
     for (size_t i = 0; i < count && !problem_list_is_full(problems); i++) {
         check_inside(&spheres[i], drum, problems);
-        check_beside_wall(&spheres[i], drum, inputs->rotation_rate, problems);
+        check_beside_wall(&spheres[i], drum, turns_back(inputs), problems);
     }
     if (!spec_memory_knows_apart(inputs->memory, &inputs->start, drum)) check_overlaps(spheres, count, drum, problems);
     if (json_array_size(problems->errors) == before) spec_memory_keep_sound(inputs->memory, &inputs->start, drum);
@@ -342,6 +343,26 @@ static void compare_values(const spec_table *table, spec_group group, const json
     }
 }
 
+bool turns_back(const scene_inputs *inputs)
+{
+    for (size_t k = 0; k < inputs->stage_count; k++)
+        if (fabs(inputs->stages[k].rate) > 0.0) return inputs->stages[k].rate < 0.0;
+    return inputs->rotation_rate < 0.0;
+}
+
+/* The same of a specification's drum. */
+static bool turned_back(const json_t *drum)
+{
+    size_t k;
+    json_t *stage;
+    json_array_foreach(json_object_get(drum, "rotation"), k, stage)
+    {
+        const double rate = json_number_value(json_object_get(stage, "rate"));
+        if (fabs(rate) > 0.0) return rate < 0.0;
+    }
+    return json_number_value(json_object_get(drum, "rotation_rate")) < 0.0;
+}
+
 void start_compare(const job_spec *spec, const json_t *origin, problem_list *problems)
 {
     static const char *const compared[] = { "drum", "particles", "wall", "materials" };
@@ -352,9 +373,8 @@ void start_compare(const job_spec *spec, const json_t *origin, problem_list *pro
                          "makes %.0f particles; must be left out, or make %.0f, as many as the bed that it starts from has", asked,
                          there);
     if (!then || json_array_size(problems->errors) > (asked != there)) return; /* what was refused can't be written */
-    const double rate = json_number_value(json_object_get(json_object_get(then, "drum"), "rotation_rate"));
     const bool remembers = spec->inputs.start.checkpoint > 0.0 || json_is_true(json_object_get(origin, "is_checkpoint"));
-    if (remembers && (rate < 0.0) != (spec->inputs.rotation_rate < 0.0))
+    if (remembers && turned_back(json_object_get(then, "drum")) != turns_back(&spec->inputs))
         problem_list_add(
             problems, "/inputs/drum/rotation_rate",
             "turns the other way than the bed's checkpoint, whose contacts remember theirs; must turn the same way, or "

@@ -15,4 +15,7 @@ void start_check_particles(const scene_inputs *inputs, const dem_scene_definitio
 /* The same container and particles as the bed's own spec has. origin: of start_find; NULL: nothing to hold it against. */
 void start_compare(const job_spec *spec, const json_t *origin, problem_list *problems);
 
+/* Whether a drum turns first with a rate below 0. */
+bool turns_back(const scene_inputs *inputs);
+
 #endif

@@ -267,18 +267,21 @@ static void write_run_summary(const field_columns *columns, text_buffer *sql)
 
 bool field_tables_make_view(const field_tables *tables, sqlite3 *writer)
 {
-    text_buffer summary, fields, inputs;
+    text_buffer summary, fields, inputs, stages;
     text_buffer_init(&summary, LONGEST_STATEMENT);
     text_buffer_init(&fields, LONGEST_STATEMENT);
     text_buffer_init(&inputs, LONGEST_STATEMENT);
+    text_buffer_init(&stages, LONGEST_STATEMENT);
     write_run_summary(&tables->columns, &summary);
     field_views_write_input_field(&fields);
     field_views_write_job_input(&inputs);
+    field_views_write_stage(&stages);
     /* Takes the lock for writing only when it comes to that. */
     bool good = sqlite3_exec(writer, "BEGIN", NULL, NULL, NULL) == SQLITE_OK;
     good = field_view_make(writer, "run_summary", &summary) && good;
     good = field_view_make(writer, "input_field", &fields) && good;
     good = field_view_make(writer, "job_input", &inputs) && good;
+    good = field_view_make(writer, "stage", &stages) && good;
     return good && sqlite3_exec(writer, "COMMIT", NULL, NULL, NULL) == SQLITE_OK;
 }
 

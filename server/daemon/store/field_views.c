@@ -110,3 +110,16 @@ void field_views_write_job_input(text_buffer *sql)
                            " iif(job.given IS NULL, NULL, instr(job.given, '\"'||input_field.name||'\"')>0) AS is_given"
                            " FROM job JOIN input_field ON input_field.process=job.process");
 }
+
+void field_views_write_stage(text_buffer *sql)
+{
+    text_buffer_print(sql, "CREATE VIEW stage AS SELECT job.id, job.number AS job, each.key AS number");
+    for (size_t p = 0; process_types[p]; p++) {
+        const result_table *entries = process_types[p]->results->entries;
+        for (size_t f = 0; entries && f < entries->count; f++) {
+            const result_field *field = &entries->field[f];
+            text_buffer_print(sql, ", each.value->>'$.%s' AS %s", field->name, field->view_name ? field->view_name : field->name);
+        }
+    }
+    text_buffer_print(sql, " FROM result JOIN job ON job.number=result.job JOIN json_each(result.document, '$.stages') AS each");
+}

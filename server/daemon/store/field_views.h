@@ -16,5 +16,7 @@ void field_views_add_angles(text_buffer *sql);
 /* CREATE VIEW input_field: process, name, path, default_value and unit of each input; and job_input: the inputs of all jobs. */
 void field_views_write_input_field(text_buffer *sql);
 void field_views_write_job_input(text_buffer *sql);
+/* CREATE VIEW of stage, one row a stage of a drum's rotation. */
+void field_views_write_stage(text_buffer *sql);
 
 #endif

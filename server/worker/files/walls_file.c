@@ -79,16 +79,17 @@ static void add_disc(surface *s, double radius, double z, double turned, walls_p
     end_polygon(s, part);
 }
 
-/* A bar along the drum, whose middle is at this angle. */
+/* A bar along the drum, whose foot is at this angle. */
 static void add_bar(surface *s, const dem_scene_definition *drum, double angle)
 {
     static const int sides[SIDES_OF_BAR][4] = { { 0, 1, 3, 2 }, { 4, 5, 7, 6 }, { 0, 1, 5, 4 },
                                                 { 2, 3, 7, 6 }, { 0, 2, 6, 4 }, { 1, 3, 7, 5 } };
     const int first = s->points;
-    const double cosine = cos(angle), sine = sin(angle), half = 0.5 * drum->lifters.width, outer = 0.5 * drum->diameter;
+    const double lean = drum->lifters.angle, half = 0.5 * drum->lifters.width, outer = 0.5 * drum->diameter;
+    const double cosine = cos(angle - lean), sine = sin(angle - lean), aside = outer * sin(lean);
     for (int k = 0; k < CORNERS_OF_BAR; k++) {
-        const double across = k & 1 ? half : -half, z = k & 4 ? 0.5 * drum->length : -0.5 * drum->length;
-        const double out = k & 2 ? sqrt(fmax(outer * outer - half * half, 0.0)) : outer - drum->lifters.height;
+        const double across = aside + (k & 1 ? half : -half), z = k & 4 ? 0.5 * drum->length : -0.5 * drum->length;
+        const double out = k & 2 ? sqrt(fmax(outer * outer - across * across, 0.0)) : outer * cos(lean) - drum->lifters.height;
         add_point(s, out * cosine - across * sine, out * sine + across * cosine, z);
     }
     for (int k = 0; k < SIDES_OF_BAR; k++)

@@ -42,3 +42,16 @@ json_t *drum_result_to_json(const drum_result *result)
     json_decref(document);
     return NULL;
 }
+
+void drum_stage_result_init(drum_stage_result *result)
+{
+    results_init(&drum_stage_fields, result, sizeof *result);
+    for (size_t m = 0; m < DEM_ANGLE_METHODS; m++) result->measured.repose.angle[m] = (dem_angle){ NAN, NAN, NAN, NAN };
+}
+
+json_t *drum_stage_result_to_json(const drum_stage_result *result)
+{
+    json_t *document = results_to_json(&drum_stage_fields, result), *entry = json_incref(json_object_get(document, "stages"));
+    json_decref(document);
+    return entry;
+}

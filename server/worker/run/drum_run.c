@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "dem_rules.h"
 #include "drum_result.h"
 #include "fields_file.h"
 #include "scene_run.h"
@@ -22,11 +23,17 @@ static dem_status end_when_known(const scene_run *run, const char **ended_by)
     return DEM_OK;
 }
 
-/* Fields are of a bed that has begun to flow: from a quarter of a revolution on, or of the run where that is shorter. */
+/* Fields are of a bed that has begun to flow: from a quarter of a revolution on, or of the run where that is shorter; of
+ * a drum with stages, in the last one that turns. */
 static dem_status add_fields(const scene_run *run, double *tally)
 {
-    const double rate = fabs(run->spec->scene.rotation_rate), quarter = rate > 0 ? asin(1) / rate : 0.0;
-    return dem_scene_time(run->scene) < fmin(quarter, 0.25 * run->spec->duration) ? DEM_OK : dem_fields_add(run->scene, tally);
+    const dem_scene_definition *drum = &run->spec->scene;
+    double since, rate = drum->rotation_rate, seconds = run->spec->duration;
+    const size_t last = dem_last_turning_stage(drum, &since);
+    if (drum->stage_count > 0) rate = drum->stage[last].rate, seconds = drum->stage[last].seconds;
+    const double quarter = rate != 0 ? asin(1) / fabs(rate) : 0.0, time = dem_scene_time(run->scene) - since;
+    const bool is_over = last + 1 < drum->stage_count && time >= seconds;
+    return is_over || time < fmin(quarter, 0.25 * seconds) ? DEM_OK : dem_fields_add(run->scene, tally);
 }
 
 static bool write_fields(const scene_run *run)
@@ -37,6 +44,41 @@ static bool write_fields(const scene_run *run)
 static const char *ended_by_time(const job_spec *spec)
 {
     return spec->until_standard_error > 0 ? "at-most-revolutions" : "duration";
+}
+
+static dem_status measure_stage(const scene_run *run, size_t k, drum_stage_result *stage)
+{
+    const dem_drum_results *const m = &stage->measured;
+    const dem_status status = dem_drum_stage_measure(run->scene, k, run->frames, (size_t)run->next_sample, &stage->measured);
+    if (status == DEM_TOO_FEW_FRAMES) {
+        drum_stage_result_init(stage);
+        return DEM_OK;
+    }
+    if (status != DEM_OK) return status;
+    stage->verdict = dem_verdict_name(m->repose.verdict);
+    stage->steady = m->repose.verdict == DEM_STEADY ? 1.0 : m->repose.verdict == DEM_DRIFTING ? 0.0 : NAN;
+    stage->regime = m->regime.is_told ? dem_regime_name(m->regime.regime) : NULL;
+    stage->certain = m->regime.is_told ? (double)m->regime.is_certain : NAN;
+    return DEM_OK;
+}
+
+/* The list of stages: empty where there are none. */
+static dem_status add_stages(const scene_run *run, json_t *document)
+{
+    const dem_scene_definition *drum = &run->spec->scene;
+    json_t *list = json_array();
+    double begins = 0;
+    dem_status status = list ? DEM_OK : DEM_NO_MEMORY;
+    for (size_t k = 0; status == DEM_OK && k < drum->stage_count; k++) {
+        drum_stage_result stage;
+        drum_stage_result_init(&stage);
+        status = measure_stage(run, k, &stage);
+        stage.rate = run->spec->is_mirrored ? -drum->stage[k].rate : drum->stage[k].rate;
+        stage.begins = begins;
+        stage.ends = begins += drum->stage[k].seconds;
+        if (status == DEM_OK && json_array_append_new(list, drum_stage_result_to_json(&stage)) != 0) status = DEM_NO_MEMORY;
+    }
+    return json_object_set_new(document, "stages", list) == 0 ? status : DEM_NO_MEMORY;
 }
 
 static dem_status measure_results(const scene_run *run, json_t **document)
@@ -52,7 +94,7 @@ static dem_status measure_results(const scene_run *run, json_t **document)
     result.has_regime = status == DEM_OK && result.measured.regime.is_told;
     result.run = scene_run_facts(run);
     *document = drum_result_to_json(&result);
-    return DEM_OK;
+    return *document ? add_stages(run, *document) : DEM_NO_MEMORY;
 }
 
 enum worker_exit drum_run(const job_context *job)

@@ -238,7 +238,7 @@ static void the_drums_work_is_in_the_particles_or_in_the_contacts(void **unused)
     dem_scene *scene = turning_drum(&d);
     look before = look_create(dem_scene_sphere_count(scene)), after = look_create(dem_scene_sphere_count(scene));
     scene->audit.is_on = true;
-    const double at_first = energy_of_particles(&scene->spheres, d.gravity, d.time_step);
+    const double at_first = energy_of_particles(&scene->spheres, scene->container.up, d.gravity, d.time_step);
     double into = 0, exchanged = 0, stored = 0, gone = -INFINITY, come_back = 0;
     look_take(scene, &after);
     const int steps = (int)(0.12 / d.time_step);
@@ -257,7 +257,7 @@ static void the_drums_work_is_in_the_particles_or_in_the_contacts(void **unused)
         stored = now.stored;
     }
     const energy_audit *audit = &scene->audit;
-    const double gained = energy_of_particles(&scene->spheres, d.gravity, d.time_step) - at_first;
+    const double gained = energy_of_particles(&scene->spheres, scene->container.up, d.gravity, d.time_step) - at_first;
     CHECK_NEAR(audit->contact_work, gained, 1e-12 * fabs(at_first));
     CHECK_NEAR(audit->wall_work - gained, into, 20 * ROUNDING * exchanged);
     CHECK_BETWEEN(into, 0.1 * audit->wall_work, audit->wall_work);
