@@ -371,7 +371,8 @@ def test_check_tells_what_a_calibration_takes(tmp_path):
     request["targets"][1]["inputs"]["duration"] = {"seconds": 4}
     def check():
         (tmp_path / "request.json").write_text(json.dumps(request))
-        done = subprocess.run([str(REPOSE), "check", str(tmp_path / "request.json"), "--data", str(tmp_path)], capture_output=True, text=True)
+        done = subprocess.run([str(REPOSE), "check", str(tmp_path / "request.json"), "--data", str(tmp_path)],
+                              capture_output=True, text=True)
         return done.returncode, json.loads(done.stdout)
     ready_calibration()
     code, said = check()
