@@ -91,6 +91,19 @@ def test_fresh_runs_that_refute_the_emulators_are_said_to():
     assert all(set_["results"][0]["z"] > 4 for set_ in answer["family"])
 
 
+def test_one_fresh_run_that_is_far_off_refutes_nothing_but_is_told():
+    odd = []
+
+    def model(case):
+        results = made_up(LINEAR)(case)
+        if case["stage"] == "verify" and not odd:
+            odd.append(case)
+            results["repose"]["angle_deg"] += 5
+        return results
+    answer, _, _ = calibrate(request_of([30, 35]), model)
+    assert answer["status"] == "identified" and any("One of the fresh runs" in sentence for sentence in answer["words"])
+
+
 def test_it_ends_where_parameters_are_known_as_well_as_was_asked():
     model = made_up(LINEAR, scatter=1.0, own=1.0)
     _, whole, _ = calibrate(request_of([30, 35], stop={"jobs": 64}), model)

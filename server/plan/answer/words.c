@@ -7,6 +7,8 @@
 /* A component of less counts for nothing; so does a parameter that moves no target by more of its variance. */
 #define LEAST_COMPONENT 0.25
 #define LEAST_EFFECT 0.01
+/* Errors that a run of a few dozen is off by hardly ever. */
+#define FAR_OFF 3.5
 
 static const char *last_step(const char *pointer) { return strrchr(pointer, '/') + 1; }
 
@@ -167,6 +169,11 @@ static void say_failed(const findings *f, json_t *words)
 static void say_verified(const findings *f, json_t *words)
 {
     if (f->verified == 0) say(words, json_string("Nothing was verified by fresh runs: no jobs were left for it."));
+    if (!f->check.is_refuted && f->check.worst > FAR_OFF * FAR_OFF)
+        say(words, json_sprintf(
+                       "One of the fresh runs is %.1f errors off what the emulators foretold, the others are not: a single bed may "
+                       "differ by more than the others.",
+                       sqrt(f->check.worst)));
     if (f->check.is_refuted)
         say(words,
             json_sprintf("The fresh runs differ from what the emulators foretold by more than their errors (chi square %.3g of %d "
