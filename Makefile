@@ -68,6 +68,7 @@ api/process/granule_SEES := $(api/process/scene_SEES) api/process/granule
 api/process/drum_SEES := $(api/process/scene_SEES) api/process/drum
 api/process/fill_SEES := $(api/process/scene_SEES) api/process/fill
 api/process/heap_SEES := $(api/process/scene_SEES) api/process/heap
+api/process/orifice_SEES := $(api/process/scene_SEES) api/process/orifice
 PROCESSES := $(wildcard api/process/*)
 api/process_SEES := $(api/spec_SEES) $(filter-out %.c,$(PROCESSES))
 api/study_SEES := $(api/spec_SEES) api/study

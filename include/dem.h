@@ -34,7 +34,7 @@ double dem_scene_turned(const dem_scene *scene);         /* rad that the drum ha
 double dem_scene_time(const dem_scene *scene);           /* s since rotation began; negative before: less the time since creation */
 size_t dem_scene_particle_count(const dem_scene *scene); /* mobile particles, each sphere or cluster one; without the lining */
 size_t dem_scene_sphere_count(const dem_scene *scene);   /* spheres that these are made of */
-size_t dem_scene_lost_count(const dem_scene *scene);     /* particles that fell off the plate: they lie on a tray below it */
+size_t dem_scene_lost_count(const dem_scene *scene);     /* particles that fell off the plate, or left by the orifice */
 bool dem_scene_has_clusters(const dem_scene *scene);
 double dem_scene_maximum_overlap(const dem_scene *scene); /* since rotation began, as a share of the smallest diameter */
 double dem_scene_kinetic_energy(const dem_scene *scene);  /* J, translation and rotation */
@@ -95,7 +95,7 @@ const char *dem_build_precision(void);
 
 const char *dem_status_text(dem_status status);
 const char *dem_phase_name(dem_phase phase);                /* "growing", "settling", "rotating" */
-const char *dem_scene_phase_name(const dem_scene *scene);   /* the same, but for "filling" and "lifting" where that is it */
+const char *dem_scene_phase_name(const dem_scene *scene);   /* the same, or "filling", "lifting", "flowing" where that is it */
 const char *dem_step_part_name(dem_step_part part);         /* "outer list", ... */
 const char *dem_regime_name(dem_regime regime);             /* "slipping", ... */
 const char *dem_verdict_name(dem_verdict verdict);          /* "steady", "drifting", "too-short", "too-few"; NULL: none */

@@ -127,8 +127,8 @@ typedef struct dem_contact_parameters {
 
 /* What a container shows to particles, as far as each may be of another material. */
 typedef enum dem_surface {
-    DEM_WALL,    /* the cylinder of a drum or of a standing cylinder; the tube */
-    DEM_ENDS,    /* of a drum; a cylinder's floor */
+    DEM_WALL,    /* the cylinder of a drum or of a standing cylinder; the tube; the sides of a vessel */
+    DEM_ENDS,    /* of a drum; a cylinder's floor; a vessel's floor or hopper */
     DEM_LIFTERS, /* their bars */
     DEM_LINING,  /* its spheres */
     DEM_PLATE,   /* with its rim */
@@ -150,9 +150,10 @@ typedef struct dem_lining {
 } dem_lining;
 
 typedef enum dem_container_kind {
-    DEM_DRUM,         /* lies, and turns about its axis */
-    DEM_CYLINDER,     /* stands on its floor, open at the top */
-    DEM_TUBE_ON_PLATE /* stands on a plate, open at both ends, and is raised; its wall is thin */
+    DEM_DRUM,          /* lies, and turns about its axis */
+    DEM_CYLINDER,      /* stands on its floor, open at the top */
+    DEM_TUBE_ON_PLATE, /* stands on a plate, open at both ends, and is raised; its wall is thin */
+    DEM_VESSEL         /* stands, open at the top, over an orifice that opens when the bed is at rest */
 } dem_container_kind;
 
 /* What closes a drum, and turns with it; the floor of a cylinder has its frictions. */
@@ -189,6 +190,13 @@ typedef struct dem_plate {
     double friction, rolling_friction;
 } dem_plate;
 
+/* Where particles leave a vessel: a round hole about its axis, or a slot across a flat one. What is through it is out of the test. */
+typedef struct dem_orifice {
+    double opening;    /* m: diameter of the hole, or width of the slot along x */
+    double depth;      /* m: of a flat vessel along y, and so the slot's length; 0: vessel and hole are round */
+    double half_angle; /* rad between a hopper's wall and the vertical; 0: no hopper but a flat floor */
+} dem_orifice;
+
 /* Particles that enter a standing cylinder one after the other: dem_stream.h. */
 typedef struct dem_stream {
     double rate;         /* 1/s; 0: no stream, the bed makes itself */
@@ -200,14 +208,16 @@ enum { DEM_MAXIMUM_LIFTERS = 64, DEM_MAXIMUM_STAGES = 64 };
 
 typedef struct dem_scene_definition {
     dem_container_kind container;
-    double diameter; /* m, inner diameter of the smooth wall */
-    /* m along the axis: of a periodic drum the period, 3 of the largest spheres at least; a cylinder's or tube's height */
+    double diameter; /* m, inner diameter of the smooth wall; of a flat vessel its width along x */
+    /* m along the axis: of a periodic drum the period, 3 of the largest spheres at least; the height of what stands, from the plate, the
+     * floor or the orifice */
     double length;
     dem_drum_ends ends; /* of the drum alone, as are lifters and lining */
     dem_lifters lifters;
     dem_lift lift;        /* of the tube alone */
-    dem_plate plate;      /* of the tube alone; a cylinder's floor has ends.friction */
+    dem_plate plate;      /* of the tube alone; the floor of a cylinder or vessel has ends.friction, as the hopper has */
     dem_stream stream;    /* of the cylinder alone */
+    dem_orifice orifice;  /* of the vessel alone */
     double rotation_rate; /* rad/s; the drum's, where it has no stages */
     size_t stage_count;   /* of the drum's rotation, one after the other; 0: it turns at one rate */
     dem_rotation_stage stage[DEM_MAXIMUM_STAGES];
@@ -233,7 +243,7 @@ typedef struct dem_scene_definition {
 typedef enum dem_phase {
     DEM_PHASE_GROWING,  /* spheres placed at random grow to full size, without gravity */
     DEM_PHASE_SETTLING, /* the bed falls and comes to rest in the standing drum */
-    DEM_PHASE_RUNNING   /* the drum turns; the tube is raised; the stream fills the cylinder, from the first step on */
+    DEM_PHASE_RUNNING /* the drum turns; the tube is raised; the orifice is open; the stream fills the cylinder, from the first step on */
 } dem_phase;
 
 /* The parts of a step, for whoever wants to know what they cost. */

@@ -52,7 +52,7 @@ function showName(cell, job, open, actions) {
 }
 
 // What a job that waits or runs has to say, beyond that it does.
-const USUAL = ['', 'waiting for a free worker', 'starting', 'growing', 'settling', 'rotating', 'filling', 'lifting'];
+const USUAL = ['', 'waiting for a free worker', 'starting', 'growing', 'settling', 'rotating', 'filling', 'lifting', 'flowing'];
 const isNews = job => CAN_BE_STOPPED.includes(job.status) && !USUAL.includes(job.message ?? '');
 
 function showState(cell, job) {

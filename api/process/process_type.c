@@ -3,11 +3,14 @@
 #include "fill_process.h"
 #include "granule_process.h"
 #include "heap_process.h"
+#include "orifice_process.h"
 
 #include <stdio.h>
 #include <string.h>
 
-const process_type *const process_types[] = { &drum_process, &fill_process, &heap_process, &granule_process, NULL };
+const process_type *const process_types[] = {
+    &drum_process, &fill_process, &heap_process, &granule_process, &orifice_process, NULL
+};
 
 const process_type *process_type_find(const char *name)
 {

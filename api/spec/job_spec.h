@@ -100,7 +100,14 @@ typedef struct heap_inputs {
     double seconds;
 } heap_inputs;
 
-/* Of every process that advances a scene: drum, fill, heap. */
+typedef struct orifice_inputs {
+    double vessel_diameter, vessel_width, vessel_depth, vessel_height; /* diameter, or width and depth */
+    double diameter, width;                                            /* one of them */
+    double half_angle_deg;                                             /* NaN: no hopper */
+    double seconds;
+} orifice_inputs;
+
+/* Of every process that advances a scene: drum, fill, heap, orifice. */
 typedef struct scene_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
     double rotation_rate_rpm; /* given instead; NaN once rotation_rate is set by it */
@@ -116,7 +123,7 @@ typedef struct scene_inputs {
     pair_inputs *pairs;         /* (pair_count) owned */
     spec_name wall_material, plate_material;
     cohesion_inputs cohesion, wall_cohesion;
-    double fill_fraction, fill_height, particle_count; /* one of them; fill_height of fill and heap alone */
+    double fill_fraction, fill_height, particle_count; /* one of them; fill_height of what stands */
     double contact_law, friction, rolling_friction, tangential_stiffness_ratio;
     double restitution, unloading_slope; /* one of the two */
     double rolling_law, rolling_damping; /* the first a dem_rolling_law */
@@ -135,6 +142,7 @@ typedef struct scene_inputs {
     start_inputs start;
     fill_inputs fill;
     heap_inputs heap;
+    orifice_inputs orifice;
     /* While it is parsed: */
     struct spec_memory *memory;
     const client_watch *client;

@@ -46,6 +46,22 @@ static void warn_of_missing(const json_t *results, problem_list *warnings)
                          (long long)waiting, (long long)json_integer_value(member(results, "run", "particles")));
 }
 
+static void warn_of_flow(const json_t *results, problem_list *warnings)
+{
+    const json_t *rate = member(results, "flow", "mass_rate");
+    if (json_is_null(rate))
+        problem_list_add(
+            warnings, "/flow/mass_rate",
+            "is null: the flow had no steady part, from 5 sqrt(D/g) after the orifice was opened until the bed over it "
+            "was 2.5 D high; more particles, or a narrower orifice, give it one");
+    else if (rate && json_is_null(member(results, "flow", "mass_rate_standard_error")))
+        problem_list_add(warnings, "/flow/mass_rate_standard_error",
+                         "is null: the steady part is too short for one; more particles make it longer");
+    if (json_is_true(member(results, "flow", "clogged")))
+        problem_list_add(warnings, "/flow/clogged",
+                         "is true: particles lie over the orifice at rest; another seed may flow on for longer");
+}
+
 static void warn_of_end(const job_spec *spec, const json_t *results, problem_list *warnings)
 {
     const char *ended_by = json_string_value(member(results, "run", "ended_by"));
@@ -75,6 +91,7 @@ bool result_warnings_add(const job_spec *spec, json_t *results)
     warn_of_motion("heap", results, &warnings);
     warn_of_motion("fill", results, &warnings);
     warn_of_missing(results, &warnings);
+    warn_of_flow(results, &warnings);
     warn_of_end(spec, results, &warnings);
     warn_of_slip(results, &warnings);
     const bool done = json_object_set_new(json_object_get(results, "run"), "warnings", job_warnings_to_json(&warnings)) == 0;

@@ -4,6 +4,7 @@
 #include "array.h"
 #include "dem_mound.h"
 #include "dem_rules.h"
+#include "drained.h"
 #include "grounded.h"
 #include "scene.h"
 #include "statistics.h"
@@ -39,16 +40,6 @@ static int32_t *count_contacts(const dem_scene *scene)
 static double mean_grain(const dem_scene *scene)
 {
     return cbrt(6 / DEM_PI * dem_mean_volume(scene->definition.species, scene->definition.species_count));
-}
-
-/* A cluster's volume, which is less than that of its spheres where these overlap, shared among them. */
-static double volume_of_sphere(const dem_scene *scene, size_t i)
-{
-    const dem_cluster *cluster = &scene->definition.species[scene->spheres.species[i]].cluster;
-    double all = 0.0;
-    for (size_t k = 0; k < cluster->sphere_count; k++) all += dem_sphere_mass(cluster->sphere[k].diameter, 1.0);
-    const double own = dem_sphere_mass(2 * sphere_radius(&scene->spheres, i), 1.0);
-    return all > 0 ? own * cluster->volume / all : own;
 }
 
 /* Who belongs to the mound: (particles). */

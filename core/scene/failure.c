@@ -21,7 +21,8 @@ static dem_status fail(dem_scene *scene, const dem_failure *what)
 /* The same advice for each container, by its name. */
 #define FOR_EACH_CONTAINER(before, after)                                                                                          \
     {                                                                                                                              \
-        [DEM_DRUM] = before "drum" after, [DEM_CYLINDER] = before "cylinder" after, [DEM_TUBE_ON_PLATE] = before "heap" after      \
+        [DEM_DRUM] = before "drum" after, [DEM_CYLINDER] = before "cylinder" after, [DEM_TUBE_ON_PLATE] = before "heap" after,     \
+        [DEM_VESSEL] = before "vessel" after                                                                                       \
     }
 static const char *const too_soft_for_speeds[] =
     FOR_EACH_CONTAINER("the contacts are too soft for the speeds in this ",
@@ -43,7 +44,7 @@ WIDE_INLINE bound bound_broken(const dem_scene *scene, size_t i)
     const container *c = &scene->container;
     const double rho2 = x[0] * x[0] + x[1] * x[1];
     /* Written so that a NaN fails each of them. */
-    if (c->kind != DEM_TUBE_ON_PLATE && !(rho2 < c->radius * c->radius))
+    if (c->kind != DEM_TUBE_ON_PLATE && c->half_depth == 0 && !(rho2 < c->radius * c->radius))
         return (bound){ sqrt(rho2), c->radius, "distance from the axis" };
     if (c->period > 0 && !(fabs(x[2]) <= c->length)) return (bound){ fabs(x[2]), c->length, "distance along the axis" };
     if (!(rho2 <= 1e18) || !(fabs(x[2]) <= 1e9)) return (bound){ sqrt(rho2), 1e9, "distance from the axis" };
@@ -53,6 +54,9 @@ WIDE_INLINE bound bound_broken(const dem_scene *scene, size_t i)
             return (bound){ wall_seen_from(w, x).distance, 0,
                             c->kind == DEM_DRUM ? "distance before the end wall" : "height above the floor" };
         if (w->kind == WALL_DISC && lost_came_through_plate(scene, i)) return (bound){ x[2], w->low, "height above the plate" };
+        if (w->kind == WALL_FACE && !(wall_seen_from(w, x).distance > 0))
+            return (bound){ wall_seen_from(w, x).distance, 0, "distance before the side" };
+        if (w->kind == WALL_FUNNEL && lost_came_through_floor(scene, i)) return (bound){ x[2], w->low, "height above the orifice" };
         if (w->kind == WALL_BAR && rho2 > c->bars_from * c->bars_from && !(wall_seen_from(w, x).distance > 0))
             return (bound){ wall_seen_from(w, x).distance, 0, "distance before a lifter" };
     }

@@ -152,18 +152,20 @@ static void random_place(const region *r, double reach, random_stream *random, d
         x[1] = -outer + random_uniform(random) * (outer + fmin(r->level * r->room, outer));
         x[2] = (random_uniform(random) - 0.5) * (is_closed ? length - 2 * reach : length);
     } else {
-        x[1] = (2 * random_uniform(random) - 1) * outer;
+        x[1] = (2 * random_uniform(random) - 1) * (r->container->half_depth > 0 ? r->container->half_depth - reach : outer);
         x[2] = reach + random_uniform(random) * fmax(r->height - 2 * reach, 0);
     }
 }
 
-/* With room for the particle at full size; the first wall is the one about the axis. */
+/* With room for the particle at full size; the first wall is the one about the axis, or a side of a flat vessel. */
 static bool is_inside(const region *r, const double x[3], double reach)
 {
     const double outer = r->room - reach;
-    if (x[0] * x[0] + x[1] * x[1] > outer * outer) return false;
-    for (int k = 1; k < r->container->wall_count; k++)
-        if (wall_seen_from(&r->container->wall[k], x).distance < reach) return false;
+    if (r->container->half_depth == 0 && x[0] * x[0] + x[1] * x[1] > outer * outer) return false;
+    for (int k = r->container->half_depth > 0 ? 0 : 1; k < r->container->wall_count; k++) {
+        const container_wall *w = &r->container->wall[k];
+        if (wall_seen_from(w, x).distance < reach || (w->kind == WALL_FUNNEL && wall_is_beneath_funnel(w, x))) return false;
+    }
     return true;
 }
 
@@ -290,18 +292,28 @@ static void set_schedule(filling *f, const spheres *s, double size, const dem_sc
 /* m3 that particles can share: without the lining's layer and the bars. */
 static double free_volume(const container *c, const dem_scene_definition *definition)
 {
+    if (c->kind == DEM_VESSEL) return container_volume_below(c, c->length);
     const double room = c->inner_radius,
                  bars = (double)definition->lifters.count * definition->lifters.height * definition->lifters.width;
     return (DEM_PI * room * room - bars) * c->length;
 }
 
+/* Up to which that share of the volume is; a hopper is narrower than what is above it. */
+static double height_of_share(const container *c, double share)
+{
+    if (c->hopper_height == 0) return share * c->length;
+    const double above = container_volume_below(c, c->length) - container_volume_below(c, c->hopper_height);
+    const double left_out = (1 - share) * container_volume_below(c, c->length);
+    return fmax(c->hopper_height, c->length - left_out / above * (c->length - c->hopper_height));
+}
+
 static region region_of_share(const container *c, const spheres *s, double share)
 {
-    region r = { .container = c, .room = c->inner_radius, .level = 1.0, .height = c->length };
+    region r = { .container = c, .room = c->kind == DEM_VESSEL ? c->radius : c->inner_radius, .level = 1.0, .height = c->length };
     /* at least as high as one sphere needs */
     if (share < 1 && c->kind == DEM_DRUM)
         r.level = fmax(dem_circle_level(share), fmin(1.0, 1.5 * s->largest_diameter / r.room - 1));
-    if (share < 1 && c->kind != DEM_DRUM) r.height = fmin(c->length, fmax(share * c->length, 3 * s->largest_reach));
+    if (share < 1 && c->kind != DEM_DRUM) r.height = fmin(c->length, fmax(height_of_share(c, share), 3 * s->largest_reach));
     return r;
 }
 

@@ -4,18 +4,35 @@
 
 enum { STEPS_BETWEEN_LOOKS = 50 };
 
+static bool has_orifice(const dem_scene *scene) { return scene->container.kind == DEM_VESSEL; }
+
 /* Distance between places on the tray: nobody can reach a neighbor. */
 static double tray_pitch(const spheres *s) { return 2.5 * s->largest_reach; }
 
-/* Place of particle p on the tray: a lattice as wide as the plate, layer below layer. */
-static void tray_place(const dem_scene *scene, size_t p, double x[3])
+/* m below the plate or orifice. */
+static double tray_depth(const dem_scene *scene)
 {
     const container *c = &scene->container;
-    const double pitch = tray_pitch(&scene->spheres), width = c->high[0] - c->low[0];
+    return fmax(0.5 * (c->high[0] - c->low[0]), 20 * scene->spheres.largest_reach);
+}
+
+/* m: of a square below the plate; of one that the walls of a vessel, which have no lower end, are not in reach of. */
+static double tray_width(const dem_scene *scene)
+{
+    const container *c = &scene->container;
+    if (!has_orifice(scene)) return c->high[0] - c->low[0];
+    return (c->half_depth > 0 ? 2 * c->inner_radius : sqrt(2) * c->radius) - 2 * scene->spheres.largest_reach;
+}
+
+/* Place of particle p on the tray: a lattice about the axis or, below a plate, from its corner on; layer below layer. */
+static void tray_place(const dem_scene *scene, size_t p, double x[3])
+{
+    const double pitch = tray_pitch(&scene->spheres), width = tray_width(scene);
     const size_t side = (size_t)fmax(1.0, floor(width / pitch));
-    x[0] = c->low[0] + ((double)(p % side) + 0.5) * pitch;
-    x[1] = c->low[1] + ((double)(p / side % side) + 0.5) * pitch;
-    x[2] = -fmax(0.5 * width, 20 * scene->spheres.largest_reach) - (double)(p / (side * side)) * pitch;
+    const double low = has_orifice(scene) ? -0.5 * (double)side * pitch : scene->container.low[0];
+    x[0] = low + ((double)(p % side) + 0.5) * pitch;
+    x[1] = low + ((double)(p / side % side) + 0.5) * pitch;
+    x[2] = -tray_depth(scene) - (double)(p / (side * side)) * pitch;
 }
 
 /* A cluster's spheres follow from it with the next step; until then they stand where they were, turned about it. */
@@ -42,10 +59,16 @@ static void lay_down(dem_scene *scene, size_t p)
     memset(body->spin_change, 0, sizeof body->spin_change);
 }
 
+/* All may be on the tray in the end: the box that particles are looked for in has it, too. */
 dem_status lost_init(dem_scene *scene)
 {
-    if (scene->container.kind != DEM_TUBE_ON_PLATE) return DEM_OK;
+    if (scene->container.kind != DEM_TUBE_ON_PLATE && !has_orifice(scene)) return DEM_OK;
     const size_t n = particles_count(&scene->spheres);
+    if (has_orifice(scene)) {
+        double last[3];
+        tray_place(scene, n - 1, last);
+        scene->container.low[2] = last[2] - tray_pitch(&scene->spheres);
+    }
     scene->lost = array_create(n, sizeof *scene->lost);
     scene->is_lost = array_create(n, sizeof *scene->is_lost);
     return scene->lost && scene->is_lost ? DEM_OK : DEM_NO_MEMORY;
@@ -69,6 +92,14 @@ bool lost_came_through_plate(const dem_scene *scene, size_t i)
     return is_beneath_plate(scene, i) && !(way < sphere_radius(&scene->spheres, i));
 }
 
+bool lost_came_through_floor(const dem_scene *scene, size_t i)
+{
+    const vector4 v = scene->spheres.velocity[i];
+    const double way = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) * scene->definition.time_step;
+    return wall_is_beneath_funnel(&scene->container.wall[scene->container.funnel], sphere_place(&scene->spheres, i))
+           && !(way < sphere_radius(&scene->spheres, i));
+}
+
 /* A plate has a thickness in which nobody fits: who reaches beneath it does not come back, nor hang on to its edge. */
 static bool has_tipped_over(const dem_scene *scene, size_t p)
 {
@@ -87,6 +118,11 @@ static bool has_tipped_over(const dem_scene *scene, size_t p)
     return beneath || particle_place(s, p)[2] < -2 * particle_reach(s, p);
 }
 
+static bool is_through_orifice(const dem_scene *scene, size_t p)
+{
+    return particle_place(&scene->spheres, p)[2] < -2 * particle_reach(&scene->spheres, p);
+}
+
 static void lose(dem_scene *scene, size_t p)
 {
     scene->is_lost[p] = true;
@@ -98,14 +134,14 @@ void lost_look(dem_scene *scene)
     if (!scene->is_lost || scene->step_count % STEPS_BETWEEN_LOOKS) return;
     const size_t before = scene->lost_count, n = particles_count(&scene->spheres);
     for (size_t p = 0; p < n; p++)
-        if (!scene->is_lost[p] && has_tipped_over(scene, p)) lose(scene, p);
-    for (size_t k = before; k < scene->lost_count; k++) lay_down(scene, (size_t)scene->lost[k]);
+        if (!scene->is_lost[p] && (has_orifice(scene) ? is_through_orifice(scene, p) : has_tipped_over(scene, p))) lose(scene, p);
+    for (size_t k = has_orifice(scene) ? 0 : before; k < scene->lost_count; k++) lay_down(scene, (size_t)scene->lost[k]);
     if (scene->lost_count > before) neighbor_list_invalidate(&scene->neighbors);
 }
 
 void lost_hold(dem_scene *scene)
 {
-    for (size_t k = 0; k < scene->lost_count; k++) lay_down(scene, (size_t)scene->lost[k]);
+    for (size_t k = 0; !has_orifice(scene) && k < scene->lost_count; k++) lay_down(scene, (size_t)scene->lost[k]);
 }
 
 void lost_recognize(dem_scene *scene)
@@ -118,6 +154,8 @@ void lost_recognize(dem_scene *scene)
         double x[3];
         tray_place(scene, p, x);
         scene->is_lost[p] = false;
-        if (place[0] == x[0] && place[1] == x[1] && place[2] == x[2]) lose(scene, p);
+        const bool is_on_tray =
+            has_orifice(scene) ? place[2] < -0.5 * tray_depth(scene) : place[0] == x[0] && place[1] == x[1] && place[2] == x[2];
+        if (is_on_tray) lose(scene, p);
     }
 }

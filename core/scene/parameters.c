@@ -88,6 +88,15 @@ static bool is_stream(const dem_scene_definition *d)
            && d->stream.diameter >= dem_stream_widest(d) && d->stream.impact_speed >= dem_stream_least_impact_speed(d);
 }
 
+/* A hole within the floor, and a hopper below the top. */
+static bool is_vessel(const dem_scene_definition *d)
+{
+    const dem_orifice *o = &d->orifice;
+    const double hopper = o->half_angle > 0 ? 0.5 * (d->diameter - o->opening) / tan(o->half_angle) : 0;
+    return are_frictions(d->ends.friction, d->ends.rolling_friction) && is_positive(o->opening) && o->opening < d->diameter
+           && is_not_negative(o->depth) && o->half_angle >= 0 && o->half_angle < DEM_PI / 2 && hopper < d->length;
+}
+
 /* Beside the measures that every container has. */
 static bool is_container(const dem_scene_definition *d)
 {
@@ -101,6 +110,7 @@ static bool is_container(const dem_scene_definition *d)
         return d->plate.diameter > d->diameter && isfinite(d->plate.diameter) && is_not_negative(d->plate.rim_height)
                && are_frictions(d->plate.friction, d->plate.rolling_friction) && is_not_negative(d->lift.speed)
                && is_not_negative(d->lift.start) && !is_lined && d->lifters.count == 0;
+    case DEM_VESSEL: return is_vessel(d) && !is_lined && d->lifters.count == 0;
     }
     return false;
 }

@@ -91,7 +91,8 @@ double dem_scene_maximum_overlap(const dem_scene *scene) { return scene->maximum
 const char *dem_scene_phase_name(const dem_scene *scene)
 {
     if (scene->phase != DEM_PHASE_RUNNING || scene->container.kind == DEM_DRUM) return dem_phase_name(scene->phase);
-    return scene->container.kind == DEM_CYLINDER ? "filling" : "lifting";
+    static const char *const running[] = { [DEM_CYLINDER] = "filling", [DEM_TUBE_ON_PLATE] = "lifting", [DEM_VESSEL] = "flowing" };
+    return running[scene->container.kind];
 }
 
 static void sphere_orientation(const spheres *s, size_t i, double wxyz[4])

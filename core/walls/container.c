@@ -59,6 +59,35 @@ static void tube_walls(container *c, const dem_scene_definition *definition)
     if (definition->plate.rim_height > 0) add_shell(c, 0.5 * definition->plate.diameter, definition->plate.rim_height);
 }
 
+/* The sides of a vessel first, then its floor or hopper, then a hopper's stopper, which container_move takes away. */
+static void vessel_walls(container *c, const dem_orifice *orifice)
+{
+    if (c->half_depth == 0) add_wall(c, WALL_CYLINDER, 0)->radius = c->radius;
+    for (int k = 0; c->half_depth > 0 && k < 4; k++) {
+        container_wall *face = add_wall(c, WALL_FACE, 0);
+        face->radius = k < 2 ? c->radius : c->half_depth;
+        face->middle[k / 2] = k % 2 ? -1 : 1;
+    }
+    c->funnel = c->wall_count;
+    container_wall *floor = add_wall(c, WALL_FUNNEL, 0);
+    floor->radius = 0.5 * orifice->opening;
+    floor->outer = c->radius;
+    floor->high = c->hopper_height;
+    floor->middle[0] = c->half_depth > 0;
+    if (c->hopper_height == 0) return;
+    container_wall *stopper = add_wall(c, WALL_FUNNEL, 0);
+    *stopper = *floor;
+    stopper->outer = floor->radius;
+    stopper->radius = stopper->high = 0;
+}
+
+/* The stopper of a hopper is the last wall; a flat floor has no hole before. */
+static void open_vessel(container *c, const dem_orifice *orifice, bool is_open)
+{
+    if (c->hopper_height > 0) c->wall_count = c->funnel + (is_open ? 1 : 2);
+    else c->wall[c->funnel].radius = is_open ? 0.5 * orifice->opening : 0.0;
+}
+
 static void set_box(container *c, double radius, double low, double high)
 {
     for (int a = 0; a < 2; a++) c->high[a] = -(c->low[a] = -radius);
@@ -66,13 +95,27 @@ static void set_box(container *c, double radius, double low, double high)
     c->high[2] = high;
 }
 
+static void set_vessel(container *c, const dem_orifice *orifice)
+{
+    c->half_depth = 0.5 * orifice->depth;
+    if (c->half_depth > 0) {
+        c->inner_radius = fmin(c->radius, c->half_depth);
+        c->high[1] = -(c->low[1] = -c->half_depth);
+    }
+    if (orifice->half_angle > 0) c->hopper_height = (c->radius - 0.5 * orifice->opening) / tan(orifice->half_angle);
+    vessel_walls(c, orifice);
+    open_vessel(c, orifice, false);
+}
+
 static dem_surface surface_of(const container *c, int k)
 {
     switch (c->wall[k].kind) {
-    case WALL_PLANE: return DEM_ENDS;
+    case WALL_PLANE:
+    case WALL_FUNNEL: return DEM_ENDS;
     case WALL_DISC: return DEM_PLATE;
     case WALL_BAR: return DEM_LIFTERS;
     case WALL_SHELL: return k == 0 ? DEM_WALL : DEM_PLATE;
+    case WALL_FACE:
     case WALL_CYLINDER: break;
     }
     return DEM_WALL;
@@ -103,6 +146,10 @@ void container_init(container *c, const dem_scene_definition *definition)
         set_box(c, fmax(c->radius, 0.5 * definition->plate.diameter), 0, c->length);
         tube_walls(c, definition);
         break;
+    case DEM_VESSEL:
+        set_box(c, c->radius, 0, c->length);
+        set_vessel(c, &definition->orifice);
+        break;
     }
     for (int k = 0; k < c->wall_count; k++) c->wall[k].surface = surface_of(c, k);
     container_set_friction(c, definition, true);
@@ -111,10 +158,12 @@ void container_init(container *c, const dem_scene_definition *definition)
 static double wall_friction(const container *c, const dem_scene_definition *definition, int k)
 {
     switch (c->wall[k].kind) {
-    case WALL_PLANE: return definition->ends.friction;
+    case WALL_PLANE:
+    case WALL_FUNNEL: return definition->ends.friction;
     case WALL_DISC: return definition->plate.friction;
     case WALL_BAR: return definition->lifters.friction;
     case WALL_SHELL: return k == 0 ? definition->contact.wall_friction : definition->plate.friction;
+    case WALL_FACE:
     case WALL_CYLINDER: break;
     }
     return definition->contact.wall_friction;
@@ -124,7 +173,7 @@ static double wall_friction(const container *c, const dem_scene_definition *defi
 static double wall_rolling_friction(const container *c, const dem_scene_definition *definition, int k)
 {
     const bool is_plate = c->wall[k].kind == WALL_DISC || (c->wall[k].kind == WALL_SHELL && k > 0);
-    if (c->wall[k].kind == WALL_PLANE) return definition->ends.rolling_friction;
+    if (c->wall[k].kind == WALL_PLANE || c->wall[k].kind == WALL_FUNNEL) return definition->ends.rolling_friction;
     return is_plate ? definition->plate.rolling_friction : definition->contact.wall_rolling_friction;
 }
 
@@ -185,9 +234,26 @@ bool container_move(container *c, const dem_scene_definition *definition, bool h
         return turn_drum(c, rate, turned);
     }
     case DEM_TUBE_ON_PLATE: return raise_tube(c, &definition->lift, has_begun, time);
+    case DEM_VESSEL: open_vessel(c, &definition->orifice, has_begun); break;
     case DEM_CYLINDER: break;
     }
     return false;
+}
+
+/* Area of the cross-section where the funnel's wall is `out` from the axis, m2. */
+static double section_area(const container *c, double out)
+{
+    return c->half_depth > 0 ? 4 * c->half_depth * out : DEM_PI * out * out;
+}
+
+double container_volume_below(const container *c, double height)
+{
+    if (c->hopper_height == 0) return section_area(c, c->radius) * height;
+    const container_wall *funnel = &c->wall[c->funnel];
+    const double in = fmin(height, c->hopper_height), rise = (funnel->outer - funnel->radius) / c->hopper_height;
+    const double middle = section_area(c, funnel->radius + 0.5 * rise * in);
+    const double ends = section_area(c, funnel->radius) + section_area(c, funnel->radius + rise * in);
+    return in / 6 * (ends + 4 * middle) + section_area(c, c->radius) * (height - in); /* Simpson's rule is exact for both */
 }
 
 double container_overlap(const container *c, const double x[3], double radius)

@@ -6,7 +6,7 @@
 #include "spheres.h"
 #include "wall.h"
 
-enum { MOST_WALLS = 3 + DEM_MAXIMUM_LIFTERS };
+enum { MOST_WALLS = 6 + DEM_MAXIMUM_LIFTERS };
 
 typedef struct container {
     dem_container_kind kind;
@@ -17,6 +17,9 @@ typedef struct container {
     double angle;                  /* rad turned */
     double angle_before;           /* rad turned before the time that container_move is told */
     double inner_radius;           /* m, of the free room: radius less the lining's diameter */
+    double half_depth;             /* m along y, of a flat vessel, whose radius is half of its width; 0: round */
+    double hopper_height;          /* m; 0: a flat floor */
+    int funnel;                    /* of a vessel: which wall is its floor or hopper */
     double low[3], high[3];        /* m: the box that particles are looked for in */
     int wall_count;
     int first_bar, bar_count;
@@ -30,6 +33,8 @@ void container_init(container *container, const dem_scene_definition *definition
 bool container_move(container *container, const dem_scene_definition *definition, bool has_begun, double time);
 /* Friction of every wall; none while particles grow. */
 void container_set_friction(container *container, const dem_scene_definition *definition, bool has_friction);
+/* m3 below that height; of what stands. */
+double container_volume_below(const container *container, double height);
 /* Nearest of all walls, as a sphere of that radius at x would overlap it, m; negative: apart. */
 double container_overlap(const container *container, const double x[3], double radius);
 

@@ -51,6 +51,34 @@ static wall_sight bar_seen(const container_wall *w, const double x[3])
     return along(radial * e_x - sideways * e_y, radial * e_y + sideways * e_x, 0, sqrt(radial * radial + sideways * sideways));
 }
 
+static wall_sight face_seen(const container_wall *w, const double x[3])
+{
+    return (wall_sight){ { w->middle[0], w->middle[1], 0 }, w->radius - (x[0] * w->middle[0] + x[1] * w->middle[1]) };
+}
+
+static double out_of_middle(const container_wall *w, const double x[3])
+{
+    return w->middle[0] != 0 ? fabs(x[0]) : sqrt(x[0] * x[0] + x[1] * x[1]);
+}
+
+bool wall_is_beneath_funnel(const container_wall *w, const double x[3])
+{
+    const double out = out_of_middle(w, x) - w->radius;
+    return out > 0 && (x[2] - w->low) * (w->outer - w->radius) < out * (w->high - w->low);
+}
+
+/* The nearest point of the line from (radius, low) to (outer, high), on x's own side of the axis. */
+static wall_sight funnel_seen(const container_wall *w, const double x[3])
+{
+    const bool is_flat = w->middle[0] != 0;
+    const double s = out_of_middle(w, x);
+    const double e_x = is_flat ? (x[0] < 0 ? -1 : 1) : s > 0 ? x[0] / s : 1, e_y = is_flat || !(s > 0) ? 0 : x[1] / s;
+    const double out = w->outer - w->radius, up = w->high - w->low;
+    const double share = fmin(fmax(((s - w->radius) * out + (x[2] - w->low) * up) / (out * out + up * up), 0.0), 1.0);
+    const double outward = w->radius + share * out - s, upward = w->low + share * up - x[2];
+    return along(e_x * outward, e_y * outward, upward, sqrt(outward * outward + upward * upward));
+}
+
 wall_sight wall_seen_from(const container_wall *w, const double x[3])
 {
     switch (w->kind) {
@@ -58,6 +86,8 @@ wall_sight wall_seen_from(const container_wall *w, const double x[3])
     case WALL_PLANE: return plane_seen(w, x);
     case WALL_DISC: return disc_seen(w, x);
     case WALL_SHELL: return shell_seen(w, x);
+    case WALL_FACE: return face_seen(w, x);
+    case WALL_FUNNEL: return funnel_seen(w, x);
     case WALL_BAR: break;
     }
     return bar_seen(w, x);

@@ -213,7 +213,7 @@ def test_owslib_reads_the_service_and_what_it_submits_is_taken(running):
     assert described["openapi"].startswith("3.0") and "post" in described["paths"]["/processes/{process}/execution"]
     assert any(name.endswith("/conf/job-list") for name in client.conformance()["conformsTo"])
     names = [process["id"] for process in client.processes()["processes"]]
-    assert names == ["drum", "fill", "heap", "granule"]
+    assert names == ["drum", "fill", "heap", "granule", "orifice"]
     assert "friction" in client.process("granule")["inputs"]
     for link in client.links:
         assert requests.get(link["href"], timeout=30).status_code in (200, 400), link  # /query wants its sql

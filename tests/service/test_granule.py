@@ -115,7 +115,7 @@ def test_every_problem_is_named_at_once(daemon):
 
 def test_processes_are_listed_and_described(daemon):
     listed = daemon.get("/processes").json()["processes"]
-    assert [process["id"] for process in listed] == ["drum", "fill", "heap", "granule"]
+    assert [process["id"] for process in listed] == ["drum", "fill", "heap", "granule", "orifice"]
     described = daemon.get("/processes/granule").json()
     assert described["inputs"]["friction"]["minOccurs"] == 1
     assert [name for name, given in described["inputs"].items() if given["minOccurs"]] == ["friction"]

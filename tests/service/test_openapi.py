@@ -277,7 +277,7 @@ def test_a_bad_specification_names_every_problem(daemon):
     assert {"/inputs/fill_fraction", "/inputs/colour", "/inputs/particles/0/diameter"} <= pointers
 
 
-PROCESSES = (("drum", "Drum"), ("fill", "Fill"), ("heap", "Heap"), ("granule", "Granule"))
+PROCESSES = (("drum", "Drum"), ("fill", "Fill"), ("heap", "Heap"), ("granule", "Granule"), ("orifice", "Orifice"))
 
 
 def test_documented_processes_are_those_that_are_listed(daemon, contract):

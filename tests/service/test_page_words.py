@@ -17,7 +17,7 @@ def members(schema):
 def test_every_result_has_words_and_none_stands_in_the_pages_own(fake):
     fake.ended(fake.submit())
     words = fake.get("/web/words.js").text + fake.get("/web/study_table.js").text
-    for process in ("drum", "fill", "heap", "granule"):
+    for process in ("drum", "fill", "heap", "granule", "orifice"):
         outputs = fake.get(f"/processes/{process}").json()["outputs"]
         found = [member for output in outputs.values() for member in members(output["schema"])]
         assert len(found) > 15 and [name for name, member in found if not member.get("title")] == [], process

@@ -14,7 +14,7 @@ TEXT = (ROOT / "README.md").read_text()
 BLOCKS = re.findall(r"^```(\w*)\n(.*?)^```$", TEXT, re.DOTALL | re.MULTILINE)
 PROSE = re.sub(r"^```.*?^```$", "", TEXT, flags=re.DOTALL | re.MULTILINE)
 EXAMPLE_JOB = "20261122-014455-3f9a2c71"
-DRUM = 3  # the block with every input of a drum
+DRUM = 4  # the block with every input of a drum
 
 
 def blocks_of(language):

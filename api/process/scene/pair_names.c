@@ -11,13 +11,16 @@ static const struct {
     { "wall", DEM_DRUM, DEM_WALL },          { "ends", DEM_DRUM, DEM_ENDS },          { "lifters", DEM_DRUM, DEM_LIFTERS },
     { "lining", DEM_DRUM, DEM_LINING },      { "wall", DEM_CYLINDER, DEM_WALL },      { "floor", DEM_CYLINDER, DEM_ENDS },
     { "tube", DEM_TUBE_ON_PLATE, DEM_WALL }, { "wall", DEM_TUBE_ON_PLATE, DEM_WALL }, { "plate", DEM_TUBE_ON_PLATE, DEM_PLATE },
+    { "wall", DEM_VESSEL, DEM_WALL },        { "floor", DEM_VESSEL, DEM_ENDS },
 };
 enum { SURFACE_NAMES = sizeof surface_names / sizeof *surface_names };
 
 bool surface_is_there(const dem_scene_definition *scene, dem_surface surface)
 {
     switch (surface) {
-    case DEM_ENDS: return scene->container == DEM_CYLINDER || (scene->container == DEM_DRUM && scene->ends.are_walls);
+    case DEM_ENDS:
+        return scene->container == DEM_CYLINDER || scene->container == DEM_VESSEL
+               || (scene->container == DEM_DRUM && scene->ends.are_walls);
     case DEM_LIFTERS: return scene->lifters.count > 0;
     case DEM_LINING: return scene->lining.diameter > 0;
     case DEM_PLATE: return scene->container == DEM_TUBE_ON_PLATE;

@@ -166,7 +166,8 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "contacts of two materials, or of one and a surface, that differ from what contact and wall say of all" }, \
     { SPEC_PAIRS, "between", FIELD_TWO_NAMES, .unit = "", RANGE(1, NAME_MOST), AT_PAIR(between), \
       .meaning = "the two: names of materials, or a material and a surface of the container. Of a drum: wall (its lining, too, " \
-                 "unless that is named itself), ends, lifters, lining; of a cylinder: wall, floor; of a heap: wall or tube, plate" }, \
+                 "unless that is named itself), ends, lifters, lining; of a cylinder: wall, floor; of a heap: wall or tube, plate; " \
+                 "of a vessel: wall, floor (or hopper)" }, \
     { SPEC_PAIRS, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = NAN, AT_PAIR(friction), \
       .meaning = "coefficient of friction. Default: as without the pair" }, \
     { SPEC_PAIRS, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = NAN, AT_PAIR(rolling_friction), \
@@ -234,7 +235,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "of contacts; positions, velocities and their integration are double always. single is as good for every " \
                  "angle, and faster" }
 
-/* Of processes that stand still, fill and heap. whole, all, one: how the wall is told of. */
+/* Of processes that stand still: fill, heap, orifice. whole, all, one: how the wall is told of. */
 #define FIELD_OF_COUNT \
     { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height", \
       AT(particle_count), COLUMN("particles", COUNT, scene.particle_count), LISTED, IN_LIST(110, "", 1, NULL), \

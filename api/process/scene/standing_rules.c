@@ -23,9 +23,14 @@ void standing_derive_scene(scene_inputs *inputs, dem_scene_definition *scene, ui
     scene_check_size_ratio(scene, problems);
 }
 
+double standing_area(const dem_scene_definition *scene)
+{
+    return scene->orifice.depth > 0.0 ? scene->diameter * scene->orifice.depth : DEM_PI / 4.0 * scene->diameter * scene->diameter;
+}
+
 static double particles_a_meter(const dem_scene_definition *scene)
 {
-    const double area = DEM_PI / 4.0 * scene->diameter * scene->diameter;
+    const double area = standing_area(scene);
     return DEM_BED_SOLID_FRACTION * area / dem_mean_volume(scene->species, scene->species_count);
 }
 

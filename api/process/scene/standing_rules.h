@@ -1,4 +1,4 @@
-/* Rules that the upright containers share: the cylinder that is filled, and the tube that is raised. */
+/* Rules that the upright containers share: the cylinder that is filled, the tube that is raised, the vessel with an orifice. */
 #ifndef STANDING_RULES_H
 #define STANDING_RULES_H
 
@@ -12,6 +12,8 @@ void standing_derive_scene(scene_inputs *inputs, dem_scene_definition *scene, ui
  * and species must be derived. least: particles below which there is nothing to measure. */
 void standing_derive_count(scene_inputs *inputs, dem_scene_definition *scene, double usual_height, double least,
                            problem_list *problems);
+/* m2: of the cross-section; of a vessel above its hopper. */
+double standing_area(const dem_scene_definition *scene);
 /* m: of the bed that so many particles make at a solid fraction of 0.6. */
 double standing_bed_height(const dem_scene_definition *scene);
 

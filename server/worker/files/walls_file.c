@@ -116,6 +116,37 @@ static void add_tube_on_plate(surface *s, const dem_scene_definition *heap, doub
     if (heap->plate.rim_height > 0) add_shell(s, 0.5 * heap->plate.diameter, 0.0, heap->plate.rim_height, 0.0, WALLS_RIM);
 }
 
+static void add_box(surface *s, double half_width, double half_depth, double low, double high)
+{
+    int at[2][4];
+    for (int k = 0; k < 8; k++) {
+        const double x = k % 4 == 1 || k % 4 == 2 ? half_width : -half_width, y = k % 4 < 2 ? -half_depth : half_depth;
+        at[k / 4][k % 4] = add_point(s, x, y, k < 4 ? low : high);
+    }
+    for (int k = 0; k < 4; k++) add_quad(s, at[0][k], at[0][(k + 1) % 4], at[1][(k + 1) % 4], at[1][k], WALLS_SHELL);
+}
+
+/* Its floor or hopper, from the orifice's edge to the side. */
+static void add_vessel(surface *s, const dem_scene_definition *vessel)
+{
+    const dem_orifice *o = &vessel->orifice;
+    const double wide = 0.5 * vessel->diameter, edge = 0.5 * o->opening, deep = 0.5 * o->depth;
+    const double top = o->half_angle > 0 ? (wide - edge) / tan(o->half_angle) : 0.0;
+    if (deep > 0) {
+        add_box(s, wide, deep, top, vessel->length);
+        for (int side = -1; side <= 1; side += 2)
+            add_quad(s, add_point(s, side * edge, -deep, 0), add_point(s, side * wide, -deep, top),
+                     add_point(s, side * wide, deep, top), add_point(s, side * edge, deep, 0), WALLS_END);
+        return;
+    }
+    add_shell(s, wide, top, vessel->length, 0.0, WALLS_SHELL);
+    const int below = add_ring(s, edge, 0.0, 0.0), above = add_ring(s, wide, top, 0.0);
+    for (int k = 0; k < SIDES; k++) {
+        const int next = (k + 1) % SIDES;
+        add_quad(s, below + k, below + next, above + next, above + k, WALLS_END);
+    }
+}
+
 static void add_walls(surface *s, const dem_scene *scene, const dem_scene_definition *definition)
 {
     switch (definition->container) {
@@ -125,6 +156,7 @@ static void add_walls(surface *s, const dem_scene *scene, const dem_scene_defini
         add_disc(s, 0.5 * definition->diameter, 0.0, 0.0, WALLS_END);
         break;
     case DEM_TUBE_ON_PLATE: add_tube_on_plate(s, definition, dem_scene_time(scene)); break;
+    case DEM_VESSEL: add_vessel(s, definition); break;
     }
 }
 

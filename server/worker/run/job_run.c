@@ -14,6 +14,7 @@
 #include "granule_run.h"
 #include "heap_run.h"
 #include "json_text.h"
+#include "orifice_run.h"
 #include "result_warnings.h"
 #include "run_folder.h"
 #include "run_summary.h"
@@ -29,10 +30,8 @@ typedef struct job_runner {
 } job_runner;
 
 static const job_runner runners[] = {
-    { "drum", drum_run, terminal_summary },
-    { "fill", fill_run, fill_summary },
-    { "heap", heap_run, heap_summary },
-    { "granule", granule_run, granule_summary },
+    { "drum", drum_run, terminal_summary },      { "fill", fill_run, fill_summary },          { "heap", heap_run, heap_summary },
+    { "granule", granule_run, granule_summary }, { "orifice", orifice_run, orifice_summary },
 };
 
 /* NULL: none, which is our own mistake. */

@@ -58,7 +58,7 @@ static void what_a_runs_error_is_named_by_is_a_column(void **state)
         assert_true(column->in_study > 0);
         errors++;
     }
-    assert_int_equal(errors, 4); /* of the angle, while filling, the torque, the least rate */
+    assert_int_equal(errors, 6); /* of the angle, while filling, the torque, the least rate, two flows */
 }
 
 /* What is told of an output by several processes is the same thing: a table has one type for it. */

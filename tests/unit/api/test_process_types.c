@@ -82,7 +82,8 @@ static void an_unknown_process_is_told_which_there_are(void **state)
     job_spec spec;
     char *problems;
     assert_false(parse(NULL, "{\"process\": \"hopper\", \"inputs\": {\"friction\": 0.5}}", &spec, &problems));
-    assert_non_null(strstr(problems, "is \\\"hopper\\\"; available: \\\"drum\\\", \\\"fill\\\", \\\"heap\\\", \\\"granule\\\""));
+    assert_non_null(strstr(
+        problems, "is \\\"hopper\\\"; available: \\\"drum\\\", \\\"fill\\\", \\\"heap\\\", \\\"granule\\\", \\\"orifice\\\""));
     assert_null(strstr(problems, "/inputs")); /* nobody can tell what a hopper's inputs are */
     free(problems);
     assert_null(process_description("hopper"));

@@ -15,6 +15,7 @@ static inline dem_scene_definition container_definition(dem_container_kind kind,
     d.length = 0.06;
     d.ends.friction = 0.3;
     d.plate = (dem_plate){ .diameter = 0.2, .friction = 0.3 };
+    if (kind == DEM_VESSEL) d.orifice = (dem_orifice){ .opening = 0.03 };
     d.contact.wall_friction = 0.3;
     return d;
 }

@@ -4,7 +4,7 @@
 #include "core_claims.h"
 #include "dem_rules.h"
 
-enum { MOST_POINTS = 400000 };
+enum { MOST_POINTS = 500000 };
 static const double RADIUS = 0.05, LENGTH = 0.04;
 
 /* Points of a surface, none of it farther from the next point than `spacing`. */
@@ -23,7 +23,10 @@ static cloud cloud_create(double spacing)
 
 static void cloud_add(cloud *c, double x, double y, double z)
 {
-    if (c->count == MOST_POINTS) fail_msg("the test's own cloud is full");
+    if (c->count == MOST_POINTS) {
+        fail_msg("the test's own cloud is full");
+        return;
+    }
     memcpy(c->point[c->count++], (double[]){ x, y, z }, 3 * sizeof(double));
 }
 
@@ -147,6 +150,63 @@ static void a_drum_is_seen_from_within(void **unused)
     free(c.point);
 }
 
+/* A floor with a hole and a hopper, round and flat, and the stopper: from inside, from below and from beside their edges. */
+static void a_floor_with_an_orifice_is_seen_from_all_sides(void **unused)
+{
+    (void)unused;
+    for (int which = 0; which < 4; which++) {
+        const bool is_flat = which & 1;
+        const double half_angle = which & 2 ? 0.6 : 0, hole = 0.2 * RADIUS, depth = 0.5 * RADIUS;
+        const dem_scene_definition d = { .container = DEM_VESSEL,
+                                         .diameter = 2 * RADIUS,
+                                         .length = 0.1,
+                                         .orifice = { 2 * hole, is_flat ? 2 * depth : 0, half_angle } };
+        container vessel;
+        container_init(&vessel, &d);
+        container_move(&vessel, &d, true, 0);
+        const double rise = half_angle > 0 ? 1 / tan(half_angle) : 0;
+        cloud c = cloud_create(6e-4);
+        for (double s = hole; s <= RADIUS + 2e-4; s += 2e-4) {
+            const double out = fmin(s, RADIUS), z = (out - hole) * rise;
+            const int around = (int)ceil(2 * DEM_PI * out / 3e-4);
+            for (int b = 0; !is_flat && b < around; b++)
+                cloud_add(&c, out * cos(2 * DEM_PI * b / around), out * sin(2 * DEM_PI * b / around), z);
+            for (double y = -depth; is_flat && y <= depth; y += 3e-4)
+                for (int side = -1; side <= 1; side += 2) cloud_add(&c, side * out, y, z);
+        }
+        dice own = { 5 };
+        for (int trial = 0; trial < 100; trial++) {
+            const double x[3] = { dice_uniform(&own, -0.6, 0.6) * RADIUS, dice_uniform(&own, -0.45, 0.45) * RADIUS,
+                                  dice_uniform(&own, -0.02, 0.06) };
+            check_sight(&c, &vessel.wall[vessel.funnel], x);
+        }
+        free(c.point);
+        assert_int_equal(vessel.wall_count, vessel.funnel + 1);
+        container_move(&vessel, &d, false, 0);
+        const wall_sight closed = wall_seen_from(&vessel.wall[vessel.wall_count - 1], (double[]){ 0.001, 0.002, 0.004 });
+        CHECK_NEAR(closed.distance, 0.004, 1e-15); /* over the middle: the stopper, or a floor that has no hole yet */
+    }
+}
+
+/* The volume below a height is that of a frustum or wedge and what stands on it. */
+static void the_room_of_a_vessel_is_that_of_its_hopper_and_what_is_above(void **unused)
+{
+    (void)unused;
+    const double r = 0.01, R = 0.05, angle = 0.5, h = (R - r) / tan(angle);
+    dem_scene_definition d = { .container = DEM_VESSEL, .diameter = 2 * R, .length = 0.2, .orifice = { 2 * r, 0, angle } };
+    container c;
+    container_init(&c, &d);
+    CHECK_NEAR(c.hopper_height, h, 1e-15);
+    CHECK_NEAR(container_volume_below(&c, 0.2), DEM_PI * (h / 3 * (R * R + R * r + r * r) + R * R * (0.2 - h)), 1e-15);
+    d.orifice.depth = 0.03;
+    container_init(&c, &d);
+    CHECK_NEAR(container_volume_below(&c, 0.2), 0.03 * (h * (R + r) + 2 * R * (0.2 - h)), 1e-15);
+    CHECK_NEAR(container_volume_below(&c, 0.5 * h), 0.03 * 0.5 * h * (2 * r + 0.5 * (R - r)), 1e-15);
+    d.orifice.half_angle = 0;
+    container_init(&c, &d);
+    CHECK_NEAR(container_volume_below(&c, 0.2), 0.03 * 0.1 * 0.2, 1e-15);
+}
+
 /* A lifter's bar, turned with its drum: top and both sides, its corners among them. */
 static void a_bar_is_seen_from_within_the_drum_wherever_it_has_turned(void **unused)
 {
@@ -240,6 +300,7 @@ static void walls_move_as_their_velocities_say(void **unused)
     assert_false(container_move(&before, &rising, true, 2 * t));
 }
 
-UNIT_TESTS(a_thin_tube_is_seen_from_inside_outside_and_its_edges, a_plate_is_seen_from_above_and_below_and_from_beside_its_edge,
+UNIT_TESTS(a_floor_with_an_orifice_is_seen_from_all_sides, the_room_of_a_vessel_is_that_of_its_hopper_and_what_is_above,
+           a_thin_tube_is_seen_from_inside_outside_and_its_edges, a_plate_is_seen_from_above_and_below_and_from_beside_its_edge,
            a_drum_is_seen_from_within, a_bar_is_seen_from_within_the_drum_wherever_it_has_turned,
            behind_a_surface_the_distance_is_negative, walls_move_as_their_velocities_say)

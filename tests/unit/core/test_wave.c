@@ -5,7 +5,7 @@
 #include "small_drum.h"
 #include "wave.h"
 
-enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 424 /* species and pairs apart */ };
+enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 448 /* species and pairs apart */ };
 
 /* Eight diameters across and a hundred long: some 3000 spheres, so that steps follow each other along it. */
 static dem_scene_definition slender_drum(void)
@@ -238,6 +238,13 @@ static void raised_tube(dem_scene_definition *d)
     d->plate = (dem_plate){ .diameter = 0.06, .friction = 0.4 };
 }
 
+static void flowing_out(dem_scene_definition *d)
+{
+    standing_cylinder(d);
+    d->container = DEM_VESSEL;
+    d->orifice = (dem_orifice){ .opening = 0.015 };
+}
+
 static void audit(dem_scene *scene) { scene->audit.is_on = true; }
 static double no_time(void) { return 0; }
 static void profile(dem_scene *scene)
@@ -271,6 +278,7 @@ static const effect effects[] = {
     { "a cylinder", standing_cylinder, NULL, false },
     { "a stream", fed_by_a_stream, NULL, false },
     { "a tube on a plate", raised_tube, NULL, false },
+    { "a vessel with an orifice", flowing_out, NULL, false },
     { "the audit of energy", nothing, audit, false },
     { "the profile", nothing, profile, false },
 };
