@@ -1,5 +1,6 @@
 """Writes the report: wholly from the book, in the order of the studies' files."""
 import sections_fast
+import sections_flow
 import sections_slow
 import sections_standing
 from collecting import cases_of, runs_of
@@ -11,7 +12,7 @@ SECTIONS = {
     "table1": sections_slow.table1, "figure3": sections_slow.figure3, "figure4": sections_slow.figure4, "axial": sections_slow.axial,
     "rotation-rate": sections_slow.rotation_rate, "wall-friction": sections_slow.wall_friction,
     "force-models": sections_slow.force_models, "size-scaling": sections_slow.size_scaling, "figure5": sections_fast.figure5,
-    "figure1": sections_standing.figure1, "figure2": sections_standing.figure2, "heap": sections_standing.heap,
+    "figure1": sections_standing.figure1, "figure2": sections_standing.figure2, "heap": sections_standing.heap, "beverloo": sections_flow.beverloo,
     "figure7": sections_fast.figure7, "figure8": sections_fast.figure8, "figure8-beds": sections_fast.figure8_beds,
 }
 

@@ -19,6 +19,7 @@ import comparing  # noqa: E402
 import investigating  # noqa: E402
 import markdown  # noqa: E402
 import measures  # noqa: E402
+import sections_flow  # noqa: E402
 from book import Book  # noqa: E402
 from report import SECTIONS, report  # noqa: E402
 
@@ -34,6 +35,22 @@ def a_run(case, angle, error=0.1, regime="rolling", seed=1, **derived):
                                    "steady": True, "other_methods": {"chord": angle + 1}, "other_methods_standard_error_deg": {"chord": error}},
                         "regime": {"name": regime, "omega2_inner": 0.01, "evidence": {}}, "run": {"particles": 10, "spheres": 10, "steps": 100,
                         "stiffness": 1000.0, "maximum_overlap": 0.01, "wall_seconds": 1.0}}, "derived": derived}
+
+
+# --- Beverloo's law ---
+
+def test_the_law_is_found_in_flows_that_follow_it():
+    widths, grain, bulk = [0.0095, 0.0105, 0.0115, 0.0125, 0.014], 0.002, 1400.0
+    rates = [(0.6 * bulk * math.sqrt(9.81) * (width - 1.4 * grain)**2.5, 1e-4) for width in widths]
+    assert sections_flow.exponent(widths, rates, grain)[0] == pytest.approx(2.5, rel=1e-9)
+    assert sections_flow.constants(widths, rates, grain, bulk) == pytest.approx((0.6, 1.4), rel=1e-9)
+
+
+def test_the_error_of_the_exponent_is_its_scatter():
+    """Of two flows alone: the quotient of the difference of logarithms, whose error is that of the difference."""
+    slope, error = sections_flow.exponent([0.0095, 0.0125], [(1.0, 0.01), (2.0, 0.02)], 0.002)
+    apart = math.log(0.0097 / 0.0067)
+    assert slope == pytest.approx(math.log(2.0) / apart) and error == pytest.approx(math.sqrt(2) * 0.01 / apart)
 
 
 # --- means and z ---
