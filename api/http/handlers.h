@@ -28,6 +28,8 @@ route_handler send_fields, send_walls, send_snapshot_series, send_archive;
 /* handlers_studies.c */
 route_handler create_study, list_studies, show_study, remove_study, retry_study, show_study_results, show_study_csv,
     show_study_spec;
+/* handlers_beds.c */
+route_handler create_bed, list_beds, show_bed, remove_bed;
 /* handlers_continue.c */
 route_handler continue_job;
 /* handlers_session.c */

@@ -17,9 +17,10 @@ typedef struct http_route {
     bool slow;           /* may take seconds: answered apart, so that nothing else waits for it */
     bool open;           /* needs no token */
     bool bodiless;       /* a POST that needs no body, and so no Content-Type */
+    bool takes_csv;      /* a POST whose body is text/csv, and may be longer */
 } http_route;
 
-enum { MOST_ROUTES = 48 }; /* for what is counted by route */
+enum { MOST_ROUTES = 64 }; /* for what is counted by route */
 extern const http_route route_table[];
 extern const size_t route_count;
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "execute_request.h"
+#include "given_files.h"
 #include "json_text.h"
 #include "process_type.h"
 #include "spec_memory.h"
@@ -121,7 +122,7 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
     } else if (!inputs) {
         problem_list_add(problems, "/inputs", "is missing; must be an object");
     } else if (spec->type) { /* without a process nobody knows what its inputs are */
-        json_t *values = execute_request_inputs(inputs, problems);
+        json_t *values = given_files_take(execute_request_inputs(inputs, problems), beds, problems);
         read_inputs(spec, beds ? beds->memory : NULL, values, problems);
         if (beds && advances_a_scene(spec)) spec->inputs.client = beds->client;
         spec->given = spec_inputs_given(spec->type->inputs, values);

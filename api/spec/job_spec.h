@@ -29,6 +29,7 @@ typedef struct size_inputs {
     double by;   /* a size_basis */
     double median, geometric_deviation, mean, deviation, size, spread, minimum, maximum;
     size_t size_count, cumulative_count, share_count;
+    char file[257]; /* "": not given, or taken (given_files.h) */
     double sizes[DEM_MAXIMUM_SIEVES], cumulative[DEM_MAXIMUM_SIEVES], shares[DEM_MAXIMUM_SIEVES];
 } size_inputs;
 typedef enum size_basis { SIZES_BY_MASS, SIZES_BY_VOLUME, SIZES_BY_NUMBER } size_basis;
@@ -78,6 +79,7 @@ typedef struct start_particle {
 typedef struct start_inputs {
     double given;                /* NaN: from nowhere; a bed is made */
     char job[28], file[1025];    /* "": not given */
+    char bed[28];                /* "": not given, or taken (given_files.h) */
     double snapshot, checkpoint; /* of the job: number; 1: its newest checkpoint */
     double bed_particles;        /* how many the bed has; NaN: not known */
     size_t particle_count;
@@ -156,11 +158,16 @@ typedef struct granule_inputs {
 
 typedef struct process_type process_type; /* process_type.h */
 
+/* What may stand elsewhere under a name: a bed that was sent, files of particles and of sieves. */
+typedef enum given_table { GIVEN_BED, GIVEN_PARTICLES, GIVEN_SIEVES } given_table;
+
 /* Where the beds that a spec can start from are looked up: the daemon has those of its jobs, a worker that of a file. */
 typedef struct start_source {
     /* The canonical spec that the bed was made by (new reference), and its number of particles; NULL: there is no such bed,
      * and a problem says so. */
     json_t *(*find)(void *context, const start_inputs *start, double *particles, problem_list *problems);
+    /* What csv_table.h reads of it (new reference); NULL: there is none, and a problem at the pointer says so. */
+    json_t *(*table)(void *context, given_table kind, const char *name, const char *pointer, problem_list *problems);
     void *context;
     struct spec_memory *memory; /* of specs read before; NULL: none */
     const client_watch *client; /* the client that waits for the answer; NULL: none that could go away */

@@ -11,6 +11,8 @@ void spec_memory_free(spec_memory *memory)
     if (!memory) return;
     json_decref(memory->placed_list);
     json_decref(memory->origin);
+    json_decref(memory->list);
+    free(memory->list_name);
     free(memory->placed);
     free(memory);
 }
@@ -91,6 +93,22 @@ void spec_memory_keep_sound(spec_memory *memory, const start_inputs *start, cons
     memory->placed_period = period_of(drum);
     memory->placed_species_count = drum->species_count;
     memcpy(memory->placed_species, drum->species, drum->species_count * sizeof drum->species[0]);
+}
+
+/* --- beds that stand elsewhere --- */
+
+json_t *spec_memory_find_list(const spec_memory *memory, const char *name)
+{
+    return memory && memory->list_name && strcmp(memory->list_name, name) == 0 ? json_incref(memory->list) : NULL;
+}
+
+void spec_memory_keep_list(spec_memory *memory, const char *name, json_t *list)
+{
+    if (!memory || !list) return;
+    json_decref(memory->list);
+    free(memory->list_name);
+    memory->list = json_incref(list);
+    memory->list_name = strdup(name);
 }
 
 /* --- beds of other jobs --- */

@@ -24,6 +24,9 @@ typedef struct spec_memory {
     char origin_job[28];
     double origin_snapshot, origin_particles; /* snapshot NaN: its checkpoint */
 
+    json_t *list; /* of particles that stood elsewhere, under this name; both owned, NULL: none */
+    char *list_name;
+
     size_t clusters; /* how many were kept in all; the latest of them are there */
     dem_cluster cluster_asked[REMEMBERED_CLUSTERS], cluster_derived[REMEMBERED_CLUSTERS];
 } spec_memory;
@@ -48,6 +51,10 @@ void spec_memory_keep_sound(spec_memory *memory, const start_inputs *start, cons
 /* The spec that made the bed of a job, and its number of particles. New reference; NULL: another bed, or memory is NULL. */
 json_t *spec_memory_find_bed(const spec_memory *memory, const start_inputs *start, double *particles);
 void spec_memory_keep_bed(spec_memory *memory, const start_inputs *start, json_t *origin, double particles);
+
+/* The list of particles that stood elsewhere under the name. New reference; NULL: another one, or memory is NULL. */
+json_t *spec_memory_find_list(const spec_memory *memory, const char *name);
+void spec_memory_keep_list(spec_memory *memory, const char *name, json_t *list);
 
 /* asked: the spheres as given. False: never derived, or memory is NULL. */
 bool spec_memory_find_cluster(const spec_memory *memory, const dem_cluster *asked, dem_cluster *derived);

@@ -81,6 +81,22 @@ typedef struct job_filter {
     int64_t limit;
 } job_filter;
 
+/* A table of particles that somebody sent. */
+typedef struct bed_record {
+    int64_t number; /* order in which they came */
+    char id[JOB_ID_SIZE], created[JOB_TIME_SIZE];
+    int64_t particles, bytes;
+} bed_record;
+typedef bool bed_visitor(void *context, const bed_record *bed);
+enum { STORE_MOST_BEDS = 1000 };
+/* Keeps it. STORE_QUEUE_FULL: there are STORE_MOST_BEDS already. */
+store_status store_add_bed(job_store *store, const char *text, size_t length, int64_t particles, bed_record *bed);
+store_status store_find_bed(job_store *store, const char *id, bed_record *bed);
+store_status store_list_beds(job_store *store, bed_visitor *visit, void *context); /* newest first */
+store_status store_read_bed(job_store *store, const char *id, char **text);        /* for free() */
+/* Jobs that started from it keep what they have of it. */
+store_status store_delete_bed(job_store *store, const char *id);
+
 /* The beds that jobs left, for specs that start from one. The source is good as long as the store. */
 start_source store_beds(job_store *store);
 /* Returns after the commit. */

@@ -194,6 +194,9 @@ static enum worker_exit refuse(problem_list *problems)
 
 static const char *path_of(const char *name) { return strcmp(name, "-") == 0 ? "/dev/stdin" : name; }
 
+/* What paths in the spec are relative to. */
+static const char *beside(const char *name) { return strcmp(name, "-") == 0 ? NULL : name; }
+
 /* Whether the spec's file can't be opened for want of something of the machine. */
 static bool machine_keeps_from(const char *path)
 {
@@ -210,10 +213,11 @@ static enum worker_exit load_spec(const char *name, const char *folder, job_spec
     problem_list problems;
     const uint64_t seed = seed_if_missing(folder);
     bool loaded = false;
+    const start_source beds = start_files(beside(name));
     for (int looks = 0; looks < 2 && !loaded; looks++) {
         if (looks > 0) problem_list_clear(&problems);
         problem_list_init(&problems);
-        loaded = spec_file_load(path_of(name), &start_files, seed, spec, &problems);
+        loaded = spec_file_load(path_of(name), &beds, seed, spec, &problems);
     }
     enum worker_exit exit = WORKER_DONE;
     if (!loaded && (worker_memory_was_short() || machine_keeps_from(path_of(name)))) {
@@ -227,12 +231,12 @@ static enum worker_exit load_spec(const char *name, const char *folder, job_spec
 }
 
 /* What a job's, a study's or a calibration's document would make. New reference; NULL: problems say why. */
-static json_t *check_document(const json_t *document, const calibration *machine, problem_list *problems)
+static json_t *check_document(const json_t *document, const start_source *beds, const calibration *machine, problem_list *problems)
 {
     if (plan_report_is_calibration(document)) return plan_report(document, machine, problems);
-    if (study_report_is_study(document)) return study_report(document, random_seed(), machine, problems);
+    if (study_report_is_study(document)) return study_report(document, beds, random_seed(), machine, problems);
     job_spec spec;
-    if (!job_spec_parse_with(&start_files, NULL, document, random_seed(), &spec, problems)) return NULL;
+    if (!job_spec_parse_with(beds, NULL, document, random_seed(), &spec, problems)) return NULL;
     const job_estimate estimate = job_spec_estimate(&spec, machine);
     json_t *report = json_pack("{s:o, s:o, s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate),
                                "understood", job_spec_understood(&spec, machine), "warnings", job_spec_warnings(&spec, machine));
@@ -261,7 +265,8 @@ static enum worker_exit check(int argc, char **argv, char *word)
     problem_list problems;
     problem_list_init(&problems);
     json_t *document = spec_file_read(path_of(line.spec), &problems);
-    json_t *report = document ? check_document(document, &machine, &problems) : NULL;
+    const start_source beds = start_files(beside(line.spec));
+    json_t *report = document ? check_document(document, &beds, &machine, &problems) : NULL;
     json_decref(document);
     if (report) print_json(report);
     else exit = refuse(&problems);

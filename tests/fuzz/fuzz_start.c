@@ -27,8 +27,9 @@ static void look(void)
 {
     problem_list problems;
     job_spec found;
+    const start_source files = start_files(NULL);
     CLAIM(problem_list_init(&problems));
-    if (job_spec_parse_with(&start_files, NULL, request, 0, &found, &problems)) job_spec_clear(&found);
+    if (job_spec_parse_with(&files, NULL, request, 0, &found, &problems)) job_spec_clear(&found);
     else CLAIM(!problem_list_is_empty(&problems));
     problem_list_clear(&problems);
 }

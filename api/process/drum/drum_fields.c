@@ -1,4 +1,5 @@
 /* The inputs of `drum`. Ranges are wider than what makes sense together; drum_rules.c looks at combinations. */
+#include "csv_table.h"
 #include "drum_process.h"
 #include "scene_fields.h"
 
@@ -63,8 +64,11 @@ static const spec_field fields[] = {
       .meaning = "the job's newest checkpoint, with what its contacts remember; of a job that is done: its end. The default, where "
                  "no snapshot is named" },
     { SPEC_START, "file", FIELD_TEXT, .unit = "", RANGE(1, 1024), AT(start.file),
-      .meaning = "a snapshot or checkpoint file, instead of a job; for repose run alone" },
-    { SPEC_START, "particles", FIELD_LONG_LIST, SPEC_PLACED, RANGE(1, 10000), AT(start.particles),
+      .meaning = "a snapshot or checkpoint file, or a table of particles whose name ends in .csv, instead of a job; for repose run "
+                 "alone, where the path of a table is relative to the specification" },
+    { SPEC_START, "bed", FIELD_TEXT, .unit = "", RANGE(1, 27), AT(start.bed),
+      .meaning = "id of a table of particles that was sent to /beds, which takes the place of particles" },
+    { SPEC_START, "particles", FIELD_LONG_LIST, SPEC_PLACED, RANGE(1, CSV_MOST_PARTICLES), AT(start.particles),
       .count_offset = offsetof(scene_inputs, start.particle_count), .entry_size = sizeof(start_particle),
       .meaning = "every particle, instead of a job" },
     { SPEC_PLACED, "position", FIELD_PLACE, .required = true, .unit = "m", RANGE(-20.0, 20.0), .fallback = NAN, AT_PLACED(position),

@@ -75,6 +75,9 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "there are no smaller ones. Default: the size that 0.1 % of the distribution is smaller than; of table, the first" }, \
     { SPEC_SIZES, "maximum", FIELD_REAL, .unit = "m", RANGE(1e-5, 1.0), .fallback = NAN, AT_SIZES(maximum), \
       .meaning = "there are no larger ones. Default: the size that 99.9 % of the distribution is smaller than; of table, the last" }, \
+    { SPEC_SIZES, "file", FIELD_TEXT, .unit = "", RANGE(1, 256), AT_SIZES(file), \
+      .meaning = "of table, instead of its lists: a table of comma-separated values with the columns size (m), and cumulative or " \
+                 "share; for repose run alone, its path relative to the specification" }, \
     { SPEC_SIZES, "sizes", FIELD_NUMBERS, .unit = "m", RANGE(1e-5, 1.0), .least_entries = 2, .most_entries = DEM_MAXIMUM_SIEVES, \
       .fallback = NAN, AT_SIZES(sizes), .count_offset = offsetof(species_inputs, sizes.size_count), \
       .meaning = "of table: openings of the sieves, ascending" }, \

@@ -200,6 +200,10 @@ void sizes_derive(species_inputs *species, size_t s, dem_species *derived, probl
         problem_list_add(problems, pointer, "is given beside a shape; sizes are distributed of spheres alone");
         good = false;
     }
+    if (*in->file && !is_refused) {
+        problem_list_add(problems, pointer, "has a file, which is for `repose run` alone; give sizes, and cumulative or shares");
+        good = false;
+    }
     good = good && take_law(in, s, &sizes, problems) && take_ends(in, s, &sizes, problems);
     derived->diameter = NAN;
     if (!good) return;

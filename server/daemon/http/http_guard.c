@@ -147,31 +147,34 @@ static bool origin_is_ours(const config *settings, const http_request *request)
     return scheme_end && strcasecmp(scheme_end + 3, request->host) == 0;
 }
 
-static bool is_json(const char *content_type)
+static bool is_type(const char *content_type, const char *wanted)
 {
-    static const char json[] = "application/json";
-    return content_type && strncasecmp(content_type, json, sizeof json - 1) == 0
-           && (content_type[sizeof json - 1] == '\0' || strchr("; \t", content_type[sizeof json - 1]));
+    const size_t length = strlen(wanted);
+    return content_type && strncasecmp(content_type, wanted, length) == 0
+           && (content_type[length] == '\0' || strchr("; \t", content_type[length]));
 }
 
 /* All methods but these may change something. */
 static bool only_reads(const char *method) { return strcmp(method, "GET") == 0 || strcmp(method, "HEAD") == 0; }
 
-static bool admits_body(const http_headers *headers, const http_request *request, bool takes_no_body, http_response *response,
+static bool admits_body(const http_headers *headers, const http_request *request, const http_route *route, http_response *response,
                         size_t *length)
 {
     *length = 0;
     const bool sends = !only_reads(request->method) && strcmp(request->method, "DELETE") != 0;
     const bool has_none = headers->encodings == 0 && (!headers->length || strcmp(headers->length, "0") == 0);
-    if (has_none && takes_no_body) return true;
+    if (has_none && route->bodiless) return true;
     if (headers->encodings > 0 || (sends && !headers->length))
         return refuse(response, 411, "Length required", "send the body with a Content-Length");
-    if (sends && !is_json(request->content_type))
+    const int limit = route->takes_csv ? HTTP_CSV_LIMIT : HTTP_BODY_LIMIT;
+    if (sends && route->takes_csv && !is_type(request->content_type, "text/csv"))
+        return refuse(response, 415, "Not CSV",
+                      "send Content-Type: text/csv; with curl: -H 'Content-Type: text/csv' --data-binary @file");
+    if (sends && !route->takes_csv && !is_type(request->content_type, "application/json"))
         return refuse(response, 415, "Not JSON", "send Content-Type: application/json; with curl: curl --json @file");
     *length = headers->length ? (size_t)strtoull(headers->length, NULL, 10) : 0;
-    if (*length > HTTP_BODY_LIMIT) {
-        http_respond_problem(response, 413, NULL, "Body too large", "the body has %zu bytes; at most %d are read", *length,
-                             HTTP_BODY_LIMIT);
+    if (*length > (size_t)limit) {
+        http_respond_problem(response, 413, NULL, "Body too large", "the body has %zu bytes; at most %d are read", *length, limit);
         return false;
     }
     return true;
@@ -268,7 +271,7 @@ bool http_guard_admits(http_guard *guard, const http_headers *headers, const htt
     if (!only_reads(request->method) && !origin_is_ours(guard->settings, request))
         return refuse(response, 403, "Foreign page",
                       "writes are taken from this service's own page or from programs, not from other pages");
-    return admits_body(headers, request, route->bodiless, response, body_length);
+    return admits_body(headers, request, route, response, body_length);
 }
 
 bool http_guard_is_preflight(const http_guard *guard, http_request *request, http_response *response)

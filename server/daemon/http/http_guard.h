@@ -8,7 +8,7 @@
 #include "config.h"
 #include "routes.h"
 
-enum { HTTP_BODY_LIMIT = 1 << 20 };
+enum { HTTP_BODY_LIMIT = 1 << 20, HTTP_CSV_LIMIT = 16 << 20 };
 
 typedef struct http_guard {
     const config *_Atomic settings;

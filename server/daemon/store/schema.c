@@ -211,6 +211,15 @@ static const char shared_beds[] = "ALTER TABLE job ADD COLUMN bed INTEGER;"
                                   "  sha256 TEXT NOT NULL) STRICT;"
                                   "CREATE INDEX bed_of_job ON bed(job);";
 
+/* Tables of particles that were sent as comma-separated values, for runs to start from. */
+static const char sent_beds[] = "CREATE TABLE sent_bed("
+                                "  number INTEGER PRIMARY KEY,"
+                                "  id TEXT NOT NULL UNIQUE, created TEXT NOT NULL,"
+                                "  particles INTEGER NOT NULL, bytes INTEGER NOT NULL) STRICT;"
+                                "CREATE TABLE sent_bed_text("
+                                "  bed INTEGER PRIMARY KEY REFERENCES sent_bed(number) ON DELETE CASCADE,"
+                                "  text TEXT NOT NULL) STRICT;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -252,5 +261,6 @@ const schema_migration schema_migrations[] = {
     { { short_jobs } },
     { { checksums_of_results } },
     { { shared_beds } },
+    { { sent_beds } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

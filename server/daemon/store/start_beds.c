@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "csv_table.h"
 #include "database.h"
 #include "job_folder.h"
 #include "job_store.h"
@@ -63,4 +64,24 @@ static json_t *find_bed(void *context, const start_inputs *start, double *partic
     return NULL;
 }
 
-start_source store_beds(job_store *store) { return (start_source){ .find = find_bed, .context = store }; }
+static json_t *read_table(void *context, given_table kind, const char *name, const char *pointer, problem_list *problems)
+{
+    char *text = NULL;
+    if (kind != GIVEN_BED) {
+        problem_list_add(problems, pointer, "is for `repose run` alone; %s",
+                         kind == GIVEN_SIEVES ? "give sizes, and cumulative or shares"
+                                              : "send the table to /beds, and give its id as bed");
+        return NULL;
+    }
+    const store_status status = store_read_bed(context, name, &text);
+    json_t *list = NULL;
+    if (status == STORE_OK) list = csv_read_particles(text, strlen(text), problems);
+    else
+        problem_list_add(problems, pointer, "is \"%.60s\"%s", name,
+                         status == STORE_NOT_FOUND ? "; there is no such bed: /beds lists them"
+                                                   : ", which could not be read; try again");
+    free(text);
+    return list;
+}
+
+start_source store_beds(job_store *store) { return (start_source){ .find = find_bed, .table = read_table, .context = store }; }

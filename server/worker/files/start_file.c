@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,6 +11,7 @@
 #include <unistd.h>
 
 #include "checkpoint_file.h"
+#include "csv_table.h"
 #include "dem_cluster.h"
 #include "file_publish.h"
 #include "hdf_file.h"
@@ -62,7 +64,46 @@ static json_t *find_file(void *context, const start_inputs *start, double *parti
     return origin;
 }
 
-const start_source start_files = { .find = find_file };
+/* --- tables named in a spec --- */
+
+/* Beside the specification's own file. */
+static void path_beside(const char *spec, const char *name, char *path, size_t size)
+{
+    const char *slash = *name == '/' || !spec ? NULL : strrchr(spec, '/');
+    snprintf(path, size, "%.*s%s", slash ? (int)(slash + 1 - spec) : 0, slash ? spec : "", name);
+}
+
+static json_t *read_table(void *context, given_table kind, const char *name, const char *pointer, problem_list *problems)
+{
+    char path[PATH_MAX];
+    size_t length = 0;
+    if (kind == GIVEN_BED) {
+        problem_list_add(problems, pointer, "is \"%.100s\", which is for the service; give file", name);
+        return NULL;
+    }
+    path_beside(context, name, path, sizeof path);
+    errno = 0;
+    char *text = file_read(path, CSV_LONGEST, &length);
+    if (!text) {
+        problem_list_add(problems, pointer, "is \"%.100s\", which can't be read: %s", name,
+                         errno ? strerror(errno) : "it is longer than 64 MB");
+        return NULL;
+    }
+    problem_list of_file;
+    json_t *table = NULL;
+    if (problem_list_init(&of_file)) {
+        table = (kind == GIVEN_SIEVES ? csv_read_sieves : csv_read_particles)(text, length, &of_file);
+        csv_tell(&of_file, name, pointer, problems);
+        problem_list_clear(&of_file);
+    }
+    free(text);
+    return table;
+}
+
+start_source start_files(const char *spec)
+{
+    return (start_source){ .find = find_file, .table = read_table, .context = (void *)(uintptr_t)spec };
+}
 
 /* --- into the job folder --- */
 

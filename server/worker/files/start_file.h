@@ -6,8 +6,9 @@
 #include "dem.h"
 #include "job_spec.h"
 
-/* Knows the beds of files that a spec names; of jobs it knows nothing, and takes them for good. */
-extern const start_source start_files;
+/* Knows the beds and tables of files that a spec names; of jobs it knows nothing, and takes them for good. spec: the path of its file,
+ * which those of tables are relative to; NULL: they are relative to where the program runs. The source is good as long as spec. */
+start_source start_files(const char *spec);
 
 /* The file that the spec names as start.hdf of the job folder, which is the working directory: linked, or copied. path:
  * absolute. False: logged. */

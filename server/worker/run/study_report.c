@@ -1,6 +1,5 @@
 #include "study_report.h"
 
-#include "start_file.h"
 #include "study_spec.h"
 
 enum { MOST_JOBS = 1000000 }; /* a daemon's own limit may be lower */
@@ -18,10 +17,11 @@ static json_t *cases_of(const study_spec *study)
     return cases;
 }
 
-json_t *study_report(const json_t *document, uint64_t seed_if_missing, const calibration *machine, problem_list *problems)
+json_t *study_report(const json_t *document, const start_source *beds, uint64_t seed_if_missing, const calibration *machine,
+                     problem_list *problems)
 {
     const study_options options = {
-        .seed_if_missing = seed_if_missing, .default_threads = 1, .most_jobs = MOST_JOBS, .beds = &start_files
+        .seed_if_missing = seed_if_missing, .default_threads = 1, .most_jobs = MOST_JOBS, .beds = beds
     };
     study_spec study;
     study_estimate estimate;

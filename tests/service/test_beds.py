@@ -1,0 +1,99 @@
+"""Tables of particles and of sieves: files of `repose run`, and beds that are sent to the daemon."""
+import json
+import math
+import subprocess
+
+import h5py
+import requests
+import worker_runs as worker
+from conftest import SPEC
+
+CSV = {"Content-Type": "text/csv"}
+
+
+def lattice(diameter=0.004, spacing=0.0045, side=3):
+    """Columns of spheres in the lower half of SPEC's drum, apart."""
+    places = [((i - 1) * spacing, -0.014 + j * spacing, (k - 0.5) * spacing) for i in range(side) for j in range(side) for k in range(2)]
+    return "x,y,z,diameter,vx\n" + "".join(f"{x:.6g},{y:.6g},{z:.6g},{diameter},0.01\n" for x, y, z in places), len(places)
+
+
+def run(folder, spec, name="request.json"):
+    path = worker.write_spec(folder, spec, name)
+    return subprocess.run([worker.REPOSE, "run", str(path), "--out", str(folder / "out")], capture_output=True, text=True)
+
+
+def starting(**start):
+    inputs = {name: value for name, value in SPEC.items() if name != "fill_fraction"}
+    return {"inputs": inputs | {"start": start, "duration": {"seconds": 0.02}}}
+
+
+def test_a_run_starts_from_a_table_beside_its_specification(tmp_path):
+    text, count = lattice()
+    (tmp_path / "beds").mkdir()
+    (tmp_path / "beds/bed.csv").write_text(text)
+    done = run(tmp_path, starting(file="beds/bed.csv"))
+    assert done.returncode == 0, done.stdout
+    first = sorted((tmp_path / "out/snapshots").iterdir())[0]
+    with h5py.File(first) as file:
+        points = file["VTKHDF/Points"][:]
+        assert math.isclose(file["VTKHDF/PointData/velocity"][0][0], 0.01, rel_tol=1e-6)
+    assert len(points) == count and abs(points[0][0] + 0.0045) < 1e-9
+    assert worker.result(tmp_path / "out")["run"]["particles"] == count
+
+
+def test_what_is_wrong_with_a_table_is_told_with_its_line(tmp_path):
+    (tmp_path / "bed.csv").write_text("x,y,z,diameter\n0,0,0,0.004\n0.01,oops,0,0.004\n")
+    done = run(tmp_path, starting(file="bed.csv"))
+    assert done.returncode == 2
+    assert json.loads(done.stdout)["errors"] == [{"pointer": "/inputs/start/file", "detail":
+        'names "bed.csv", which in line 3, column y is "oops"; must be a number in [-20, 20] m'}]
+    done = run(tmp_path, starting(file="none.csv"))
+    assert "which can't be read: No such file" in done.stdout
+
+
+def test_sieves_come_from_a_file(tmp_path):
+    (tmp_path / "sieves.csv").write_text("size,share\n0.003,0.25\n0.004,0.75\n0.005,0\n")
+    spec = {"inputs": SPEC | {"particles": [{"size_distribution": {"type": "table", "file": "sieves.csv"}}]}}
+    spec["inputs"]["drum"] = {"diameter": 0.05, "length": 0.02, "rotation_rate": 6.0}
+    path = worker.write_spec(tmp_path, spec)
+    report = json.loads(subprocess.run([worker.REPOSE, "check", str(path)], capture_output=True, text=True).stdout)
+    sizes = report["understood"]["sizes"][0]
+    # half of the mass: a third of the way through the second sieve's three quarters
+    assert math.isclose(sizes["d50"], 0.004 + 0.001 / 3, rel_tol=1e-4) and sizes["cut_off_below"] == 0
+    assert report["spec"]["inputs"]["particles"][0]["size_distribution"]["shares"] == [0.25, 0.75]
+
+
+def test_a_bed_is_sent_kept_and_started_from(daemon):
+    text, count = lattice()
+    sent = requests.post(daemon.url + "/beds", data=text, headers=CSV)
+    assert sent.status_code == 201 and sent.json()["particles"] == count and sent.json()["bytes"] == len(text)
+    bed = sent.json()["bedID"]
+    assert sent.headers["Location"].endswith(f"/beds/{bed}")
+    assert requests.get(daemon.url + f"/beds/{bed}").text == text
+    assert [one["bedID"] for one in requests.get(daemon.url + "/beds").json()["beds"]] == [bed]
+    posted = requests.post(daemon.url + "/processes/drum/execution", json=starting(bed=bed))
+    assert posted.status_code == 201, posted.text
+    spec = requests.get(daemon.url + f"/jobs/{posted.json()['jobID']}/spec").json()
+    assert len(spec["inputs"]["start"]["particles"]) == count
+    study = {"base": starting(bed=bed), "vary": {"/inputs/contact/friction": [0.1, 0.2]}}
+    assert requests.post(daemon.url + "/studies", json=study).status_code == 201
+    assert requests.delete(daemon.url + f"/beds/{bed}").status_code == 200
+    assert requests.get(daemon.url + f"/beds/{bed}").status_code == 404
+    daemon.stop()  # what started from it needs it no more
+    daemon.start()
+    assert daemon.ended(posted.json()["jobID"])["status"] == "successful"
+
+
+def test_what_can_t_be_a_bed_is_refused_with_every_problem(daemon):
+    refused = requests.post(daemon.url + "/beds", data="x,y,z,diameter\n0,0,z,0.004\n0,0,0,9\n0,0\n", headers=CSV)
+    assert refused.status_code == 400
+    assert [error["pointer"] for error in refused.json()["errors"]] == ["/lines/2/z", "/lines/3/diameter", "/lines/4"]
+    assert requests.post(daemon.url + "/beds", json=[1]).status_code == 415
+    assert requests.post(daemon.url + "/beds", data=b"x,y,z\n0,0,\x000\n", headers=CSV).status_code == 400
+    assert requests.post(daemon.url + "/beds", data=b" " * ((16 << 20) + 1), headers=CSV).status_code == 413
+    assert requests.get(daemon.url + "/beds").json()["beds"] == []
+    missing = requests.post(daemon.url + "/processes/drum/execution", json=starting(bed="20200101-000000-00000000"))
+    assert missing.json()["errors"] == [
+        {"pointer": "/inputs/start/bed", "detail": 'is "20200101-000000-00000000"; there is no such bed: /beds lists them'}]
+    a_file = requests.post(daemon.url + "/processes/drum/execution", json=starting(file="/etc/passwd.csv"))
+    assert a_file.json()["errors"][0]["detail"].startswith("is for `repose run` alone")
