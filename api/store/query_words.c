@@ -17,9 +17,10 @@ static const table_row tables[] = {
     { "sample", "one row a sample of a running job's measures" },
     { "snapshot", "one row a snapshot of a job" },
     { "result", "one row a job that has ended well: its results as one document" },
+    { "interface", "one row a point of a drum's mean interface" },
     { "sent_bed", "one row a table of particles that was sent for runs to start from" },
     { "pinned", "one row a job that no rule removes" },
-    { "sent_bed", "one row a settled bed that jobs of a study still share" },
+    { "bed", "one row a settled bed that jobs of a study still share" },
 };
 
 typedef struct column_row {
@@ -28,6 +29,10 @@ typedef struct column_row {
 
 /* The first that fits counts. */
 static const column_row rows[] = {
+    { "interface", "point", "", "which of its points it is, from 0" },
+    { "interface", "x", "m", "where it is, in a drum that turns counter-clockwise" },
+    { "interface", "height", "m", "mean height of the bed's surface there" },
+    { "interface", "standard_error", "m", "error of that mean; NULL: not known" },
     { "sent_bed", "number", "", "its number, in the order in which they came" },
     { "sent_bed", "id", "", "its id" },
     { "sent_bed", "created", "", "when it was sent, UTC" },
@@ -80,9 +85,9 @@ static const column_row rows[] = {
     { "job", "wanted", "", "JSON: how its results were asked for" },
     { "job", "given", "", "JSON: the inputs that its request had" },
     { "job", "failure", "", "JSON: what its worker said of why it failed" },
-    { "sent_bed", "key", "", "its number, as job.bed has it" },
-    { "sent_bed", "job", "", "the number of the job that has settled it" },
-    { "sent_bed", "sha256", "", "that of bed.hdf in the job's folder" },
+    { "bed", "key", "", "its number, as job.bed has it" },
+    { "bed", "job", "", "the number of the job that has settled it" },
+    { "bed", "sha256", "", "that of bed.hdf in the job's folder" },
     { "job", "bed", "", "the bed that it shares with others of its study; NULL: none" },
     { "job", "turn", "", "its turn among those of its priority" },
     { "job", "client", "", "who takes turns with others, of the label" },

@@ -1,6 +1,7 @@
 #include "interface.h"
 
 #include "array.h"
+#include "dem_interface.h"
 #include "statistics.h"
 
 typedef struct interface_layout {
@@ -149,4 +150,42 @@ double interface_fluctuation(const dem_scene *scene, const frame_window *window,
     free(heights);
     free(deviation);
     return mean;
+}
+
+/* Of the columns of the grid so many, evenly over the diameter. */
+static size_t column_of_point(const interface_layout *layout, size_t point, size_t points)
+{
+    return (size_t)(((double)point + 0.5) / (double)points * (double)layout->columns);
+}
+
+dem_status interface_profile(const dem_scene *scene, const frame_window *window, dem_profile *profile)
+{
+    const interface_layout layout = layout_of(scene);
+    const size_t points = layout.columns < DEM_PROFILE_POINTS ? layout.columns : DEM_PROFILE_POINTS;
+    double *heights = array_create(window->count, sizeof *heights);
+    if (!heights) return DEM_NO_MEMORY;
+    profile->count = 0;
+    for (size_t point = 0; point < points; point++) {
+        const size_t column = column_of_point(&layout, point, points);
+        size_t seen = 0;
+        heights_of_column(&layout, window, column, heights);
+        for (size_t k = 0; k < window->count; k++) seen += !isnan(heights[k]);
+        if (2 * seen < window->count) continue;
+        profile->place[profile->count] = density_grid_place(&layout.grid, (int)column);
+        profile->value[profile->count] = statistics_mean(heights, window->count);
+        profile->standard_error[profile->count++] = frame_window_error(scene, window, heights);
+    }
+    free(heights);
+    return DEM_OK;
+}
+
+dem_status dem_drum_interface_measure(const dem_scene *scene, const double *frames, size_t count, const dem_drum_results *measured,
+                                      dem_profile *interface)
+{
+    *interface = (dem_profile){ .count = 0 };
+    if (count == 0 || isnan(measured->repose.angle[DEM_CHORD].mean_deg)) return DEM_OK;
+    const frame_window all = { frames, count, dem_frame_width(scene) },
+                       window = frame_window_from(&all, measured->repose.window_start);
+    arrays_begin();
+    return arrays_end(interface_profile(scene, &window, interface));
 }

@@ -97,3 +97,46 @@ def test_what_can_t_be_a_bed_is_refused_with_every_problem(daemon):
         {"pointer": "/inputs/start/bed", "detail": 'is "20200101-000000-00000000"; there is no such bed: /beds lists them'}]
     a_file = requests.post(daemon.url + "/processes/drum/execution", json=starting(file="/etc/passwd.csv"))
     assert a_file.json()["errors"][0]["detail"].startswith("is for `repose run` alone")
+
+
+def test_the_mean_interface_is_a_result_and_rows_of_sql(daemon):
+    job = daemon.submit(SPEC | {"duration": {"seconds": 1.0}})
+    assert daemon.ended(job)["status"] == "successful"
+    repose = requests.get(f"{daemon.url}/jobs/{job}/results").json()["repose"]
+    interface = repose["interface"]
+    assert repose["dynamic_cohesive_index"] == repose["interface_fluctuation"]
+    x, height = interface["x"], interface["height"]
+    assert len(x) == len(height) == len(interface["standard_error"]) > 4 and x == sorted(x)
+    slope = (height[-1] - height[0]) / (x[-1] - x[0])
+    assert abs(math.degrees(math.atan(slope)) - repose["angle_deg"]) < 15
+    sql = "SELECT x, height, standard_error FROM interface JOIN job ON job.number=interface.job WHERE job.id='%s' ORDER BY point" % job
+    rows = requests.get(daemon.url + "/query", params={"sql": sql}).json()["rows"]
+    assert [[row[0], row[1], row[2]] for row in rows] == [list(row) for row in zip(x, height, interface["standard_error"])]
+
+
+def test_two_materials_in_steel_start_from_tens_of_thousands_of_given_particles(tmp_path):
+    """What Dosta et al. (2024) compare codes by: each pair of M1, M2 and steel has a friction and a restitution of its own."""
+    spacing, places = 0.0042, []
+    reach = int(0.1 / spacing)
+    for k in range(30):
+        places += [(i * spacing, j * spacing, (k - 14.5) * spacing) for i in range(-reach, reach + 1) for j in range(-reach, reach + 1)
+                   if math.hypot(i * spacing, j * spacing) < 0.0975]
+    places = places[:38000]
+    assert len(places) == 38000
+    (tmp_path / "bed.csv").write_text("x,y,z,species\n" + "".join(
+        f"{x:.6f},{y:.6f},{z:.6f},{n % 2}\n" for n, (x, y, z) in enumerate(places)))
+    pairs = [("M1", "M1", 0.3, 0.5), ("M1", "M2", 0.2, 0.45), ("M2", "M2", 0.4, 0.4), ("M1", "steel", 0.2, 0.4), ("M2", "steel", 0.2, 0.4)]
+    spec = {"inputs": {
+        "drum": {"diameter": 0.2, "length": 0.14, "ends": "walls", "rotation_rate": 2.0},
+        "materials": {"M1": {"density": 2500, "youngs_modulus": 1e9, "poissons_ratio": 0.2},
+                      "M2": {"density": 2000, "youngs_modulus": 0.5e9, "poissons_ratio": 0.2},
+                      "steel": {"density": 7200, "youngs_modulus": 210e9, "poissons_ratio": 0.2}},
+        "particles": [{"diameter": 0.004, "material": "M1"}, {"diameter": 0.004, "material": "M2"}],
+        "wall": {"material": "steel"}, "contact": {"law": "hertz-mindlin"},
+        "pairs": [{"between": [a, b], "friction": mu, "restitution": e} for a, b, mu, e in pairs],
+        "start": {"file": "bed.csv"}, "duration": {"seconds": 5.0}, "seed": 1}}
+    done = subprocess.run([worker.REPOSE, "check", str(worker.write_spec(tmp_path, spec))], capture_output=True, text=True)
+    report = json.loads(done.stdout)
+    assert "errors" not in report, report
+    assert report["estimate"]["particles"] == 38000 and len(report["spec"]["inputs"]["pairs"]) == 5
+    assert 1e-7 < report["estimate"]["time_step"] < 1e-5

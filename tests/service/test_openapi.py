@@ -128,6 +128,13 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/problems/{name}", next(kind["type"] for kind in kinds if kind["type"].startswith(url)), 200)
     for page in ("/jobs?f=html&q=contract", f"/jobs/{done}?f=html", "/studies?f=html"):
         call(re.sub(r"/\d{8}-\d{6}-[0-9a-f]{8}", "/{id}", page.split("?")[0]), url + page, 303, allow_redirects=False)
+    csv = {"Content-Type": "text/csv"}
+    bed = call("/beds", f"{url}/beds", 201, "POST", data="x,y,z\n0,0,0\n", headers=csv).headers["Location"]
+    call("/beds", f"{url}/beds", 400, "POST", data="x,y,z\n0,0,far\n", headers=csv)
+    call("/beds", f"{url}/beds", 200)
+    call("/beds/{id}", bed, 200)
+    call("/beds/{id}", bed, 200, "DELETE")
+    call("/beds/{id}", bed, 404)
     call("/session", f"{url}/session", 200, "POST", json={"token": "of a daemon that asks for none"})
     call("/session", f"{url}/session", 200, "DELETE")
     call("/healthz", f"{url}/healthz", 200)

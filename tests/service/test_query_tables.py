@@ -140,7 +140,8 @@ def test_jobs_from_before_get_their_words_from_the_specification(tmp_path):
         for table in ("drum_input", "fill_input", "heap_input"):
             for column in ("law", "precision"):
                 database.execute(f"ALTER TABLE {table} DROP COLUMN {column}")
-        database.executescript("DROP INDEX job_waiting_short; ALTER TABLE result DROP COLUMN checksum; DROP INDEX job_of_bed; DROP TABLE bed;"
+        database.executescript("DROP VIEW interface; DROP TABLE sent_bed_text; DROP TABLE sent_bed; DROP INDEX job_waiting_short; ALTER TABLE result DROP COLUMN checksum;"
+                               "DROP INDEX job_of_bed; DROP TABLE bed;"
                                "ALTER TABLE job DROP COLUMN bed; PRAGMA user_version=20")
     daemon.start()
     assert rows(daemon, "select law, precision from run_summary") == [{"law": "spring-dashpot", "precision": "double"}]

@@ -100,7 +100,8 @@ def test_a_run_leaves_every_result_that_is_promised(whole):
     assert set(document) == {"repose", "regime", "segregation", "packing", "drive", "run"}
     promised = {
         "repose": ["angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady",
-                   "drift_deg_per_revolution", "method", "other_methods", "interface_fluctuation"],
+                   "drift_deg_per_revolution", "method", "other_methods", "interface_fluctuation",
+                   "dynamic_cohesive_index", "interface"],
         "regime": ["name", "omega2_outer", "omega2_inner", "predicted", "evidence"],
         "segregation": ["radial_index", "axial_index", "lacey_index"],
         "packing": ["solid_fraction", "coordination_number", "mean_overlap", "overlap_99"],

@@ -4,11 +4,12 @@
 
 #include <jansson.h>
 
-#include "dem_types.h"
+#include "dem_mound.h"
 #include "run_facts.h"
 
 typedef struct drum_result {
     dem_drum_results measured;
+    dem_profile interface;
     bool has_regime;        /* false: too few frames, or no bed, to tell */
     double steady, certain; /* 1, 0; NaN: nobody can know. As is the next, written from what was measured */
     const char *verdict, *method, *regime;

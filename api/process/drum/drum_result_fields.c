@@ -45,6 +45,11 @@ static const result_field fields[] = {
     { "repose", NULL, "interface_fluctuation", RESULT_REAL, REPOSE(interface_fluctuation), "m",
       LABEL("fluctuation of the interface"), SHOWN(1e6, " µm", 3),
       .meaning = "mean over x of the standard deviation in time of the surface's height", IN_VIEW(490), IN_STUDY(50) },
+    { "repose", NULL, "dynamic_cohesive_index", RESULT_REAL, REPOSE(interface_fluctuation), "m", LABEL("dynamic cohesive index"),
+      SHOWN(1e6, " µm", 3),
+      .meaning =
+          "the fluctuation of the interface as a GranuDrum reports it (ASTM D8648): the same number as interface_fluctuation",
+      IN_VIEW(492) },
     { "repose", "window", "start", RESULT_REAL, REPOSE(window_start), "s", LABEL("measured from"), SHOWN(1, " s", 3),
       .meaning = "measuring window, from rotation start" },
     { "repose", "window", "end", RESULT_REAL, REPOSE(window_end), "s", LABEL("measured to"), SHOWN(1, " s", 3),
@@ -178,7 +183,11 @@ static const char *const other_angles[] = { "center-of-mass", "chord", "theil-se
 
 static void describe_words(json_t *properties, const char *output)
 {
-    if (strcmp(output, "repose") == 0) describe_angle_methods(properties);
+    if (strcmp(output, "repose") != 0) return;
+    describe_angle_methods(properties);
+    describe_profile(
+        properties, "interface",
+        "mean height (m) of the bed's surface over x (m), in a drum that turns counter-clockwise, with its standard_error");
 }
 
 const result_table drum_result_fields = {

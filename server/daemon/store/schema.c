@@ -220,6 +220,14 @@ static const char sent_beds[] = "CREATE TABLE sent_bed("
                                 "  bed INTEGER PRIMARY KEY REFERENCES sent_bed(number) ON DELETE CASCADE,"
                                 "  text TEXT NOT NULL) STRICT;";
 
+/* The mean interface of drums, a row a point. */
+static const char interfaces[] =
+    "CREATE VIEW interface AS SELECT result.job AS job, x.key AS point, x.value AS x, height.value AS height, error.value AS "
+    "standard_error"
+    " FROM result JOIN json_each(result.document,'$.repose.interface.x') AS x"
+    " JOIN json_each(result.document,'$.repose.interface.height') AS height ON height.key=x.key"
+    " LEFT JOIN json_each(result.document,'$.repose.interface.standard_error') AS error ON error.key=x.key;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -262,5 +270,6 @@ const schema_migration schema_migrations[] = {
     { { checksums_of_results } },
     { { shared_beds } },
     { { sent_beds } },
+    { { interfaces } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

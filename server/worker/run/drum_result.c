@@ -38,7 +38,10 @@ json_t *drum_result_to_json(const drum_result *result)
     drum_result whole = *result;
     say_verdict(&whole);
     json_t *document = results_to_json(&drum_result_fields, &whole);
-    if (document && add_other_angles(document, &whole)) return document;
+    if (document && add_other_angles(document, &whole)
+        && json_object_set_new(json_object_get(document, "repose"), "interface", profile_to_json(&whole.interface, "x", "height"))
+               == 0)
+        return document;
     json_decref(document);
     return NULL;
 }

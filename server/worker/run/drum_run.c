@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "dem_interface.h"
 #include "dem_rules.h"
 #include "drum_result.h"
 #include "fields_file.h"
@@ -85,7 +86,9 @@ static dem_status measure_results(const scene_run *run, json_t **document)
 {
     drum_result result;
     drum_result_init(&result);
-    const dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &result.measured);
+    dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &result.measured);
+    if (status == DEM_OK)
+        status = dem_drum_interface_measure(run->scene, run->frames, (size_t)run->next_sample, &result.measured, &result.interface);
     if (status != DEM_OK && status != DEM_TOO_FEW_FRAMES) return status;
     if (status == DEM_TOO_FEW_FRAMES) {
         worker_warn("%s: the results have no measures", dem_status_text(status));

@@ -1,5 +1,6 @@
 /* Claims about the results that a table of frames gives, with tables written by hand: means and their errors, what is
  * left out, drift, regimes. */
+#include "dem_interface.h"
 #include "measure.h"
 #include "scene_by_hand.h"
 
@@ -173,6 +174,16 @@ static void the_chord_and_the_fluctuation_are_those_of_the_mean_interface(void *
     const dem_drum_results r = results_of(scene, table, FRAMES);
     CHECK_NEAR(r.repose.angle[DEM_CHORD].mean_deg, 0.4 * 180 / M_PI, 1e-6);
     CHECK_NEAR(r.repose.interface_fluctuation, 0.001, 1e-5); /* n - 1 for n: 0.2 % */
+    dem_profile mean;
+    for (size_t k = 0; k < FRAMES / 4; k++) table[k * width + DEM_FRAME_SCALARS] = NAN; /* seen in most of them */
+    for (size_t k = 0; k < FRAMES; k++) table[(k + 1) * width - 1] = k % 4 ? NAN : 1.0; /* seen in a quarter */
+    assert_int_equal(dem_drum_interface_measure(scene, table, FRAMES, &r, &mean), DEM_OK);
+    assert_int_equal(mean.count, (cells < DEM_PROFILE_POINTS ? cells : DEM_PROFILE_POINTS) - 1);
+    for (size_t k = 0; k < mean.count; k++) {
+        CHECK_NEAR(mean.value[k], tan(0.4) * mean.place[k], 2e-5);
+        CHECK_BETWEEN(mean.standard_error[k], 0, 0.001 / sqrt(FRAMES / 2.0)); /* every other frame makes good for the one before */
+    }
+    CHECK_NEAR(mean.place[0], RADIUS / (double)cells - RADIUS, 1e-9);
     free(table);
     dem_scene_free(scene);
 }
