@@ -89,13 +89,15 @@ static json_t *take_sizes(json_t *inputs, const start_source *source, problem_li
     return changed ? with_members(inputs, "particles", json_pack("{s:o}", "particles", changed)) : inputs;
 }
 
+/* The inputs as they are now, of which the old reference is given up where they changed. */
+static json_t *instead(json_t *inputs, json_t *taken)
+{
+    if (taken != inputs) json_decref(inputs);
+    return taken;
+}
+
 json_t *given_files_take(json_t *inputs, const start_source *source, problem_list *problems)
 {
-    json_t *(*const takers[])(json_t *, const start_source *, problem_list *) = { take_start, take_sizes };
-    for (size_t k = 0; k < sizeof takers / sizeof *takers; k++) {
-        json_t *taken = takers[k](inputs, source, problems);
-        if (taken != inputs) json_decref(inputs);
-        inputs = taken;
-    }
-    return inputs;
+    inputs = instead(inputs, take_start(inputs, source, problems));
+    return instead(inputs, take_sizes(inputs, source, problems));
 }
