@@ -184,8 +184,10 @@ dem_status dem_drum_interface_measure(const dem_scene *scene, const double *fram
 {
     *interface = (dem_profile){ .count = 0 };
     if (count == 0 || isnan(measured->repose.angle[DEM_CHORD].mean_deg)) return DEM_OK;
-    const frame_window all = { frames, count, dem_frame_width(scene) },
-                       window = frame_window_from(&all, measured->repose.window_start);
+    const frame_window all = { frames, count, dem_frame_width(scene) };
+    frame_window window = frame_window_from(&all, measured->repose.window_start);
+    while (window.count > 1 && window.frames[(window.count - 1) * window.width + FRAME_TIME] > measured->repose.window_end)
+        window.count--;
     arrays_begin();
     return arrays_end(interface_profile(scene, &window, interface));
 }

@@ -2,6 +2,7 @@
 import json
 import math
 import subprocess
+from pathlib import Path
 
 import h5py
 import requests
@@ -140,3 +141,14 @@ def test_two_materials_in_steel_start_from_tens_of_thousands_of_given_particles(
     assert "errors" not in report, report
     assert report["estimate"]["particles"] == 38000 and len(report["spec"]["inputs"]["pairs"]) == 5
     assert 1e-7 < report["estimate"]["time_step"] < 1e-5
+
+
+def test_the_instruments_are_as_their_makers_state_and_can_be_run():
+    folder = Path(worker.REPOSE).parents[1] / "api/examples/instruments"
+    stated = {"granudrum": lambda i: (i["drum"]["diameter"], i["drum"]["length"], i["fill_fraction"]) == (0.084, 0.02, 0.5),
+              "granuheap": lambda i: (i["tube"]["diameter"], i["tube"]["lift_speed"]) == (0.01, 0.01),
+              "cylinder-100ml": lambda i: 100e-6 < math.pi / 4 * i["cylinder"]["diameter"]**2 * i["cylinder"]["height"] < 150e-6}
+    assert {path.stem for path in folder.glob("*.json")} >= set(stated)
+    for name, holds in stated.items():
+        report = json.loads(subprocess.run([worker.REPOSE, "check", str(folder / f"{name}.json")], capture_output=True, text=True).stdout)
+        assert "errors" not in report and holds(report["spec"]["inputs"]), (name, report)
