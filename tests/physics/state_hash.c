@@ -13,7 +13,8 @@ enum { CASE, STEPS, THREADS, SETTLING };
 static named_number asked[] = {
     { "case", 0 }, /* 0: spheres, 1: two sizes, 2: tetrahedra, 3: spring-dashpot with lifters, 4: Hertz-Mindlin, end walls,
                       5: rolling friction, two sizes, 6: two materials and a third of the walls,
-                      7: jkr, two sizes, 8: liquid bridges of latching springs */
+                      7: jkr, two sizes, 8: liquid bridges of latching springs,
+                      9: damped rolling of two materials, 10: constant rolling torque, Hertz-Mindlin, two sizes */
     { "steps", 2000 }, { "threads", 1 }, { "settling", 1 }, /* 0: the steps begin with the growing, 1: with the rotation */
     { NULL, 0 },
 };
@@ -34,6 +35,7 @@ static void set_pairs(dem_scene_definition *d)
     for (size_t a = 0; d->has_pairs && a < d->species_count; a++)
         for (size_t b = 0; b < DEM_MAXIMUM_SPECIES + DEM_SURFACES; b++)
             d->pair[a][b] = (dem_pair){ .friction = 0.2 + 0.01 * (double)(a + b),
+                                        .rolling_friction = of(CASE) == 9 ? 0.05 + 0.01 * (double)(a + b) : 0,
                                         .restitution = 0.8 - 0.02 * (double)(a + b % DEM_MAXIMUM_SPECIES),
                                         .stiffness = d->contact.stiffness * (1 - 0.05 * (double)(a * b % 3)) };
 }
@@ -54,7 +56,7 @@ static dem_scene_definition drum_asked(void)
 {
     const int number = (int)of(CASE);
     dem_scene_definition d = small_drum();
-    if (number == 1 || number == 5 || number == 7) {
+    if (number == 1 || number == 5 || number == 7 || number == 10) {
         d.species_count = 2;
         d.species[0].share = 0.7;
         d.species[1] = (dem_species){ .diameter = 0.004, .density = 2500, .share = 0.3 };
@@ -72,14 +74,16 @@ static dem_scene_definition drum_asked(void)
         d.lifters = (dem_lifters){ .count = 4, .height = 0.005, .width = 0.003, .friction = 0.4 };
         d.particle_count = 200;
     }
-    if (number == 4) {
+    if (number == 4 || number == 10) {
         d.contact.law = DEM_HERTZ_MINDLIN;
         d.contact.particle = d.contact.wall = (dem_elasticity){ 1e6, 0.3 };
         d.ends = (dem_drum_ends){ .are_walls = true, .friction = 0.3 };
     }
-    if (number == 6) set_materials(&d);
+    if (number == 6 || number == 9) set_materials(&d);
     if (number == 7 || number == 8) set_cohesion(&d, number == 7);
-    if (number == 5) d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.05;
+    if (number == 5 || number == 10) d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.05;
+    if (number >= 9) d.contact.rolling_law = number == 9 ? DEM_EPSD_DAMPED : DEM_CONSTANT_TORQUE;
+    d.contact.rolling_damping = 0.3;
     d.contact.latch_damping = 0.3;
     d.threads = (int)of(THREADS);
     follow_rules(&d, 0.03);
