@@ -12,8 +12,9 @@
 static json_t *derived_numbers(const dem_scene_definition *scene)
 {
     const dem_contact_parameters *contact = &scene->contact;
-    json_t *numbers = json_pack("[f, f, f, f, f, f]", scene->time_step, contact->stiffness, contact->restitution,
-                                contact->unloading_slope, contact->particle.youngs_modulus, contact->wall.youngs_modulus);
+    json_t *numbers = json_pack("[f, f, f, f, f, f, f]", scene->time_step, contact->stiffness, contact->restitution,
+                                contact->unloading_slope, contact->particle.youngs_modulus, contact->wall.youngs_modulus,
+                                scene->lifters.angle /* the other way in a drum that turns back */);
     if (scene->has_pairs) json_array_append_new(numbers, json_integer((json_int_t)checksum_of(scene->pair, sizeof scene->pair)));
     return numbers;
 }
