@@ -147,6 +147,7 @@ def test_the_instruments_are_as_their_makers_state_and_can_be_run():
     folder = Path(worker.REPOSE).parents[1] / "api/examples/instruments"
     stated = {"granudrum": lambda i: (i["drum"]["diameter"], i["drum"]["length"], i["fill_fraction"]) == (0.084, 0.02, 0.5),
               "granuheap": lambda i: (i["tube"]["diameter"], i["tube"]["lift_speed"]) == (0.01, 0.01),
+              "hall-flowmeter": lambda i: (i["orifice"]["diameter"], i["hopper"]["half_angle_deg"]) == (0.0025, 30),
               "cylinder-100ml": lambda i: 100e-6 < math.pi / 4 * i["cylinder"]["diameter"]**2 * i["cylinder"]["height"] < 150e-6}
     assert {path.stem for path in folder.glob("*.json")} >= set(stated)
     for name, holds in stated.items():
