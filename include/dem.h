@@ -77,6 +77,9 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
  * dem_drum_results_measure of a drum with stages gives the last one in which it turns. */
 dem_status dem_drum_stage_measure(const dem_scene *scene, size_t stage, const double *frames, size_t count,
                                   dem_drum_results *results);
+/* Of `count` beds of one definition that differ in their seeds: verdict, steady, drift and its bound of all of them together,
+ * into *all, whose other members stay as they are. Of one bed: what it says itself. */
+void dem_drum_results_of_beds(const dem_drum_results *beds, size_t count, dem_repose_result *all);
 
 /* Fields over the cross-section, averaged over frames: the caller keeps a table of dem_fields_size numbers, all zero at
  * first, adds to it at regular intervals while the drum rotates, and asks for the fields at the end. The grid has

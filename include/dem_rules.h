@@ -24,8 +24,9 @@
 #define DEM_SLIPS_FROM 0.15               /* mean slip at the wall, between beds that renew themselves and those that do not */
 #define DEM_LEAST_SLIPPING_REVOLUTIONS 8  /* turned in all by a bed that slips */
 #define DEM_LEAST_WINDOW_FRAMES 40
-#define DEM_LEAST_CORRELATION_TIMES 20 /* as the window itself shows them, which may be twice too many */
-#define DEM_LEAST_FALLS 3              /* slumps or avalanches that tell as much as so many revolutions */
+#define DEM_LEAST_CORRELATION_TIMES 20          /* as the window itself shows them, which may be twice too many */
+#define DEM_LEAST_CORRELATION_TIMES_OF_A_BED 10 /* where several beds have that many together */
+#define DEM_LEAST_FALLS 3                       /* slumps or avalanches that tell as much as so many revolutions */
 
 double dem_sphere_mass(double diameter, double density);
 

@@ -379,10 +379,19 @@ typedef enum dem_verdict {
     DEM_TOO_FEW    /* particles, or layers of them */
 } dem_verdict;
 
+/* The straight line through the angle over the window; NaN: no angle, or too short to tell. */
+typedef struct dem_trend {
+    double change_deg, error_deg; /* over the window, and its standard error */
+    double deviation_deg;         /* about the line */
+    double times;                 /* correlation times of what is left without it */
+} dem_trend;
+
 typedef struct dem_repose_result {
     dem_angle angle[DEM_ANGLE_METHODS];
     dem_verdict verdict;
-    bool steady; /* the verdict is DEM_STEADY */
+    bool steady;         /* the verdict is DEM_STEADY */
+    bool is_long_enough; /* the window, for any other verdict than too short */
+    dem_trend trend;
     double drift_deg_per_revolution;
     double drift_bound_deg_per_revolution; /* what its size stays below in 97 of 100 cases; NaN: too short to tell */
     double window_revolutions;             /* that the drum turned in the window */

@@ -73,6 +73,7 @@ static json_t *continued(json_t *spec, const job_record *parent, const json_t *w
     json_object_update(label, json_object_get(wanted, "label"));
     json_object_set_new(label, "parent", json_string(parent->id));
     json_object_set_new(inputs, "start", json_pack("{s:s, s:b}", "job", parent->id, "checkpoint", 1));
+    json_object_del(inputs, "beds");          /* the first of several goes on */
     json_object_del(inputs, "fill_fraction"); /* as many particles as there are */
     json_object_del(inputs, "particle_count");
     set_wanted(inputs, wanted);

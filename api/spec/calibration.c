@@ -89,6 +89,13 @@ double calibration_pace(const calibration *machine)
     return machine->sphere[0] / REFERENCE * machine->correction;
 }
 
+double calibration_at_once(const calibration *machine, int beds)
+{
+    const calibration built_in = calibration_built_in();
+    const int cores = machine ? machine->cores : built_in.cores;
+    return beds < cores ? beds : cores;
+}
+
 double calibration_seconds_a_run(const calibration *machine, const calibration_load *load, double steps)
 {
     static const double OF_RUN = 0.05, OF_STEP = 4.5e-7; /* s, beside the sphere-steps; they count where spheres are few */

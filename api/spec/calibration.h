@@ -45,6 +45,9 @@ double calibration_seconds_a_step(const calibration *machine, const calibration_
 /* How many times longer this machine takes than the one on which costs beside the sphere-steps were measured. */
 double calibration_pace(const calibration *machine);
 
+/* How many of so many beds, one a thread, its cores advance at a time. */
+double calibration_at_once(const calibration *machine, int beds);
+
 /* s of wall time for a run of so many steps, with what it costs beside them. */
 double calibration_seconds_a_run(const calibration *machine, const calibration_load *load, double steps);
 

@@ -23,6 +23,7 @@
  *           particle, other, position, quantity, value, limit, unit, likely_cause); does-not-fit, bad-parameter,
  *           no-memory, disk
  *     A process without steps (granule) writes start alone, without time_step and total_steps.
+ *     Of several beds, samples, snapshots and failures have a bed's step, all else the steps of all beds together.
  *     total_steps of start is an estimate: when rotation begins is not known before.
  *     A later attempt goes on from the checkpoint and repeats what came after it with the same numbers: readers
  *     key samples and snapshots by "number" and let the later line win.
@@ -31,6 +32,8 @@
  *   walls.vtp                  the container's walls, where they are at the newest snapshot; rewritten with that
  *   fields.hdf                 a drum's fields over the cross-section, averaged over the run; before result.json
  *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
+ *   beds/001.hdf ...           of a run of several beds the checkpoint of each but the first, and 001.before.hdf; gone once
+ *                              result.json is there. Samples, snapshots, walls and checkpoint.hdf are of the first bed
  *   result.json                the document of GET /jobs/{id}/results; written last, by rename. A worker that finds
  *                              it, of the same spec, has nothing to do and ends with 0
  *   result.json.sum            its checksum (checksum.h), and that of its text followed by the canonical spec, so that nothing
@@ -56,6 +59,7 @@
 #define JOB_FIELDS_FILE "fields.hdf"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
 #define JOB_EARLIER_CHECKPOINT_FILE "checkpoint.before.hdf"
+#define JOB_BEDS_FOLDER "beds"
 #define JOB_RESULT_FILE "result.json"
 #define JOB_RESULT_SUM_FILE JOB_RESULT_FILE ".sum"
 #define JOB_PROFILE_FILE "profile.json"

@@ -139,7 +139,7 @@ typedef struct scene_inputs {
     double revolutions, seconds, until_standard_error; /* one of the three */
     double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
-    double seed, threads, gravity, corrector_passes;
+    double seed, threads, beds, gravity, corrector_passes;
     double precision; /* 0: single, 1: double */
     start_inputs start;
     fill_inputs fill;
@@ -179,7 +179,7 @@ typedef struct job_spec {
     const process_type *type;
     const char *process;      /* its name, "drum" */
     const start_source *beds; /* while it is parsed */
-    int threads;              /* of the worker */
+    int threads;              /* of the worker; each bed has scene.threads of them */
     json_t *label;            /* object of strings and numbers, owned; never NULL */
     int priority;       /* in [-PRIORITY_MOST, PRIORITY_MOST]; no part of the canonical spec, since results do not depend on it */
     json_t *wanted;     /* how its results are wanted (execute_request.h), owned; NULL: as ever. No part of the canonical spec */
@@ -188,6 +188,7 @@ typedef struct job_spec {
 
     /* Of all that advance a scene: */
     scene_inputs inputs;        /* as asked for */
+    size_t bed_count;           /* that run side by side */
     dem_scene_definition scene; /* the scene, complete: stiffness, time step and particle count derived */
     double rotation_rate;       /* rad/s, as asked for; of a drum with stages the fastest */
     bool is_mirrored;       /* it turns first with a rate below 0: the scene is the mirror image, x for -x, of what was asked for */
@@ -224,6 +225,13 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
 /* Of a job or a study, a member of its request: those of a higher one run first. NULL: 0. */
 int read_priority(const json_t *priority, problem_list *problems);
 void job_spec_clear(job_spec *spec);
+
+/* Of a run of several beds, one: its own seed, which of the first is the run's. The copy owns nothing. */
+job_spec job_spec_of_bed(const job_spec *spec, size_t bed);
+uint64_t job_bed_seed(uint64_t seed, size_t bed);
+/* How many of them advance at a time: one a thread. */
+int job_beds_at_once(const job_spec *spec);
+void job_spec_set_threads(job_spec *spec, int threads);
 
 /* {"process", "inputs", "label"}: canonical. New reference; NULL: no memory. */
 json_t *job_spec_to_json(const job_spec *spec);

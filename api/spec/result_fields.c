@@ -25,7 +25,7 @@ static json_t *words_or_null(const char *const *choices)
     return words;
 }
 
-static json_t *field_schema(const result_field *field)
+static json_t *field_schema(const result_field *field, bool has_beds)
 {
     if (field->kind == RESULT_WARNINGS) return warnings_schema(field);
     json_t *schema = json_pack("{s:s}", "description", field->meaning);
@@ -41,6 +41,7 @@ static json_t *field_schema(const result_field *field)
         json_object_set_new(
             schema, "x-shown",
             json_pack("{s:f, s:i, s:s}", "factor", field->factor, "digits", field->digits, "suffix", field->suffix));
+    if (has_beds) json_object_set_new(schema, "x-over-beds", over_beds_to_json(field));
     if (field->is_main) json_object_set_new(schema, "x-study-order", json_integer(field->in_study));
     if (field->choices) json_object_set_new(schema, "enum", words_or_null(field->choices));
     return schema;
@@ -55,14 +56,41 @@ static json_t *properties_of(json_t *properties, const char *group)
     return json_object_get(json_object_get(properties, group), "properties");
 }
 
+static bool is_one_of(const char *name, const char *const *names)
+{
+    for (; *names; names++)
+        if (strcmp(name, *names) == 0) return true;
+    return false;
+}
+
+/* "beds" of the first output. */
+static json_t *beds_schema(const result_table *table)
+{
+    json_t *bed = json_pack("{s:{s:s, s:s}}", "seed", "type", "integer", "description",
+                            "a run of one bed with this seed is this bed; that of the first is the run's");
+    json_t *required = json_pack("[s]", "seed");
+    for (size_t f = 0; f < table->count; f++) {
+        const result_field *field = &table->field[f];
+        if (field->group || strcmp(field->output, table->output[0].name) != 0 || !is_one_of(field->name, table->of_each_bed))
+            continue;
+        json_object_set_new(bed, field->name, field_schema(field, false));
+        json_array_append_new(required, json_string(field->name));
+    }
+    return json_pack("{s:[s, s], s:s, s:{s:s, s:o, s:o, s:b}}", "type", "array", "null", "description",
+                     "each bed of a run of several, in order; null: there is one", "items", "type", "object", "required", required,
+                     "properties", bed, "additionalProperties", 0);
+}
+
 static json_t *schema_of_members(const result_table *table, const char *output)
 {
     json_t *properties = json_object();
+    if (table->of_each_bed && strcmp(output, table->output[0].name) == 0)
+        json_object_set_new(properties, "beds", beds_schema(table));
     if (table->describe_words) table->describe_words(properties, output);
     for (size_t f = 0; f < table->count; f++) {
         const result_field *field = &table->field[f];
         if (strcmp(field->output, output) != 0) continue;
-        json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field));
+        json_object_set_new(properties_of(properties, field->group), field->name, field_schema(field, table->of_each_bed));
     }
     return json_pack("{s:s, s:o}", "type", "object", "properties", properties);
 }

@@ -26,11 +26,12 @@ static bool has_clusters(const dem_scene_definition *scene)
     return false;
 }
 
-/* Nothing settles where particles are placed one by one, come from another's bed or enter in a stream. */
+/* Nothing settles where particles are placed one by one, come from another's bed or enter in a stream. Several beds each settle
+ * their own. */
 static bool settles(const job_spec *spec)
 {
     const bool advances_a_scene = spec->type->inputs_at == offsetof(job_spec, inputs);
-    return advances_a_scene && !spec->scene.is_placed && !(spec->scene.stream.rate > 0.0);
+    return advances_a_scene && spec->bed_count == 1 && !spec->scene.is_placed && !(spec->scene.stream.rate > 0.0);
 }
 
 char *spec_bed_text(const job_spec *spec)

@@ -114,6 +114,7 @@ typedef struct spec_field {
     const char *list_after; /* NULL: the unit, as is usual for it */
     double list_above;      /* shown only where it is more than this */
 
+    bool is_left_out_by_default; /* not written where it is its default: it came later than files that are still read */
     bool is_left_out_where_null; /* an object or null, which is not written where it is null */
 
     /* Nothing that happens before the run begins (the drum turns, the tube rises) depends on it but through what is derived from

@@ -85,6 +85,7 @@ static json_t *write_group(const spec_table *table, spec_group group, const char
         } else {
             const double value = *(const double *)(place + field->offset);
             if (isnan(value)) continue; /* its alternative was given, or it has no default */
+            if (field->is_left_out_by_default && value == field->fallback) continue;
             member = write_scalar(field, value);
         }
         if (json_object_set_new(object, field->name, member) != 0) {

@@ -348,7 +348,7 @@ static enum worker_exit run(int argc, char **argv, char *word)
         job_spec_clear(&spec);
         return exit;
     }
-    if (line.threads) spec.threads = spec.scene.threads = line.threads;
+    if (line.threads) job_spec_set_threads(&spec, line.threads);
     line.run.on_terminal = isatty(STDOUT_FILENO) && !line.json;
     worker_log_only_warnings(line.run.on_terminal && isatty(STDERR_FILENO));
     if (line.confine && !confinement_complete(line.out)) {

@@ -39,12 +39,13 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
     const double particles = (double)drum->particle_count, spheres = particles * scene_spheres_a_particle(drum);
     const double diameter = cbrt(6.0 / DEM_PI * dem_mean_volume(drum->species, drum->species_count));
     const double side = dem_field_cells(drum->diameter, diameter, particles), field_cells = side * side;
+    const double beds = (double)spec->bed_count;
     const double frame_bytes = sizeof(double) * (FRAME_NUMBERS + interface_numbers(drum, spheres, diameter));
 
     const double settling = dem_settling_time(drum);
     const dem_range range = dem_settling_range(drum);
     job_estimate estimate = {
-        .particles = particles,
+        .particles = beds * particles,
         .time_step = drum->time_step,
         .stiffness = drum->contact.stiffness,
         .simulated_seconds = spec->duration + settling,
@@ -53,7 +54,8 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
         .settling_seconds_high = range.high * settling,
         .snapshots = spec->snapshot_interval > 0.0 ? floor(spec->duration / spec->snapshot_interval) + 2.0 : 1.0,
     };
-    estimate.steps = ceil(estimate.simulated_seconds / drum->time_step);
+    const double steps = ceil(estimate.simulated_seconds / drum->time_step);
+    estimate.steps = beds * steps;
     estimate.load = (calibration_load){ .spheres = spheres + lining_spheres(drum),
                                         .of_particle = spheres / particles,
                                         .law = drum->contact.law,
@@ -61,11 +63,12 @@ job_estimate drum_estimate(const job_spec *spec, const calibration *machine)
                                         .rolling_friction = dem_has_rolling_friction(drum),
                                         .in_double = spec->inputs.precision > 0,
                                         .threads = drum->threads };
-    estimate.wall_seconds = calibration_pace(machine) * FIELD_CELL_SECONDS * field_cells
-                            + calibration_seconds_a_run(machine, &estimate.load, estimate.steps);
+    estimate.wall_seconds = beds / calibration_at_once(machine, job_beds_at_once(spec))
+                            * (calibration_pace(machine) * FIELD_CELL_SECONDS * field_cells
+                               + calibration_seconds_a_run(machine, &estimate.load, steps));
     const double frames = frame_bytes * spec->duration / spec->sample_interval;
-    estimate.memory_bytes = dem_memory_estimate(spheres + lining_spheres(drum)) + FIELD_CELL_BYTES * field_cells + frames;
-    estimate.checkpoint_bytes = scene_checkpoint_bytes(spheres, frames) + CHECKPOINT_CELL_BYTES * field_cells;
+    estimate.memory_bytes = beds * (dem_memory_estimate(spheres + lining_spheres(drum)) + FIELD_CELL_BYTES * field_cells + frames);
+    estimate.checkpoint_bytes = beds * (scene_checkpoint_bytes(spheres, frames) + CHECKPOINT_CELL_BYTES * field_cells);
     estimate.snapshot_bytes = estimate.snapshots * (SNAPSHOT_FILE_BYTES + SNAPSHOT_PARTICLE_BYTES * spheres);
     return estimate;
 }

@@ -1,6 +1,7 @@
 /* The inputs of `drum`. Ranges are wider than what makes sense together; drum_rules.c looks at combinations. */
 #include "csv_table.h"
 #include "drum_process.h"
+#include "result_fields.h"
 #include "scene_fields.h"
 
 static const char *const ends_choices[] = { "periodic", "walls", NULL };
@@ -137,6 +138,10 @@ static const spec_field fields[] = {
     FIELDS_OF_MATERIALS,
     FIELDS_OF_COHESIONS,
     FIELDS_OF_OUTPUT_AND_RUN,
+    { SPEC_INPUTS, "beds", FIELD_INTEGER, .unit = "", RANGE(1, MOST_BEDS), .fallback = 1, .is_left_out_by_default = true, AT(beds),
+      COLUMN("beds", COUNT, bed_count), IN_VIEW(325), FREE_OF_BED,
+      .meaning = "beds of this drum that differ in their seeds and run side by side, one a thread: one answer, whose error is of "
+                 "all of them" },
     { SPEC_INPUTS, "gravity", FIELD_REAL, .unit = "m/s2", RANGE(0.01, 1000.0), .fallback = 9.81, AT(gravity), USUAL(1.0, 30.0),
       SLIP("cm/s2", 0.01), COLUMN("gravity", REAL, scene.gravity), IN_VIEW(160),
       .meaning = "acceleration of gravity, across the axis" },

@@ -27,8 +27,11 @@ typedef struct drum_stage_result {
 /* Every measure NaN, as when there were too few frames to measure. */
 void drum_result_init(drum_result *result);
 
-/* The results document: NaN becomes null. New reference; NULL: no memory. */
-json_t *drum_result_to_json(const drum_result *result);
+/* Of `count` beds of a run: of all together. Each bed says what it tells in words, too. */
+void drum_result_of_beds(drum_result *bed, size_t count, drum_result *all);
+
+/* The results document of the same: NaN becomes null. New reference; NULL: no memory. */
+json_t *drum_result_to_json(drum_result *bed, size_t count);
 /* Every measure NaN, and an entry of the list of stages. */
 void drum_stage_result_init(drum_stage_result *result);
 json_t *drum_stage_result_to_json(const drum_stage_result *result);

@@ -23,24 +23,24 @@ static const result_field fields[] = {
     { "repose", NULL, "angle_deg", RESULT_REAL, ANGLE(mean_deg), "degrees", LABEL("angle of repose"),
       .meaning = "dynamic angle of repose, mean", IN_VIEW(400), LISTED, MAIN, IN_STUDY(10), RUN_ERROR("standard_error_deg") },
     { "repose", NULL, "standard_error_deg", RESULT_REAL, ANGLE(standard_error_deg), "degrees", LABEL("its error"), SHOWN(1, "°", 2),
-      .meaning = "error of that mean; null: one run cannot tell (slumping beds)", IN_VIEW(410), LISTED },
-    { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", LABEL("lowest angle"),
+      ERROR_OF("angle_deg"), .meaning = "error of that mean; null: one run cannot tell (slumping beds)", IN_VIEW(410), LISTED },
+    { "repose", NULL, "minimum_deg", RESULT_REAL, ANGLE(minimum_deg), "degrees", LABEL("lowest angle"), OVER_BEDS(LEAST),
       .meaning = "lowest angle of a frame", IN_VIEW(420), IN_STUDY(20) },
-    { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", LABEL("highest angle"),
+    { "repose", NULL, "maximum_deg", RESULT_REAL, ANGLE(maximum_deg), "degrees", LABEL("highest angle"), OVER_BEDS(LARGEST),
       .meaning = "highest angle of a frame", IN_VIEW(430), MAIN, IN_STUDY(30) },
-    { "repose", NULL, "steady", RESULT_MAYBE, offsetof(drum_result, steady), "", LABEL("steady"),
+    { "repose", NULL, "steady", RESULT_MAYBE, offsetof(drum_result, steady), "", LABEL("steady"), OVER_BEDS(TOGETHER),
       .meaning = "the angle neither drifts nor moves by falls; null: nobody can know, for the verdict's reason", IN_VIEW(440),
       LISTED, IN_STUDY(4) },
-    { "repose", NULL, "verdict", RESULT_TEXT, offsetof(drum_result, verdict), "", LABEL("verdict"),
+    { "repose", NULL, "verdict", RESULT_TEXT, offsetof(drum_result, verdict), "", LABEL("verdict"), OVER_BEDS(TOGETHER),
       .meaning =
           "steady; drifting, which includes slumps and avalanches; too-short or too-few (particles, layers) to tell; null: the bed "
           "has no surface",
       .choices = drum_verdicts, IN_VIEW(450), LISTED, IN_STUDY(3) },
     { "repose", NULL, "drift_deg_per_revolution", RESULT_REAL, REPOSE(drift_deg_per_revolution), "degrees", LABEL("drift"),
-      SHOWN(1, "° a revolution", 2), .meaning = "slope of the angle over the window; null: too short to tell", IN_VIEW(460),
-      IN_STUDY(40) },
+      SHOWN(1, "° a revolution", 2), OVER_BEDS(TOGETHER), .meaning = "slope of the angle over the window; null: too short to tell",
+      IN_VIEW(460), IN_STUDY(40) },
     { "repose", NULL, "drift_bound_deg_per_revolution", RESULT_REAL, REPOSE(drift_bound_deg_per_revolution), "degrees",
-      LABEL("drift at most"), SHOWN(1, "° a revolution", 2),
+      LABEL("drift at most"), SHOWN(1, "° a revolution", 2), OVER_BEDS(TOGETHER),
       .meaning = "what the size of the drift stays below in 97 of 100 cases; null: too short to tell", IN_VIEW(470) },
     { "repose", NULL, "interface_fluctuation", RESULT_REAL, REPOSE(interface_fluctuation), "m",
       LABEL("fluctuation of the interface"), SHOWN(1e6, " µm", 3),
@@ -58,42 +58,43 @@ static const result_field fields[] = {
       .meaning = "turned in it" LEAST(DEM_LEAST_WINDOW_REVOLUTIONS) ", of " TEXT_OF(DEM_LEAST_REVOLUTIONS) " in all; or 3 falls",
       IN_VIEW(472) },
     { "repose", "window", "correlation_times", RESULT_REAL, REPOSE(correlation_times), "", LABEL("correlation times measured"),
-      .meaning = "of the angle that it is long" LEAST(DEM_LEAST_CORRELATION_TIMES), IN_VIEW(474) },
+      OVER_BEDS(SUM), .meaning = "of the angle that it is long" LEAST(DEM_LEAST_CORRELATION_TIMES), IN_VIEW(474) },
     { "repose", NULL, "correlation_time", RESULT_REAL, REPOSE(correlation_time), "s", LABEL("correlation time"), SHOWN(1, " s", 3),
       .meaning = "of the angle" },
-    { "repose", NULL, "frames", RESULT_SIZE, REPOSE(frames), "", LABEL("frames in the window"),
+    { "repose", NULL, "frames", RESULT_SIZE, REPOSE(frames), "", LABEL("frames in the window"), OVER_BEDS(SUM),
       .meaning = "frames in the window" LEAST(DEM_LEAST_WINDOW_FRAMES) },
     { "repose", NULL, "layers", RESULT_REAL, REPOSE(layers), "", LABEL("bed, in particle diameters deep"),
       .meaning = "depth of the bed at mid-chord, in mean diameters" LEAST(DEM_LEAST_LAYERS) ", and " TEXT_OF(
           DEM_LEAST_PARTICLES) " particles",
       IN_VIEW(480) },
-    { "repose", "slumps", "count", RESULT_WHOLE, REPOSE(slumps.count), "", LABEL("seen from beginning to end"),
+    { "repose", "slumps", "count", RESULT_WHOLE, REPOSE(slumps.count), "", LABEL("seen from beginning to end"), OVER_BEDS(SUM),
       .meaning = "slumps or avalanches seen from beginning to end; null, as all below, where the bed flows all the time",
       IN_VIEW(500) },
     { "repose", "slumps", "period", RESULT_REAL, REPOSE(slumps.period.mean), "s", LABEL("period of slumps"), SHOWN(1, " s", 3),
       .meaning = "from one beginning to the next, mean", IN_VIEW(510), MAIN, IN_STUDY(140) },
     { "repose", "slumps", "period_standard_error", RESULT_REAL, REPOSE(slumps.period.standard_error), "s", LABEL("its error"),
-      SHOWN(1, " s", 3), .meaning = "its error" },
+      SHOWN(1, " s", 3), ERROR_OF("period"), .meaning = "its error" },
     { "repose", "slumps", "start_deg", RESULT_REAL, REPOSE(slumps.start_deg.mean), "degrees", LABEL("they begin at"),
       .meaning = "direction of the centre of mass where they begin, mean", IN_VIEW(520), IN_STUDY(150) },
     { "repose", "slumps", "start_standard_error_deg", RESULT_REAL, REPOSE(slumps.start_deg.standard_error), "degrees",
-      LABEL("its error"), SHOWN(1, "°", 2),
+      LABEL("its error"), SHOWN(1, "°", 2), ERROR_OF("start_deg"),
       .meaning = "its error; null, as the next two, where the bed slides as a block, so that another bed differs by more" },
     { "repose", "slumps", "stop_deg", RESULT_REAL, REPOSE(slumps.stop_deg.mean), "degrees", LABEL("they end at"),
       .meaning = "the same where they end", IN_VIEW(530), IN_STUDY(160) },
     { "repose", "slumps", "stop_standard_error_deg", RESULT_REAL, REPOSE(slumps.stop_deg.standard_error), "degrees",
-      LABEL("its error"), SHOWN(1, "°", 2), .meaning = "its error" },
+      LABEL("its error"), SHOWN(1, "°", 2), ERROR_OF("stop_deg"), .meaning = "its error" },
     { "repose", "slumps", "size_deg", RESULT_REAL, REPOSE(slumps.size_deg.mean), "degrees", LABEL("size"),
       .meaning = "start less stop, mean", STORED },
     { "repose", "slumps", "size_standard_error_deg", RESULT_REAL, REPOSE(slumps.size_deg.standard_error), "degrees",
-      LABEL("its error"), SHOWN(1, "°", 2), .meaning = "its error" },
+      LABEL("its error"), SHOWN(1, "°", 2), ERROR_OF("size_deg"), .meaning = "its error" },
     { "repose", NULL, "hysteresis_deg", RESULT_REAL, REPOSE(slumps.hysteresis_deg), "degrees", LABEL("hysteresis"),
+      OVER_BEDS(LARGEST),
       .meaning = "largest less smallest of the angles that slumps start and stop at; null: none was seen from beginning to end",
       IN_VIEW(880), IN_STUDY(250) },
-    { "repose", NULL, "method", RESULT_WORD, offsetof(drum_result, method), "", LABEL("definition"),
+    { "repose", NULL, "method", RESULT_WORD, offsetof(drum_result, method), "", LABEL("definition"), OVER_BEDS(ALIKE),
       .meaning = "how angle_deg was measured", IN_VIEW(405), .view_name = "angle_definition" },
 
-    { "regime", NULL, "certain", RESULT_MAYBE, offsetof(drum_result, certain), "", LABEL("certain"),
+    { "regime", NULL, "certain", RESULT_MAYBE, offsetof(drum_result, certain), "", LABEL("certain"), AGREED_ON("name"),
       .meaning = "told alike from either half of a window that is long enough, of a bed of enough particles; null: no regime",
       IN_VIEW(630), LISTED, IN_STUDY(2) },
     { "regime", NULL, "omega2_outer", RESULT_REAL, REGIME(omega2_outer), "", LABEL("ω²R/g at the wall"),
@@ -124,7 +125,7 @@ static const result_field fields[] = {
       SHOWN(100, " %", 3), .meaning = "share of particles lately nearer the axis than the bed's inner surface less 2 diameters" },
     { "regime", "evidence", "surface_lag", RESULT_REAL, REGIME(surface_lag), "rad/revolution", LABEL("inner surface lags by"),
       SHOWN(1, " rad a revolution", 3), .meaning = "by which the inner surface lags the drum, in the last four revolutions" },
-    { "regime", NULL, "name", RESULT_TEXT, offsetof(drum_result, regime), "", LABEL("regime"),
+    { "regime", NULL, "name", RESULT_TEXT, offsetof(drum_result, regime), "", LABEL("regime"), OVER_BEDS(VOTE),
       .meaning = "flow regime; null: too few frames, or no bed, to tell", IN_VIEW(620), .view_name = "regime", LISTED,
       IN_STUDY(1) },
 
@@ -150,11 +151,11 @@ static const result_field fields[] = {
       .meaning = "of the drum on the bed about the axis, for the length simulated, mean", IN_VIEW(730), MAIN, IN_STUDY(120),
       RUN_ERROR("torque_standard_error") },
     { "drive", NULL, "torque_standard_error", RESULT_REAL, DRIVE(torque.standard_error), "N m", LABEL("its error"),
-      .meaning = "error of that mean", IN_VIEW(740) },
+      ERROR_OF("torque"), .meaning = "error of that mean", IN_VIEW(740) },
     { "drive", NULL, "weight_torque", RESULT_REAL, DRIVE(weight_torque.mean), "N m", LABEL("torque of the bed’s weight"),
       .meaning = "of the bed's weight, m g x of its centre of mass: what a steady drum's torque carries", STORED },
     { "drive", NULL, "weight_torque_standard_error", RESULT_REAL, DRIVE(weight_torque.standard_error), "N m", LABEL("its error"),
-      .meaning = "error of that mean", STORED },
+      ERROR_OF("weight_torque"), .meaning = "error of that mean", STORED },
     { "drive", NULL, "torque_number", RESULT_REAL, DRIVE(torque_number), "", LABEL("torque over m g R"), SHOWN(1, "", 3),
       .meaning = "torque over the bed's m g R", IN_VIEW(750) },
     { "drive", NULL, "power", RESULT_REAL, DRIVE(power), "W", LABEL("power"), .meaning = "torque times rotation rate", IN_VIEW(760),
@@ -164,7 +165,7 @@ static const result_field fields[] = {
                   "duration; standard-error: the angle was steady and known as well as asked for; at-most-revolutions: it "
                   "never was"),
     { "run", NULL, "fill_fraction", RESULT_REAL, RUN(fill_fraction), "", LABEL("fill fraction"), SHOWN(100, " %", 3),
-      .meaning = "as the particles make it" },
+      OVER_BEDS(ALIKE), .meaning = "as the particles make it" },
 };
 
 static const result_output outputs[] = {
@@ -181,6 +182,8 @@ static const result_output outputs[] = {
 
 static const char *const other_angles[] = { "center-of-mass", "chord", "theil-sen", "upper-chord", "lower-chord", NULL };
 
+static const char *const of_each_bed[] = { "angle_deg", "standard_error_deg", "verdict", NULL };
+
 static void describe_words(json_t *properties, const char *output)
 {
     if (strcmp(output, "repose") != 0) return;
@@ -191,6 +194,6 @@ static void describe_words(json_t *properties, const char *output)
 }
 
 const result_table drum_result_fields = {
-    RESULT_TABLE(fields, outputs), .describe_words = describe_words, .list = "stages",
+    RESULT_TABLE(fields, outputs), .of_each_bed = of_each_bed,   .describe_words = describe_words, .list = "stages",
     .entries = &drum_stage_fields, .other_angles = other_angles,
 };

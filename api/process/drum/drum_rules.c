@@ -185,6 +185,21 @@ static void check_room(const scene_inputs *inputs, const dem_scene_definition *d
                          drum->lining.diameter > 0.0 ? " within this lining" : "");
 }
 
+static void check_beds(const scene_inputs *inputs, const dem_scene_definition *drum, problem_list *problems)
+{
+    const double spheres = inputs->beds * (double)drum->particle_count * scene_spheres_a_particle(drum);
+    if (!(inputs->beds > 1.0)) return;
+    if (!isnan(inputs->start.given))
+        problem_list_add(problems, "/inputs/beds", "is %.0f, but all would be the bed that start names; leave one of the two out",
+                         inputs->beds);
+    if (inputs->stage_count > 0)
+        problem_list_add(problems, "/inputs/beds", "is %.0f, but the results of stages are of one bed; leave one of the two out",
+                         inputs->beds);
+    if (spheres > SCENE_MOST_PARTICLES)
+        problem_list_add(problems, "/inputs/beds", "is %.0f, which makes %.3g spheres in all; must make at most %.0f", inputs->beds,
+                         spheres, SCENE_MOST_PARTICLES);
+}
+
 static void check_least(const scene_inputs *inputs, double count, problem_list *problems)
 {
     const bool starts = !isnan(inputs->start.given);
@@ -293,6 +308,7 @@ void drum_rules_apply(job_spec *spec, uint64_t seed_if_missing, problem_list *pr
                         : isnan(inputs->revolutions)       ? "/inputs/duration/seconds"
                                                            : "/inputs/duration/revolutions",
                         problems);
+    check_beds(inputs, &spec->scene, problems);
     start_check_particles(inputs, &spec->scene, problems);
     start_compare(spec, origin, problems);
     json_decref(origin);

@@ -17,6 +17,7 @@ static void apply_rules(job_spec *spec, uint64_t seed_if_missing, problem_list *
     if (!isnan(rpm)) inputs->rotation_rate = rotation_of_rpm(rpm);
     inputs->rotation_rate_rpm = NAN;
     spec->threads = 1;
+    spec->bed_count = 1;
     spec->granule = (dem_granule_definition){
         .friction = inputs->friction,
         .radius = inputs->radius,

@@ -338,7 +338,8 @@ void scene_set_common(job_spec *spec)
     spec->maximum_overlap = isnan(inputs->maximum_overlap) ? 0.0 : inputs->maximum_overlap;
     spec->sample_interval = inputs->sample_interval;
     spec->snapshot_interval = inputs->snapshot_interval;
-    spec->threads = spec->scene.threads;
+    spec->bed_count = inputs->beds >= 1.0 ? (size_t)inputs->beds : 1;
+    job_spec_set_threads(spec, spec->scene.threads);
     spec->bond_number = spec->scene.contact.cohesion_law ? cohesion_bond_number(&spec->scene) : NAN;
     spec->scene.corrector_passes = isnan(inputs->corrector_passes) ? 1 : (int)inputs->corrector_passes;
 }

@@ -221,6 +221,7 @@ static void check_job(look *l, const char *id)
 {
     l->jobs++;
     check_hdfs(l, id, JOB_SNAPSHOT_FOLDER);
+    check_hdfs(l, id, JOB_BEDS_FOLDER);
     check_hdfs(l, id, NULL);
     check_document(l, id);
     check_result(l, id);

@@ -161,8 +161,10 @@ void job_folder_tidy(const data_folder *data, const char *id)
     const int folder = job_folder_open(data, id);
     if (folder < 0) return;
     const int snapshots = openat(folder, JOB_SNAPSHOT_FOLDER, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    const int beds = openat(folder, JOB_BEDS_FOLDER, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     remove_strangers(folder, id);
     remove_strangers(snapshots, id);
+    remove_strangers(beds, id);
 }
 
 bool job_folder_sync(const data_folder *data, const char *id)

@@ -38,10 +38,16 @@ store_status store_list_files(job_store *store, const char *id, job_file_taker *
 {
     const int folder = job_folder_open(store->data, id);
     if (folder < 0) return STORE_NOT_FOUND;
-    const int inner = openat(folder, JOB_SNAPSHOT_FOLDER, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    const store_status status = list_folder(folder, NULL, take, context);
-    if (status == STORE_OK && inner >= 0) return list_folder(inner, JOB_SNAPSHOT_FOLDER, take, context);
-    if (inner >= 0) close(inner);
+    static const char *const names[] = { JOB_SNAPSHOT_FOLDER, JOB_BEDS_FOLDER };
+    enum { INNER = sizeof names / sizeof names[0] };
+    int inner[INNER];
+    for (int f = 0; f < INNER; f++) inner[f] = openat(folder, names[f], O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    store_status status = list_folder(folder, NULL, take, context);
+    for (int f = 0; f < INNER; f++) {
+        if (inner[f] < 0) continue;
+        if (status == STORE_OK) status = list_folder(inner[f], names[f], take, context);
+        else close(inner[f]);
+    }
     return status;
 }
 

@@ -101,15 +101,21 @@ static store_status let_go(pruning *p, const char *id, bool is_study)
     return STORE_OK;
 }
 
-static void remove_snapshots(const data_folder *data, const char *id)
+static void empty_folder(int job, const char *name)
 {
-    const int job = job_folder_open(data, id);
-    const int inner = job >= 0 ? openat(job, JOB_SNAPSHOT_FOLDER, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
+    const int inner = job >= 0 ? openat(job, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : -1;
     DIR *list = inner >= 0 ? fdopendir(inner) : NULL;
     for (const struct dirent *entry; list && (entry = readdir(list)) != NULL;)
         if (entry->d_name[0] != '.') unlinkat(inner, entry->d_name, 0);
     if (list) closedir(list);
     else if (inner >= 0) close(inner);
+}
+
+static void remove_snapshots(const data_folder *data, const char *id)
+{
+    const int job = job_folder_open(data, id);
+    empty_folder(job, JOB_SNAPSHOT_FOLDER);
+    empty_folder(job, JOB_BEDS_FOLDER);
     static const char *const beside[] = { JOB_SERIES_FILE, JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE, JOB_BED_FILE };
     for (size_t f = 0; job >= 0 && f < sizeof beside / sizeof beside[0]; f++) unlinkat(job, beside[f], 0);
     if (job >= 0) close(job);

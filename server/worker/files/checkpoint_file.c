@@ -44,11 +44,20 @@ static void add_state(hdf_file *file, const dem_state *state)
     }
 }
 
-bool checkpoint_write(const checkpoint *saved, const char *params)
+checkpoint_names checkpoint_names_of(size_t bed)
+{
+    checkpoint_names names = { JOB_CHECKPOINT_FILE, JOB_EARLIER_CHECKPOINT_FILE };
+    if (bed == 0) return names;
+    snprintf(names.newest, sizeof names.newest, JOB_BEDS_FOLDER "/%03zu.hdf", bed);
+    snprintf(names.before, sizeof names.before, JOB_BEDS_FOLDER "/%03zu.before.hdf", bed);
+    return names;
+}
+
+bool checkpoint_write(const checkpoint *saved, const checkpoint_names *names, const char *params)
 {
     hdf_file file;
-    hdf_create(&file, JOB_CHECKPOINT_FILE);
-    file.before = JOB_EARLIER_CHECKPOINT_FILE;
+    hdf_create(&file, names->newest);
+    file.before = names->before;
     hdf_add_group(&file, "/run");
     add_number(&file, "/run", "format", FORMAT);
     hdf_add_text_attribute(&file, "/run", "params_json", params, H5T_CSET_UTF8);

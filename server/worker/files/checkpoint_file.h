@@ -22,10 +22,16 @@ typedef struct checkpoint {
     char *params;                 /* owned: the canonical spec of its run, where that was not given; else NULL */
 } checkpoint;
 
-/* params: the canonical spec, in brief. The file of before is kept as JOB_EARLIER_CHECKPOINT_FILE. */
-bool checkpoint_write(const checkpoint *saved, const char *params);
+/* Its names. */
+typedef struct checkpoint_names {
+    char newest[40], before[40];
+} checkpoint_names;
+checkpoint_names checkpoint_names_of(size_t bed);
 
-/* name: one of the two. params: NULL takes it of any spec. FILE_DAMAGED: also where it is of another spec (logged). Where it is FILE_WHOLE the checkpoint then
+/* params: the canonical spec, in brief. The file of before keeps its second name. */
+bool checkpoint_write(const checkpoint *saved, const checkpoint_names *names, const char *params);
+
+/* name: one of them. params: NULL takes it of any spec. FILE_DAMAGED: also where it is of another spec (logged). Where it is FILE_WHOLE the checkpoint then
  * owns its frames and the state's arrays. */
 file_state checkpoint_read(checkpoint *saved, const char *name, const char *params);
 void checkpoint_clear(checkpoint *saved);

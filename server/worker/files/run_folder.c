@@ -42,6 +42,7 @@ static bool all_is_plain(void)
         JOB_BED_FILE
     };
     bool plain = is_plain(JOB_SNAPSHOT_FOLDER, S_IFDIR);
+    plain = is_plain(JOB_BEDS_FOLDER, S_IFDIR) && plain;
     for (size_t i = 0; i < sizeof files / sizeof files[0]; i++) plain = is_plain(files[i], S_IFREG) && plain;
     return plain;
 }
@@ -57,25 +58,30 @@ bool run_folder_enter(const char *folder, event_log *events)
     if (!all_is_plain() || !event_log_open(events) || !make_folder(JOB_SNAPSHOT_FOLDER)) return false;
     file_sweep_temporary(".");
     file_sweep_temporary(JOB_SNAPSHOT_FOLDER);
+    file_sweep_temporary(JOB_BEDS_FOLDER);
     return true;
 }
 
-/* "000000.hdf" and the like: a file of ours. */
-static bool is_snapshot_name(const char *name)
+bool run_folder_add_beds(void) { return make_folder(JOB_BEDS_FOLDER); }
+
+/* "000000.hdf", "001.before.hdf" and the like: a file of ours. */
+static bool is_numbered(const char *name, size_t least_digits)
 {
     size_t digits = 0;
     while (isdigit((unsigned char)name[digits])) digits++;
-    return digits >= 6 && strcmp(name + digits, ".hdf") == 0;
+    return digits >= least_digits && (strcmp(name + digits, ".hdf") == 0 || strcmp(name + digits, ".before.hdf") == 0);
 }
 
-static void remove_snapshots(void)
+static void remove_numbered(const char *folder, size_t least_digits)
 {
-    DIR *entries = file_list_folder(JOB_SNAPSHOT_FOLDER);
+    DIR *entries = file_list_folder(folder);
     if (!entries) return;
     for (struct dirent *entry; (entry = readdir(entries));)
-        if (is_snapshot_name(entry->d_name)) unlinkat(dirfd(entries), entry->d_name, 0);
+        if (is_numbered(entry->d_name, least_digits)) unlinkat(dirfd(entries), entry->d_name, 0);
     closedir(entries);
 }
+
+void run_folder_empty_beds(void) { remove_numbered(JOB_BEDS_FOLDER, 3); }
 
 /* The spec.json of the folder, canonical; to be freed. NULL: *state tells why. */
 static char *spec_of_folder(file_state *state)
@@ -119,7 +125,8 @@ bool run_folder_claim(folder_owner owner, const char *params, event_log *events)
     if (owner == FOLDER_UNREADABLE) return false;
     if (owner == FOLDER_OF_ANOTHER) {
         for (size_t k = 0; k < sizeof leftovers / sizeof leftovers[0]; k++) unlink(leftovers[k]);
-        remove_snapshots();
+        remove_numbered(JOB_SNAPSHOT_FOLDER, 6);
+        run_folder_empty_beds();
         if (!event_log_empty(events)) return false;
     }
     return file_write_sealed(JOB_SPEC_FILE, params, strlen(params), NULL);

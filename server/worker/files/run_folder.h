@@ -25,4 +25,8 @@ folder_owner run_folder_owner(const char *params, const char *brief);
  * told from this run's. */
 bool run_folder_claim(folder_owner owner, const char *params, event_log *events);
 
+/* The folder for the checkpoints of all beds but the first, and the end of these. */
+bool run_folder_add_beds(void);
+void run_folder_empty_beds(void);
+
 #endif

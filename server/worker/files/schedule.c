@@ -19,11 +19,9 @@ schedule schedule_of(const job_spec *spec)
     schedule plan = {
         .steps_per_sample = spec->sample_interval / dt,
         .steps_per_snapshot = spec->snapshot_interval / dt,
-        .rotation_steps = llround(spec->duration / dt),
     };
-    plan.samples = count_until(plan.steps_per_sample, plan.rotation_steps, 0);
-    plan.snapshots = 1;
-    if (plan.steps_per_snapshot > 0.0) plan.snapshots += count_until(plan.steps_per_snapshot, plan.rotation_steps, 1);
+    const int64_t steps = llround(spec->duration / dt);
+    schedule_end_at(&plan, steps, count_until(plan.steps_per_sample, steps, 0));
     return plan;
 }
 
@@ -34,9 +32,10 @@ int64_t schedule_snapshot_step(const schedule *plan, int64_t number)
     return number + 1 >= plan->snapshots ? plan->rotation_steps : step_of(plan->steps_per_snapshot, number);
 }
 
-void schedule_end_at(schedule *plan, int64_t step, int64_t samples, int64_t snapshots)
+void schedule_end_at(schedule *plan, int64_t step, int64_t samples)
 {
     plan->rotation_steps = step;
     plan->samples = samples;
-    plan->snapshots = snapshots + 1;
+    plan->snapshots = 1;
+    if (plan->steps_per_snapshot > 0.0) plan->snapshots += count_until(plan->steps_per_snapshot, step, 1);
 }

@@ -15,8 +15,8 @@ typedef struct schedule {
 
 schedule schedule_of(const job_spec *spec);
 
-/* The run ends at this step instead, with one snapshot more, after so many samples and snapshots. */
-void schedule_end_at(schedule *plan, int64_t step, int64_t samples, int64_t snapshots);
+/* The run ends at this step instead, after so many samples. */
+void schedule_end_at(schedule *plan, int64_t step, int64_t samples);
 
 int64_t schedule_sample_step(const schedule *plan, int64_t number);
 int64_t schedule_snapshot_step(const schedule *plan, int64_t number); /* the last one at the end */

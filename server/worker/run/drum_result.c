@@ -33,15 +33,91 @@ static void say_verdict(drum_result *result)
     result->certain = result->has_regime ? (double)result->measured.regime.is_certain : NAN;
 }
 
-json_t *drum_result_to_json(const drum_result *result)
+/* The mean height where every bed has one. */
+static void mean_interface(const drum_result *bed, size_t count, dem_profile *all)
 {
-    drum_result whole = *result;
-    say_verdict(&whole);
-    json_t *document = results_to_json(&drum_result_fields, &whole);
-    if (document && add_other_angles(document, &whole)
-        && json_object_set_new(json_object_get(document, "repose"), "interface", profile_to_json(&whole.interface, "x", "height"))
+    all->count = 0;
+    for (size_t i = 0; i < bed[0].interface.count; i++) {
+        double value[MOST_BEDS], error[MOST_BEDS];
+        size_t found = 0;
+        for (size_t k = 0; k < count; k++)
+            for (size_t j = 0; j < bed[k].interface.count; j++) {
+                if (bed[k].interface.place[j] != bed[0].interface.place[i]) continue;
+                value[found] = bed[k].interface.value[j];
+                error[found++] = bed[k].interface.standard_error[j];
+            }
+        if (found < count) continue;
+        all->place[all->count] = bed[0].interface.place[i];
+        mean_over_beds(value, error, count, &all->value[all->count], &all->standard_error[all->count]);
+        all->count++;
+    }
+}
+
+/* What the table's rows do not say: the angles by other methods, and what all beds tell together. */
+static void measure_together(const drum_result *bed, size_t count, drum_result *all)
+{
+    dem_drum_results measured[MOST_BEDS];
+    for (size_t k = 0; k < count; k++) measured[k] = bed[k].measured;
+    dem_drum_results_of_beds(measured, count, &all->measured.repose);
+    say_verdict(all);
+    for (int m = 0; m < DEM_ANGLE_METHODS; m++) {
+        double value[MOST_BEDS], error[MOST_BEDS];
+        dem_angle *angle = &all->measured.repose.angle[m];
+        for (size_t k = 0; k < count; k++) {
+            value[k] = measured[k].repose.angle[m].mean_deg;
+            error[k] = measured[k].repose.angle[m].standard_error_deg;
+        }
+        mean_over_beds(value, error, count, &angle->mean_deg, &angle->standard_error_deg);
+    }
+    mean_interface(bed, count, &all->interface);
+}
+
+void drum_result_of_beds(drum_result *bed, size_t count, drum_result *all)
+{
+    const void *said[MOST_BEDS];
+    for (size_t k = 0; k < count; k++) {
+        say_verdict(&bed[k]);
+        said[k] = &bed[k];
+    }
+    *all = bed[0];
+    if (count == 1) return;
+    measure_together(bed, count, all);
+    results_of_beds(&drum_result_fields, said, count, all);
+}
+
+static json_t *document_of(const drum_result *said)
+{
+    json_t *document = results_to_json(&drum_result_fields, said);
+    if (document && add_other_angles(document, said)
+        && json_object_set_new(json_object_get(document, "repose"), "interface", profile_to_json(&said->interface, "x", "height"))
                == 0)
         return document;
+    json_decref(document);
+    return NULL;
+}
+
+/* Of each bed, what is told of it. */
+static bool add_beds(json_t *document, const drum_result *bed, size_t count)
+{
+    json_t *each[MOST_BEDS];
+    double seed[MOST_BEDS];
+    bool complete = true;
+    for (size_t k = 0; k < count; k++) {
+        each[k] = results_to_json(&drum_result_fields, &bed[k]);
+        seed[k] = bed[k].run.seed;
+        complete = complete && each[k];
+    }
+    complete = complete && beds_to_json(&drum_result_fields, each, seed, count, document);
+    for (size_t k = 0; k < count; k++) json_decref(each[k]);
+    return complete;
+}
+
+json_t *drum_result_to_json(drum_result *bed, size_t count)
+{
+    drum_result all;
+    drum_result_of_beds(bed, count, &all);
+    json_t *document = document_of(&all);
+    if (document && add_beds(document, bed, count)) return document;
     json_decref(document);
     return NULL;
 }

@@ -9,17 +9,36 @@
 #include "scene_run.h"
 #include "worker_log.h"
 
-/* Where an error is asked for: looks now and then whether the angle is steady and known that well, and if so ends the
- * run. Counted in frames, so that a run which was interrupted ends at the same one. */
-static dem_status end_when_known(const scene_run *run, const char **ended_by)
+/* Where an error is asked for. Counted in frames, so that a run which was interrupted ends at the same one. */
+static int64_t frames_between_looks(const job_spec *spec)
 {
     enum { FRAMES_BETWEEN_LOOKS = 4 };
-    if (!(run->spec->until_standard_error > 0) || run->next_sample % FRAMES_BETWEEN_LOOKS) return DEM_OK;
-    dem_drum_results now;
-    const dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &now);
+    return spec->until_standard_error > 0 ? FRAMES_BETWEEN_LOOKS : 0;
+}
+
+/* bed: (group->beds). */
+static dem_status measure_beds(const scene_group *group, drum_result *bed)
+{
+    for (size_t k = 0; k < group->beds; k++) {
+        const scene_run *run = &group->bed[k];
+        drum_result_init(&bed[k]);
+        const dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &bed[k].measured);
+        if (status != DEM_OK) return status;
+        bed[k].has_regime = bed[k].measured.regime.is_told;
+    }
+    return DEM_OK;
+}
+
+/* Whether the angle is steady and known that well. */
+static dem_status end_when_known(const scene_group *group, const char **ended_by)
+{
+    drum_result bed[MOST_BEDS], all;
+    const dem_status status = measure_beds(group, bed);
     if (status == DEM_TOO_FEW_FRAMES) return DEM_OK;
     if (status != DEM_OK) return status;
-    if (now.repose.steady && now.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= run->spec->until_standard_error)
+    drum_result_of_beds(bed, group->beds, &all);
+    if (all.measured.repose.steady
+        && all.measured.repose.angle[DEM_SURFACE_FIT].standard_error_deg <= group->job->spec->until_standard_error)
         *ended_by = "standard-error";
     return DEM_OK;
 }
@@ -28,8 +47,8 @@ static dem_status end_when_known(const scene_run *run, const char **ended_by)
  * a drum with stages, in the last one that turns. */
 static dem_status add_fields(const scene_run *run, double *tally)
 {
-    const dem_scene_definition *drum = &run->spec->scene;
-    double since, rate = drum->rotation_rate, seconds = run->spec->duration;
+    const dem_scene_definition *drum = &run->spec.scene;
+    double since, rate = drum->rotation_rate, seconds = run->spec.duration;
     const size_t last = dem_last_turning_stage(drum, &since);
     if (drum->stage_count > 0) rate = drum->stage[last].rate, seconds = drum->stage[last].seconds;
     const double quarter = rate != 0 ? asin(1) / fabs(rate) : 0.0, time = dem_scene_time(run->scene) - since;
@@ -37,9 +56,10 @@ static dem_status add_fields(const scene_run *run, double *tally)
     return is_over || time < fmin(quarter, 0.25 * seconds) ? DEM_OK : dem_fields_add(run->scene, tally);
 }
 
-static bool write_fields(const scene_run *run)
+static bool write_fields(const scene_group *group, const double *tally)
 {
-    return fields_file_write(run->scene, run->spec->is_mirrored, run->tally, &run->spec->scene, run->params);
+    const job_spec *spec = group->job->spec;
+    return fields_file_write(group->bed->scene, spec->is_mirrored, tally, &spec->scene, group->job->params);
 }
 
 static const char *ended_by_time(const job_spec *spec)
@@ -66,7 +86,7 @@ static dem_status measure_stage(const scene_run *run, size_t k, drum_stage_resul
 /* The list of stages: empty where there are none. */
 static dem_status add_stages(const scene_run *run, json_t *document)
 {
-    const dem_scene_definition *drum = &run->spec->scene;
+    const dem_scene_definition *drum = &run->spec.scene;
     json_t *list = json_array();
     double begins = 0;
     dem_status status = list ? DEM_OK : DEM_NO_MEMORY;
@@ -74,7 +94,7 @@ static dem_status add_stages(const scene_run *run, json_t *document)
         drum_stage_result stage;
         drum_stage_result_init(&stage);
         status = measure_stage(run, k, &stage);
-        stage.rate = run->spec->is_mirrored ? -drum->stage[k].rate : drum->stage[k].rate;
+        stage.rate = run->spec.is_mirrored ? -drum->stage[k].rate : drum->stage[k].rate;
         stage.begins = begins;
         stage.ends = begins += drum->stage[k].seconds;
         if (status == DEM_OK && json_array_append_new(list, drum_stage_result_to_json(&stage)) != 0) status = DEM_NO_MEMORY;
@@ -82,22 +102,29 @@ static dem_status add_stages(const scene_run *run, json_t *document)
     return json_object_set_new(document, "stages", list) == 0 ? status : DEM_NO_MEMORY;
 }
 
-static dem_status measure_results(const scene_run *run, json_t **document)
+static dem_status measure_interfaces(const scene_group *group, drum_result *bed)
 {
-    drum_result result;
-    drum_result_init(&result);
-    dem_status status = dem_drum_results_measure(run->scene, run->frames, (size_t)run->next_sample, &result.measured);
-    if (status == DEM_OK)
-        status = dem_drum_interface_measure(run->scene, run->frames, (size_t)run->next_sample, &result.measured, &result.interface);
+    dem_status status = DEM_OK;
+    for (size_t k = 0; status == DEM_OK && k < group->beds; k++) {
+        const scene_run *run = &group->bed[k];
+        status = dem_drum_interface_measure(run->scene, run->frames, (size_t)run->next_sample, &bed[k].measured, &bed[k].interface);
+    }
+    return status;
+}
+
+static dem_status measure_results(const scene_group *group, json_t **document)
+{
+    drum_result bed[MOST_BEDS];
+    dem_status status = measure_beds(group, bed);
+    if (status == DEM_OK) status = measure_interfaces(group, bed);
     if (status != DEM_OK && status != DEM_TOO_FEW_FRAMES) return status;
     if (status == DEM_TOO_FEW_FRAMES) {
         worker_warn("%s: the results have no measures", dem_status_text(status));
-        drum_result_init(&result);
+        for (size_t k = 0; k < group->beds; k++) drum_result_init(&bed[k]);
     }
-    result.has_regime = status == DEM_OK && result.measured.regime.is_told;
-    result.run = scene_run_facts(run);
-    *document = drum_result_to_json(&result);
-    return *document ? add_stages(run, *document) : DEM_NO_MEMORY;
+    for (size_t k = 0; k < group->beds; k++) bed[k].run = scene_run_facts(group, k);
+    *document = drum_result_to_json(bed, group->beds);
+    return *document ? add_stages(group->bed, *document) : DEM_NO_MEMORY;
 }
 
 enum worker_exit drum_run(const job_context *job)
@@ -108,6 +135,7 @@ enum worker_exit drum_run(const job_context *job)
         .frame_measure = dem_frame_measure,
         .tally_size = dem_fields_size,
         .tally_add = add_fields,
+        .frames_between_looks = frames_between_looks,
         .look = end_when_known,
         .ended_by_time = ended_by_time,
         .write_files = write_fields,

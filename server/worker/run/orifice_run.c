@@ -8,8 +8,11 @@
 
 static size_t frame_width(const dem_scene *scene) { return (void)scene, DEM_FLOW_FRAME; }
 
-static dem_status end_of_flow(const scene_run *run, const char **ended_by)
+static int64_t look_at_every_frame(const job_spec *spec) { return (void)spec, 1; }
+
+static dem_status end_of_flow(const scene_group *group, const char **ended_by)
 {
+    const scene_run *run = group->bed;
     const dem_flow_end end = dem_flow_ended(run->scene, run->frames, (size_t)run->next_sample);
     if (end != DEM_FLOWS_ON) *ended_by = end == DEM_FLOW_CLOGGED ? "clogged" : "drained";
     return DEM_OK;
@@ -38,13 +41,14 @@ static void mean_over_orifice(orifice_result *result, bool is_round)
     result->outlet_velocity = solid > 0.0 ? flow / solid : NAN;
 }
 
-static dem_status measure_results(const scene_run *run, json_t **document)
+static dem_status measure_results(const scene_group *group, json_t **document)
 {
-    orifice_result result = { .run = scene_run_facts(run) };
+    const scene_run *run = group->bed;
+    orifice_result result = { .run = scene_run_facts(group, 0) };
     const dem_status status = dem_flow_measure(run->scene, run->frames, (size_t)run->next_sample, &result.measured);
     if (status != DEM_OK) return status;
     dem_outlet_profile(run->scene, run->tally, &result.solid_fraction, &result.velocity);
-    mean_over_orifice(&result, run->spec->scene.orifice.depth == 0.0);
+    mean_over_orifice(&result, run->spec.scene.orifice.depth == 0.0);
     *document = orifice_result_to_json(&result);
     return DEM_OK;
 }
@@ -57,6 +61,7 @@ enum worker_exit orifice_run(const job_context *job)
         .frame_measure = dem_flow_frame_measure,
         .tally_size = dem_outlet_size,
         .tally_add = add_outlet,
+        .frames_between_looks = look_at_every_frame,
         .look = end_of_flow,
         .ended_by_time = ended_by_time,
         .results = measure_results,

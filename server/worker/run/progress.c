@@ -20,7 +20,14 @@ double monotonic_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *scene, double earlier_seconds)
+static int64_t steps_of_all(const dem_scene *const *scene, size_t beds)
+{
+    int64_t steps = 0;
+    for (size_t k = 0; k < beds; k++) steps += dem_scene_step_count(scene[k]);
+    return steps;
+}
+
+void progress_init(progress *run, const job_spec *spec, const schedule *plan, const dem_scene *const *scene, double earlier_seconds)
 {
     const job_estimate estimate = job_spec_estimate(spec, NULL);
     const double now = monotonic_seconds(), settling = dem_settling_time(&spec->scene) / spec->scene.time_step;
@@ -29,11 +36,12 @@ void progress_init(progress *run, const job_spec *spec, const schedule *plan, co
         .started = now,
         .last_report = now,
         .earlier_seconds = earlier_seconds,
-        .spheres = (double)dem_scene_sphere_count(scene),
+        .spheres = (double)dem_scene_sphere_count(scene[0]),
         .may_end_early = may_end_early,
         .settling_steps = settling,
         .rotation_steps = may_end_early ? fmax(1.0, estimate.steps - settling) : (double)plan->rotation_steps,
-        .last_step = dem_scene_step_count(scene),
+        .last_step = steps_of_all(scene, spec->bed_count),
+        .beds_at_once = job_beds_at_once(spec),
     };
 }
 
@@ -52,21 +60,22 @@ static double share_done(const progress *run, const dem_scene *scene)
     return of_settling + (1.0 - of_settling) * (run->may_end_early ? share_of_expected(done) : fmin(done, 1.0));
 }
 
-bool progress_is_due(progress *run, const dem_scene *scene, progress_report *report)
+bool progress_is_due(progress *run, const dem_scene *const *scene, size_t beds, progress_report *report)
 {
     const double now = monotonic_seconds(), passed = now - run->last_report;
     if (passed < SECONDS_BETWEEN_REPORTS) return false;
-    const int64_t step = dem_scene_step_count(scene);
+    const int64_t step = steps_of_all(scene, beds);
     const double speed = (double)(step - run->last_step) / passed;
     run->steps_per_second =
         run->steps_per_second > 0.0 ? (1.0 - NEWEST_WEIGHT) * run->steps_per_second + NEWEST_WEIGHT * speed : speed;
     run->last_step = step;
     run->last_report = now;
 
-    const double share = share_done(run, scene);
+    double share = 0.0;
+    for (size_t k = 0; k < beds; k++) share += share_done(run, scene[k]) / (double)beds;
     *report = (progress_report){
         .percent = 100.0 * share,
-        .eta_seconds = (1.0 - share) * (run->settling_steps + run->rotation_steps) / run->steps_per_second,
+        .eta_seconds = (double)beds * (1.0 - share) * (run->settling_steps + run->rotation_steps) / run->steps_per_second,
         .particle_steps_per_second = run->spheres * run->steps_per_second,
     };
     return true;
@@ -77,7 +86,8 @@ double progress_wall_seconds(const progress *run) { return run->earlier_seconds 
 int64_t progress_short_run(const progress *run)
 {
     /* A cautious guess until the first report. */
-    const double speed = run->steps_per_second > 0.0 ? run->steps_per_second : 1e6 / fmax(run->spheres, 1.0);
+    const double one = run->steps_per_second / run->beds_at_once;
+    const double speed = one > 0.0 ? one : 1e6 / fmax(run->spheres, 1.0);
     const double fewest = fmax(1.0, fmin(FEWEST_STEPS, speed * LONGEST_RUN_SECONDS));
     return (int64_t)fmax(fewest, fmin(1e6, speed * SHORT_RUN_SECONDS));
 }

@@ -18,6 +18,10 @@ static void every_field_has_its_own_name_and_a_meaning(void **state)
             size_t known = 0;
             for (size_t o = 0; o < results->output_count; o++) known += strcmp(results->output[o].name, field->output) == 0;
             assert_int_equal(known, 1);
+            /* of several beds a word, a truth or a count has no mean */
+            if (results->of_each_bed && field->over_beds == BEDS_MEAN)
+                assert_true(field->kind == RESULT_REAL || field->kind == RESULT_WARNINGS);
+            assert_int_equal(field->of != NULL, field->over_beds == BEDS_ERROR || field->over_beds == BEDS_AGREED);
             for (size_t g = 0; g < f; g++) {
                 const result_field *other = &results->field[g];
                 const bool same_group =

@@ -179,6 +179,77 @@ static void correlation_times_are_counted(void **unused)
     dem_scene_free(scene);
 }
 
+/* So many beds of such series, told together. */
+static dem_repose_result together(const dem_scene *scene, dice *d, size_t beds, double a, double deviation, double slope,
+                                  size_t frames)
+{
+    dem_drum_results bed[8];
+    for (size_t b = 0; b < beds; b++) {
+        double angle[FRAMES];
+        for (size_t k = 0; k < frames; k++) angle[k] = 25 + slope * (double)k * INTERVAL / M_PI;
+        add_noise(d, a, deviation, angle, frames);
+        bed[b] = results_of(scene, angle, frames);
+    }
+    dem_repose_result all = bed[0].repose;
+    dem_drum_results_of_beds(bed, beds, &all);
+    assert_int_equal(all.steady, all.verdict == DEM_STEADY);
+    return all;
+}
+
+/* Windows of one or two correlation times are too short also where two or four beds have such; windows of some fifteen each
+ * suffice; and a ramp that each bed has is seen by all together. */
+static void beds_are_steady_together(void **unused)
+{
+    (void)unused;
+    enum { TABLES = 200 };
+    dem_scene *scene = scene_of(200, 2);
+    dice d = { 89 };
+    for (size_t beds = 1; beds <= 4; beds *= 2) {
+        int of_short[5] = { 0 }, of_long[5] = { 0 }, of_ramp[5] = { 0 }, below = 0;
+        for (int t = 0; t < TABLES; t++) {
+            of_short[together(scene, &d, beds, 0.995, 2, 0, FRAMES).verdict]++;
+            of_long[together(scene, &d, beds, 0.9, 0.8, 0, 400).verdict]++; /* 19 frames a correlation length */
+            const dem_repose_result ramp = together(scene, &d, beds, 0.6, 0.8, 0.7, FRAMES);
+            of_ramp[ramp.verdict]++;
+            below += ramp.drift_bound_deg_per_revolution > 0.7;
+        }
+        CHECK_BETWEEN(of_short[DEM_STEADY], 0, 0.03 * TABLES);
+        if (beds > 1) CHECK_BETWEEN(of_long[DEM_STEADY], 0.7 * TABLES, TABLES);
+        CHECK_BETWEEN(of_ramp[DEM_DRIFTING], 0.97 * TABLES, TABLES);
+        assert_int_equal(of_ramp[DEM_STEADY], 0);
+        CHECK_BETWEEN(below, 0.93 * TABLES, TABLES); /* as of one bed: 97 of 100, known to 1.2 */
+    }
+    dem_scene_free(scene);
+}
+
+/* Half of the beds that fall, or have no angle, are no steady bed together; nor is one among them too short for its verdict. */
+static void one_bed_in_two_decides_what_the_drift_does_not(void **unused)
+{
+    (void)unused;
+    dem_scene *scene = scene_of(200, 2);
+    dice d = { 144 };
+    double angle[FRAMES];
+    fill_with(angle, FRAMES, 25);
+    add_noise(&d, 0.6, 0.8, angle, FRAMES);
+    const dem_drum_results steady = results_of(scene, angle, FRAMES);
+    assert_int_equal(steady.repose.verdict, DEM_STEADY);
+    for (int which = 0; which < 4; which++) {
+        dem_drum_results bed[3] = { steady, steady, steady };
+        dem_repose_result all = steady.repose;
+        if (which == 0) bed[1].regime.regime = DEM_SLUMPING;
+        if (which == 1) bed[1].repose.is_long_enough = false;
+        if (which == 2) bed[1].repose.verdict = DEM_NO_VERDICT, bed[1].repose.trend = (dem_trend){ NAN, NAN, NAN, NAN };
+        if (which == 3) bed[1].repose.verdict = DEM_TOO_FEW;
+        const dem_verdict of_two[] = { DEM_DRIFTING, DEM_TOO_SHORT, DEM_NO_VERDICT, DEM_TOO_FEW };
+        const dem_verdict of_three[] = { DEM_STEADY, DEM_TOO_SHORT, DEM_STEADY, DEM_TOO_FEW };
+        dem_drum_results_of_beds(bed, 2, &all);
+        assert_int_equal(all.verdict, of_two[which]);
+        dem_drum_results_of_beds(bed, 3, &all);
+        assert_int_equal(all.verdict, of_three[which]);
+    }
+    dem_scene_free(scene);
+}
+
 /* Climbs from 0 to a first fall and falls again and again, the first fall the deepest. rate in rad/s, of either sense. */
 static void falls_are_all_kept_however_the_transient_is_judged(double rate)
 {
@@ -275,4 +346,5 @@ static void one_sphere_or_a_handful_have_no_angle_and_few_no_verdict(void **unus
 
 UNIT_TESTS(a_series_without_trend_is_hardly_ever_said_to_drift_and_the_bound_holds, a_ramp_drifts_and_its_slope_is_below_the_bound,
            a_step_is_not_steady, a_run_that_is_too_short_says_so, correlation_times_are_counted, beds_that_fall_keep_their_falls,
+           beds_are_steady_together, one_bed_in_two_decides_what_the_drift_does_not,
            the_first_fall_of_a_bed_that_flows_is_its_transient, one_sphere_or_a_handful_have_no_angle_and_few_no_verdict)

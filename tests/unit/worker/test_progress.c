@@ -32,7 +32,7 @@ static double percent_now(progress *run, const dem_scene *scene)
 {
     progress_report report;
     run->last_report -= 2.0;
-    assert_true(progress_is_due(run, scene, &report));
+    assert_true(progress_is_due(run, &scene, 1, &report));
     assert_true(report.percent >= 0.0 && report.percent <= 100.0);
     return report.percent;
 }
@@ -45,7 +45,7 @@ static double advance(progress *run, const job_spec *spec, dem_scene *scene, int
         assert_int_equal(dem_scene_advance(scene, steps / 40 + 1), DEM_OK);
         const double now = percent_now(run, scene);
         progress interrupted;
-        progress_init(&interrupted, spec, &plan, scene, 0.0);
+        progress_init(&interrupted, spec, &plan, (const dem_scene *const[]){ scene }, 0.0);
         const double after_interruption = percent_now(&interrupted, scene);
         if (!(now > percent)) fail_msg("%.15g %% after %.15g %% at step %ld", now, percent, (long)dem_scene_step_count(scene));
         assert_true(after_interruption == now);
@@ -64,7 +64,7 @@ static double percent_at_the_estimated_end(const char *process, const char *text
     assert_int_equal(dem_scene_create(&spec.scene, &scene), DEM_OK);
     const schedule plan = schedule_of(&spec);
     progress run;
-    progress_init(&run, &spec, &plan, scene, 0.0);
+    progress_init(&run, &spec, &plan, (const dem_scene *const[]){ scene }, 0.0);
     double percent = 0.0;
     while (dem_scene_run_start(scene) < 0) percent = advance(&run, &spec, scene, settling / 4, percent);
     const int64_t left = dem_scene_run_start(scene) + (int64_t)steps - settling - dem_scene_step_count(scene);

@@ -30,13 +30,38 @@ double student_factor(int64_t degrees)
     return 1.0 + 1.0 / (2.0 * n) + 1.0 / (4.0 * n * n) + 1.0 / (16.0 * n * n * n);
 }
 
-static double error_of(const mean_of_runs *mean, const char **from)
+static double error_of_scatter(const mean_of_runs *mean)
 {
     const double n = (double)mean->count;
-    const double scatter = mean->count > 1 ? student_factor(mean->count - 1) * sqrt(mean->squares / (n - 1.0) / n) : NAN;
-    const double own = mean->errors > 0 ? sqrt(mean->squares_of_errors / (double)mean->errors / n) : NAN;
+    return mean->count > 1 ? student_factor(mean->count - 1) * sqrt(mean->squares / (n - 1.0) / n) : NAN;
+}
+
+static double error_of_own(const mean_of_runs *mean)
+{
+    return mean->errors > 0 ? sqrt(mean->squares_of_errors / (double)mean->errors / (double)mean->count) : NAN;
+}
+
+static double error_of(const mean_of_runs *mean, const char **from)
+{
+    const double scatter = error_of_scatter(mean), own = error_of_own(mean);
     *from = isnan(scatter) && isnan(own) ? NULL : mean->count == 1 ? "run" : own > scatter ? "runs" : "repeats";
     return fmax(scatter, own); /* fmax passes over NaN */
+}
+
+/* What chi-square exceeds in one of twenty cases (Abramowitz and Stegun 26.4.17). */
+static double chi_square_95(double degrees)
+{
+    static const double ABOVE_ONE_OF_TWENTY = 1.6448536269514722;
+    const double width = 2.0 / (9.0 * degrees), cube_root = 1.0 - width + ABOVE_ONE_OF_TWENTY * sqrt(width);
+    return degrees * cube_root * cube_root * cube_root;
+}
+
+double mean_of_beds_error(const mean_of_runs *mean)
+{
+    const double scatter = error_of_scatter(mean), own = error_of_own(mean);
+    if (isnan(scatter) || mean->errors < mean->count) return fmax(scatter, own); /* which passes over NaN */
+    const double own_square = mean->squares_of_errors / (double)mean->errors;
+    return mean->squares > chi_square_95((double)mean->count - 1.0) * own_square ? fmax(scatter, own) : own;
 }
 
 static double two_digits(double value)
