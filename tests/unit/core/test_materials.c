@@ -132,7 +132,7 @@ static dem_scene_definition beside_surfaces(const surface_case *s, dem_contact_l
     d.contact.law = law;
     d.contact.particle = d.contact.wall = (dem_elasticity){ 1e7, 0.3 };
     d.ends.are_walls = s->kind == DEM_DRUM;
-    if (s->kind == DEM_DRUM) d.lifters = (dem_lifters){ 3, 0.01, 0.01, 0.1 };
+    if (s->kind == DEM_DRUM) d.lifters = (dem_lifters){ 3, 0.01, 0.01, 0.1, 0 };
     d.plate.rim_height = 0.03;
     set_all_pairs(&d, pair_of(0.9, 0.3, 4000, 1e7, 1e7));
     return d;

@@ -1,11 +1,12 @@
 /* Claims about several steps in one pass: they are the same steps, to the last bit, also where they have to stop on the
  * way. The oracle: the same run, told to take one step at a time. */
 #include "dem_cluster.h"
+#include "dem_sizes.h"
 #include "scene.h"
 #include "small_drum.h"
 #include "wave.h"
 
-enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 448 /* species and pairs apart */ };
+enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 1512 /* species and pairs apart */ };
 
 /* Eight diameters across and a hundred long: some 3000 spheres, so that steps follow each other along it. */
 static dem_scene_definition slender_drum(void)
@@ -177,6 +178,31 @@ static void a_drum_that_is_too_soft_stops_as_in_single_steps(void **unused)
 static void nothing(dem_scene_definition *d) { (void)d; }
 static void end_walls(dem_scene_definition *d) { d->ends = (dem_drum_ends){ true, 0.3, 0.05 }; }
 static void rolling(dem_scene_definition *d) { d->contact.rolling_friction = d->contact.wall_rolling_friction = 0.1; }
+static void rolling_by(dem_scene_definition *d, dem_rolling_law law)
+{
+    rolling(d);
+    d->contact.rolling_law = law;
+    d->contact.rolling_damping = 0.3;
+}
+static void damped_rolling(dem_scene_definition *d) { rolling_by(d, DEM_EPSD_DAMPED); }
+static void constant_torque(dem_scene_definition *d) { rolling_by(d, DEM_CONSTANT_TORQUE); }
+static void on_a_slope(dem_scene_definition *d)
+{
+    end_walls(d);
+    d->tilt = 0.2;
+}
+static void sizes(dem_scene_definition *d)
+{
+    const double size = d->species[0].diameter;
+    d->species[0].sizes = (dem_sizes){ .law = DEM_UNIFORM, .by_volume = true, .minimum = 0.8 * size, .maximum = 1.2 * size };
+    dem_sizes_complete(&d->species[0]);
+}
+static void stages(dem_scene_definition *d)
+{
+    d->stage_count = 2;
+    d->stage[0] = (dem_rotation_stage){ d->rotation_rate, 0.005 };
+    d->stage[1] = (dem_rotation_stage){ -d->rotation_rate, 1 };
+}
 static void variable_unloading(dem_scene_definition *d) { d->contact.unloading_slope = 1e3; }
 static void latch_damping(dem_scene_definition *d) { d->contact.latch_damping = 0.3; }
 static void materials(dem_scene_definition *d)
@@ -203,7 +229,10 @@ static void other_sense(dem_scene_definition *d) { d->rotation_rate = -d->rotati
 static void standing_still(dem_scene_definition *d) { d->rotation_rate = 0; }
 static void threads(dem_scene_definition *d) { d->threads = 2; }
 static void lining(dem_scene_definition *d) { d->lining = (dem_lining){ .diameter = 0.003, .pitch = 0.004 }; }
-static void lifters(dem_scene_definition *d) { d->lifters = (dem_lifters){ 4, 0.004, 0.003, 0.5 }; }
+static void lifters(dem_scene_definition *d)
+{
+    d->lifters = (dem_lifters){ .count = 4, .height = 0.004, .width = 0.003, .friction = 0.5 };
+}
 
 static void clusters_beside_spheres(dem_scene_definition *d)
 {
@@ -265,12 +294,17 @@ static const effect effects[] = {
     { "nothing else", nothing, NULL, true },
     { "end walls", end_walls, NULL, true },
     { "rolling friction", rolling, NULL, true },
+    { "damped rolling", damped_rolling, NULL, true },
+    { "the constant torque of rolling", constant_torque, NULL, true },
     { "variable unloading", variable_unloading, NULL, true },
     { "latch damping", latch_damping, NULL, true },
     { "materials", materials, NULL, true },
     { "cohesion beyond touch", liquid_bridges, NULL, true },
+    { "sizes", sizes, NULL, true },
+    { "a tilted axis", on_a_slope, NULL, true },
     { "the other sense", other_sense, NULL, true },
     { "standing still", standing_still, NULL, true },
+    { "stages", stages, NULL, false },
     { "threads", threads, NULL, false },
     { "a lining", lining, NULL, false },
     { "lifters", lifters, NULL, false },
