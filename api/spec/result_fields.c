@@ -76,7 +76,7 @@ static json_t *beds_schema(const result_table *table)
         json_object_set_new(bed, field->name, field_schema(field, false));
         json_array_append_new(required, json_string(field->name));
     }
-    return json_pack("{s:[s, s], s:s, s:{s:s, s:o, s:o, s:b}}", "type", "array", "null", "description",
+    return json_pack("{s:s, s:[s, s], s:s, s:{s:s, s:o, s:o, s:b}}", "title", "beds", "type", "array", "null", "description",
                      "each bed of a run of several, in order; null: there is one", "items", "type", "object", "required", required,
                      "properties", bed, "additionalProperties", 0);
 }

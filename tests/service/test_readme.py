@@ -89,6 +89,9 @@ def the_example_with(piece, first):
     return merged(inputs, piece)
 
 
+TWO_PARTICLES = "x,y,z\n0,-0.01,0.004\n0.005,-0.01,0.004\n"
+
+
 @pytest.mark.parametrize("code", pieces_of_inputs())
 def test_members_of_inputs_in_the_prose_are_accepted(service, tmp_path, code):
     piece = json.loads("{" + code + "}")
@@ -96,12 +99,19 @@ def test_members_of_inputs_in_the_prose_are_accepted(service, tmp_path, code):
         checkpoint = service.data / "jobs" / service.first / "checkpoint.hdf"
         (tmp_path / "first").mkdir()
         (tmp_path / "first/checkpoint.hdf").write_bytes(checkpoint.read_bytes())
-        (tmp_path / "spec.json").write_text(json.dumps({"inputs": merged(SPEC, piece)}))
+        (tmp_path / "bed.csv").write_text(TWO_PARTICLES)
+        inputs = merged(SPEC, piece)
+        if piece["start"]["file"].endswith(".csv"):
+            inputs.pop("fill_fraction")  # the table says how many there are
+        (tmp_path / "spec.json").write_text(json.dumps({"inputs": inputs}))
         check = subprocess.run([BUILD.resolve() / "repose", "check", "spec.json"], cwd=tmp_path, capture_output=True, text=True, timeout=60)
         assert check.returncode == 0, check.stderr
     elif "plate" in piece:
         submit(service, {"process": "heap", "inputs": merged(json.loads((ROOT / "api/examples/heap.json").read_text())["inputs"], piece)})
     else:
+        if "bed" in piece.get("start", {}):
+            sent = requests.post(f"{service.url}/beds", data=TWO_PARTICLES, headers={"Content-Type": "text/csv"}, timeout=30)
+            piece["start"]["bed"] = sent.json()["bedID"]
         around = {name: piece.pop(name) for name in ("label", "priority") if name in piece}  # of the request, not of its inputs
         submit(service, {"process": "drum", "inputs": the_example_with(piece, service.first)} | around)
 

@@ -97,7 +97,7 @@ def test_wrong_usage_ends_with_2_and_help_with_0(tmp_path):
 
 def test_a_run_leaves_every_result_that_is_promised(whole):
     document = result(whole[0])
-    assert set(document) == {"repose", "regime", "segregation", "packing", "drive", "run"}
+    assert set(document) == {"repose", "regime", "segregation", "packing", "drive", "run", "stages"}
     promised = {
         "repose": ["angle_deg", "standard_error_deg", "minimum_deg", "maximum_deg", "steady",
                    "drift_deg_per_revolution", "method", "other_methods", "interface_fluctuation",

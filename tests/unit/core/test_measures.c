@@ -271,6 +271,7 @@ static void the_surface_lags_by_what_its_spheres_fall_behind_in_a_revolution(voi
     dem_scene *scene = hand_scene(&d);
     scene->phase = DEM_PHASE_RUNNING;
     scene->run_start = 0;
+    scene->container.rotation_rate = d.rotation_rate;
     const double inner = scene->container.radius * sqrt(1 - d.fill_fraction), turn = 2 * M_PI / d.rotation_rate;
     for (size_t i = AT_SURFACE; i < scene->spheres.mobile_count; i++)
         sphere_set_place(&scene->spheres, i, (double[]){ RADIUS - D / 2, 0, 0 });

@@ -50,9 +50,15 @@ static void an_address_has_its_share_of_connections_and_of_memory(void **state)
         one[i] = connection_watch_add(&watch, -1, me);
         connection_watch_set_reading(&watch, one[i], i != 1); /* the second is being answered */
     }
-    assert_true(connection_watch_admits(&watch, me)); /* the first makes room, then the third, */
-    assert_true(connection_watch_admits(&watch, me));
-    assert_false(connection_watch_admits(&watch, me)); /* the second does not */
+    watched_connection *more[3];
+    for (int i = 0; i < 2; i++) { /* the first makes room, then the third, */
+        assert_true(connection_watch_admits(&watch, me));
+        more[i] = connection_watch_add(&watch, -1, me);
+        connection_watch_set_reading(&watch, more[i], 0);
+    }
+    assert_false(connection_watch_admits(&watch, me)); /* those that are being answered do not */
+    more[2] = connection_watch_add(&watch, -1, me);    /* two threads had admitted one each while there was room for one */
+    assert_true(more[2]->is_going && !more[0]->is_going && !more[1]->is_going);
     assert_true(connection_watch_admits(&watch, you));
 
     assert_true(connection_watch_hold(&watch, one[0], 500, 100)); /* a single one always fits */
@@ -62,7 +68,10 @@ static void an_address_has_its_share_of_connections_and_of_memory(void **state)
     assert_true(connection_watch_hold(&watch, one[1], 60, 100));
     assert_true(connection_watch_hold(&watch, one[2], 40, 100));
     assert_false(connection_watch_hold(&watch, one[0], 1, 100));
-    for (int i = 0; i < 3; i++) connection_watch_remove(&watch, one[i]);
+    for (int i = 0; i < 3; i++) {
+        connection_watch_remove(&watch, one[i]);
+        connection_watch_remove(&watch, more[i]);
+    }
     connection_watch_remove(&watch, yours);
     connection_watch_clear(&watch);
 }
