@@ -99,6 +99,7 @@ def test_a_run_that_is_interrupted_again_and_again_ends_the_same(three, tmp_path
     assert list((out / "beds").iterdir()) == []  # only while it runs
 
 
+@pytest.mark.torture
 def test_a_bed_whose_checkpoint_is_older_or_lost_comes_to_the_same_end(tmp_path):
     """Ends by its error. Killed between the checkpoints of two beds, one is of another time than the other."""
     asked = {"beds": 2, **ROLLING, "duration": {"until_standard_error_deg": 1.0, "at_most_revolutions": 3}}
