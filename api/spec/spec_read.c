@@ -375,11 +375,25 @@ static void read_two_names(const spec_field *field, const json_t *value, const c
     }
 }
 
+/* unit: of all of them; NULL: that of the field. */
+static void read_entries(const spec_field *field, const json_t *list, const json_t *unit, const char *pointer, double *numbers,
+                         problem_list *problems)
+{
+    char entry[LONGEST_POINTER];
+    for (size_t c = 0; c < json_array_size(list); c++) {
+        snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
+        json_t *number = json_array_get(list, c);
+        json_t *quantity = unit ? json_pack("{s:O, s:O}", "value", number, "unit", unit) : NULL;
+        numbers[c] = read_number(field, quantity ? quantity : number, entry, problems);
+        json_decref(quantity);
+    }
+}
+
 /* Three or four numbers of the field's range. */
 static void read_place(const spec_field *field, const json_t *value, const char *pointer, double *place, problem_list *problems)
 {
     const size_t numbers = field->kind == FIELD_ORIENTATION ? 4 : 3;
-    char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
+    char seen[LONGEST_VALUE], range[120];
     for (size_t c = 0; c < numbers; c++) place[c] = field->required ? NAN : field->fallback;
     if (!value && !field->required) return;
     const json_t *unit = is_quantity(value) ? json_object_get(value, "unit") : NULL; /* of all of them */
@@ -392,19 +406,13 @@ static void read_place(const spec_field *field, const json_t *value, const char 
                          numbers == 4 ? "four" : "three", range);
         return;
     }
-    for (size_t c = 0; c < numbers; c++) {
-        snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
-        json_t *number = json_array_get(value, c);
-        json_t *quantity = unit ? json_pack("{s:O, s:O}", "value", number, "unit", unit) : NULL;
-        place[c] = read_number(field, quantity ? quantity : number, entry, problems);
-        json_decref(quantity);
-    }
+    read_entries(field, value, unit, pointer, place, problems);
 }
 
 /* Numbers of the field's range, as many as there are. */
 static void read_numbers(const spec_field *field, const json_t *value, const char *pointer, char *place, problem_list *problems)
 {
-    char seen[LONGEST_VALUE], range[120], entry[LONGEST_POINTER];
+    char seen[LONGEST_VALUE], range[120];
     double *numbers = (double *)(place + field->offset);
     const json_t *unit = is_quantity(value) ? json_object_get(value, "unit") : NULL; /* of all of them */
     if (unit) value = json_object_get(value, "value");
@@ -418,13 +426,7 @@ static void read_numbers(const spec_field *field, const json_t *value, const cha
                          field->most_entries, range);
         return;
     }
-    for (size_t c = 0; c < count; c++) {
-        snprintf(entry, sizeof entry, "%.200s/%zu", pointer, c);
-        json_t *number = json_array_get(value, c);
-        json_t *quantity = unit ? json_pack("{s:O, s:O}", "value", number, "unit", unit) : NULL;
-        numbers[c] = read_number(field, quantity ? quantity : number, entry, problems);
-        json_decref(quantity);
-    }
+    read_entries(field, value, unit, pointer, numbers, problems);
     *(size_t *)(place + field->count_offset) = count;
 }
 
