@@ -4,7 +4,7 @@
 
 #include "scene_run.h"
 
-/* Lets every bed advance for about a second at most, as far as it may: to its end, to the next look, to a snapshot. A stop
+/* Lets every bed advance for about half a second at most, as far as it may: to its end, to the next look, to a snapshot. A stop
  * ends it early, as does a bed that fails. */
 void bed_lanes_advance(scene_group *group);
 
