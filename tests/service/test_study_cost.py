@@ -1,6 +1,7 @@
 """What one POST may cost: however large its body, however many jobs there are already, whatever else is being posted."""
 import json
 import math
+import select
 import socket
 import sqlite3
 import struct
@@ -9,6 +10,7 @@ import time
 import pytest
 import requests
 from conftest import FAKE_WORKER, SPEC, Daemon, compiled_shim
+from test_daemon_clients import ENDLESS, ask_and_keep
 
 
 def processor_seconds(daemon):
@@ -37,10 +39,13 @@ def test_a_post_does_not_walk_over_the_runs_that_there_were(tmp_path):
             daemon.stop()
 
 
-def test_a_study_of_more_jobs_costs_as_much_more(tmp_path):
-    daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "1"]).start()
+@pytest.fixture(scope="module")
+def many(tmp_path_factory):
+    """A daemon to which studies of 1,000 and 6,000 jobs have been posted, and what each job of them cost it."""
+    daemon = Daemon(tmp_path_factory.mktemp("many"), worker=FAKE_WORKER, options=["--workers", "1"]).start()
     try:
         daemon.until(daemon.submit(fake="slow", seconds="100"), lambda info: info["status"] == "running")
+        assert daemon.get("/jobs?q=fake").json()["counts"]["running"] == 1  # what lists are made of has been read
         cost = []
         for cases in (1000, 6000):
             before = processor_seconds(daemon)
@@ -48,9 +53,24 @@ def test_a_study_of_more_jobs_costs_as_much_more(tmp_path):
             study = {"base": {"inputs": SPEC}, "vary": {"/inputs/contact/friction": values}}
             assert requests.post(f"{daemon.url}/studies", json=study, timeout=300).status_code == 201
             cost.append((processor_seconds(daemon) - before) / cases)
-        assert cost[1] < 2 * cost[0]  # six times, where the row that counts the jobs also holds what was posted
+        yield daemon, cost
     finally:
         daemon.stop()
+
+
+def test_a_list_that_has_much_to_read_again_waits_for_no_query(many):
+    queries = [ask_and_keep(many[0], f"/query?sql={ENDLESS}") for _ in range(3)]
+    try:
+        assert many[0].get("/jobs?q=friction").json()["counts"]["accepted"] == 7000
+        assert select.select(queries[2:], [], [], 0)[0] == []  # behind which a list would be in their lane
+    finally:
+        for query in queries:
+            query.close()
+
+
+def test_a_study_of_more_jobs_costs_as_much_more(many):
+    cost = many[1]
+    assert cost[1] < 2 * cost[0]  # six times, where the row that counts the jobs also holds what was posted
 
 
 def test_a_post_waits_for_the_disk_once_and_parses_no_statement_that_it_knows(tmp_path, monkeypatch):

@@ -133,9 +133,16 @@ static bool has_place_in_lane(const slow_lane *lane, const http_exchange *exchan
     return lane->count < WAITING_ROOM_SLOW_LIMIT && same < WAITING_ROOM_SLOW_PER_ADDRESS;
 }
 
+/* What reads and is not slow by its nature came here since there is much to read in before. */
+static slow_lane *lane_of(waiting_room *room, const http_exchange *exchange)
+{
+    const bool reads = strcmp(exchange->route->method, "GET") == 0;
+    return &room->lane[!reads ? 1 : exchange->route->slow ? 0 : 2];
+}
+
 bool waiting_room_queue_slow(waiting_room *room, http_exchange *exchange)
 {
-    slow_lane *lane = &room->lane[strcmp(exchange->route->method, "GET") != 0];
+    slow_lane *lane = lane_of(room, exchange);
     pthread_mutex_lock(&room->lock);
     const bool fits = has_place_in_lane(lane, exchange) && !room->closing;
     if (fits) {

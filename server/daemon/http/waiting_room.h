@@ -1,6 +1,6 @@
 /* Where requests are that can't be answered at once: parked ones wait for a job to change (?wait=), slow ones for a
- * thread of their lane, which runs what may take seconds: one lane for what reads, one for what writes. Meanwhile their
- * connections are suspended, so none of the HTTP threads is held up. The library does not look at a suspended
+ * thread of their lane, which runs what may take seconds: one lane for what reads, one for what writes, and one for lists
+ * that have much to read in first, which no query of a user is to hold up. Meanwhile their connections are suspended, so none of the HTTP threads is held up. The library does not look at a suspended
  * connection; the clock does, and lets go whoever has closed its end. */
 #ifndef WAITING_ROOM_H
 #define WAITING_ROOM_H
@@ -16,7 +16,7 @@ enum {
     WAITING_ROOM_PARKED_PER_ADDRESS = 96,
     WAITING_ROOM_SLOW_LIMIT = 128, /* of each lane */
     WAITING_ROOM_SLOW_PER_ADDRESS = 96,
-    WAITING_ROOM_LANES = 2
+    WAITING_ROOM_LANES = 3
 };
 
 typedef struct slow_lane {

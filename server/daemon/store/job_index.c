@@ -9,7 +9,7 @@
 #include "log.h"
 
 enum {
-    CHANGES_AT_ONCE = 2000, /* some 10 us each */
+    VALUES_AT_ONCE = 10000, /* of jobs that changed; some 3 us each where they are scattered */
     LABELS_AT_ONCE = 10000, /* some 3 us each, where members are looked for */
     MOST_CHANGES = 50000,   /* beyond that all is read anew */
     ROWS_AT_ONCE = 150000,  /* some 0.3 us each, of one column */
@@ -99,7 +99,7 @@ void job_index_note_end(job_index *index, bool is_committed)
 
 /* --- rows --- */
 
-size_t index_rows_find(const index_rows *rows, int64_t number)
+size_t index_rows_from(const index_rows *rows, int64_t number)
 {
     size_t low = 0, high = rows->count;
     while (low < high) {
@@ -107,7 +107,13 @@ size_t index_rows_find(const index_rows *rows, int64_t number)
         if (rows->number[middle] < number) low = middle + 1;
         else high = middle;
     }
-    return low < rows->count && rows->number[low] == number ? low : rows->count;
+    return low;
+}
+
+size_t index_rows_find(const index_rows *rows, int64_t number)
+{
+    const size_t row = index_rows_from(rows, number);
+    return row < rows->count && rows->number[row] == number ? row : rows->count;
 }
 
 #define GROW(array)                                                                                                                \
@@ -275,18 +281,25 @@ static bool change_row(job_index *index, int64_t number, sqlite3_stmt *from, siz
     return true;
 }
 
-static store_status read_again(job_index *index, sqlite3 *reader, int64_t number)
+/* Jobs whose numbers follow each other, as those of a study do. */
+static store_status read_again(job_index *index, sqlite3 *reader, int64_t first, int64_t last)
 {
-    size_t row = index_rows_find(&index->rows, number);
-    sqlite3_stmt *from = sql_prepare(reader, "SELECT " ROW " FROM job WHERE number=?", "i", number);
+    sqlite3_stmt *from =
+        sql_prepare(reader, "SELECT " ROW " FROM job WHERE number BETWEEN ? AND ? ORDER BY number", "ii", first, last);
     if (!from) return STORE_FAILED;
-    const int code = sqlite3_step(from);
     bool good = true;
-    if (code == SQLITE_ROW) good = change_row(index, number, from, &row);
-    else if (code == SQLITE_DONE) remove_row(index, row);
-    const store_status status = sql_finish(from, code);
-    if (status != STORE_OK || !good) return STORE_FAILED;
-    return code == SQLITE_ROW ? value_columns_refresh(index, reader, row) : STORE_OK;
+    int code = SQLITE_ROW;
+    int64_t expected = first;
+    while (good && (code = sqlite3_step(from)) == SQLITE_ROW) {
+        const int64_t number = sqlite3_column_int64(from, 0);
+        for (; expected < number; expected++) remove_row(index, index_rows_find(&index->rows, expected));
+        size_t row = index_rows_find(&index->rows, number);
+        good = change_row(index, number, from, &row);
+        expected = number + 1;
+    }
+    for (; good && code == SQLITE_DONE && expected <= last; expected++) remove_row(index, index_rows_find(&index->rows, expected));
+    if (sql_finish(from, code) != STORE_OK || !good) return STORE_FAILED;
+    return value_columns_refresh(index, reader, first, last);
 }
 
 /* More gaps than jobs, or texts that nobody has: reading it anew is the way to smaller arrays. */
@@ -307,7 +320,10 @@ static store_status take_changes(job_index *index, sqlite3 *reader)
     index->changes = index->changes_room = 0;
     pthread_mutex_unlock(&index->changes_lock);
     store_status status = is_loaded && !is_worn(index) ? STORE_OK : STORE_FAILED;
-    for (size_t c = 0; status == STORE_OK && c < changes; c++) status = read_again(index, reader, changed[c]);
+    for (size_t c = 0, next; status == STORE_OK && c < changes; c = next) {
+        for (next = c + 1; next < changes && changed[next] == changed[next - 1] + 1;) next++;
+        status = read_again(index, reader, changed[c], changed[next - 1]);
+    }
     free(changed);
     return status == STORE_OK ? STORE_OK : read_all(index, reader);
 }
@@ -341,10 +357,10 @@ static store_status bring_up_to_date(job_index *index, sqlite3 *reader, const jo
 store_status job_index_lock(job_index *index, sqlite3 *reader, const job_filter *filter)
 {
     const bool is_quick = job_index_is_ready(index, filter);
+    if (!is_quick) atomic_fetch_add(&index->readers, 1); /* from now on others do not wait for the lock */
     pthread_mutex_lock(&index->lock);
-    if (!is_quick) atomic_store(&index->is_reading, true);
     const store_status status = bring_up_to_date(index, reader, filter);
-    if (!is_quick) atomic_store(&index->is_reading, false);
+    if (!is_quick) atomic_fetch_sub(&index->readers, 1);
     if (status != STORE_OK) pthread_mutex_unlock(&index->lock);
     return status;
 }
@@ -360,7 +376,7 @@ static bool count_missing(void *context, const char *name)
 
 bool job_index_is_ready(job_index *index, const job_filter *filter)
 {
-    if (atomic_load(&index->is_reading)) return false;
+    if (atomic_load(&index->readers) > 0) return false;
     reading all = { .index = index };
     pthread_mutex_lock(&index->changes_lock);
     const bool is_loaded = index->is_loaded;
@@ -369,9 +385,9 @@ bool job_index_is_ready(job_index *index, const job_filter *filter)
     pthread_mutex_lock(&index->lock);
     if (filter) filter_columns(filter, count_missing, &all);
     const bool is_worn_out = is_worn(index) || (filter && filter->label_name && index->labels.count > LABELS_AT_ONCE);
-    const size_t to_read = all.missing * index->rows.count;
+    const size_t to_read = all.missing * index->rows.count, to_read_again = changes * (3 + index->columns);
     pthread_mutex_unlock(&index->lock);
-    return is_loaded && !is_worn_out && changes <= CHANGES_AT_ONCE && to_read <= ROWS_AT_ONCE;
+    return is_loaded && !is_worn_out && to_read_again <= VALUES_AT_ONCE && to_read <= ROWS_AT_ONCE;
 }
 
 void job_index_warm(job_index *index, sqlite3 *reader)

@@ -51,7 +51,7 @@ struct job_index {
     value_column column[MOST_COLUMNS_KEPT];
     size_t columns;
     uint64_t looks;
-    atomic_bool is_reading; /* much, with the lock held */
+    atomic_int readers; /* who read much in, or wait to: with the lock held for long */
 
     pthread_mutex_t changes_lock; /* of what follows */
     bool is_loaded;               /* and so changes are of interest */
@@ -64,14 +64,15 @@ struct job_index {
     bool lost_track; /* for want of memory */
 };
 
+size_t index_rows_from(const index_rows *rows, int64_t number); /* the first of this number or a higher one; count: none */
 size_t index_rows_find(const index_rows *rows, int64_t number); /* count: not there */
 
 /* job_index_values.c */
 value_column *value_column_find(job_index *index, const char *name); /* NULL: not read yet */
 /* Reads a column in. */
 store_status value_column_read(job_index *index, sqlite3 *reader, const char *name);
-/* Reads what one job has in all columns that are here. */
-store_status value_columns_refresh(job_index *index, sqlite3 *reader, size_t row);
+/* Reads again what the jobs of these numbers have in all columns that are here. */
+store_status value_columns_refresh(job_index *index, sqlite3 *reader, int64_t first, int64_t last);
 bool value_columns_grow(job_index *index, size_t most);
 void value_columns_drop(job_index *index);
 

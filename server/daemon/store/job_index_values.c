@@ -66,10 +66,9 @@ static bool write_select(const job_index *index, const char *name, size_t k, cha
 /* --- reading --- */
 
 /* Of two tables that have such a column the first counts. */
-static store_status read_from(job_index *index, sqlite3 *reader, value_column *column, list_column_kind kind, const char *sql)
+static store_status read_from(job_index *index, sqlite3_stmt *row, value_column *column, list_column_kind kind)
 {
     const index_rows *rows = &index->rows;
-    sqlite3_stmt *row = sql_prepare(reader, sql, "");
     if (!row) return STORE_FAILED;
     int code;
     size_t at = 0; /* as a rule they come in order */
@@ -112,36 +111,34 @@ store_status value_column_read(job_index *index, sqlite3 *reader, const char *na
     store_status status = column->value ? STORE_OK : STORE_FAILED;
     for (size_t row = 0; column->value && row <= index->rows.most; row++) column->value[row] = NAN;
     for (size_t k = 0; status == STORE_OK && write_select(index, name, k, sql, sizeof sql); k++)
-        status = read_from(index, reader, column, kind.kind, sql);
+        status = read_from(index, sql_prepare(reader, sql, ""), column, kind.kind);
     if (status == STORE_OK) return STORE_OK;
     drop_column(column);
     *column = index->column[--index->columns];
     return status;
 }
 
-static store_status refresh(job_index *index, sqlite3 *reader, value_column *column, size_t row)
+static store_status refresh(job_index *index, sqlite3 *reader, value_column *column, int64_t first, int64_t last)
 {
+    const index_rows *rows = &index->rows;
     list_column kind;
-    char sql[220];
+    char sql[240];
     store_status status = list_column_find(index->fields, column->name, &kind) ? STORE_OK : STORE_FAILED;
-    column->value[row] = NAN;
-    for (size_t k = 0; status == STORE_OK && write_select(index, column->name, k, sql, sizeof sql - 20); k++) {
+    for (size_t row = index_rows_from(rows, first); row < rows->count && rows->number[row] <= last; row++) column->value[row] = NAN;
+    for (size_t k = 0; status == STORE_OK && write_select(index, column->name, k, sql, 200); k++) {
         char *indexed = strstr(sql, " INDEXED BY");
         if (indexed) *indexed = '\0';
-        snprintf(sql + strlen(sql), 20, " WHERE %s=?", strstr(sql, "number,") ? "number" : "job");
-        sqlite3_stmt *from = sql_prepare(reader, sql, "i", index->rows.number[row]);
-        if (!from) return STORE_FAILED;
-        const int code = sqlite3_step(from);
-        if (code == SQLITE_ROW && isnan(column->value[row])) column->value[row] = value_of(column, kind.kind, from, 1);
-        status = sql_finish(from, code);
+        snprintf(sql + strlen(sql), 40, " WHERE %s BETWEEN ? AND ?", strstr(sql, "number,") ? "number" : "job");
+        status = read_from(index, sql_prepare(reader, sql, "ii", first, last), column, kind.kind);
     }
     return status;
 }
 
-store_status value_columns_refresh(job_index *index, sqlite3 *reader, size_t row)
+store_status value_columns_refresh(job_index *index, sqlite3 *reader, int64_t first, int64_t last)
 {
     store_status status = STORE_OK;
-    for (size_t c = 0; status == STORE_OK && c < index->columns; c++) status = refresh(index, reader, &index->column[c], row);
+    for (size_t c = 0; status == STORE_OK && c < index->columns; c++)
+        status = refresh(index, reader, &index->column[c], first, last);
     return status;
 }
 
