@@ -22,7 +22,9 @@ route_handler cancel_jobs, delete_jobs;
 /* handlers_results.c */
 route_handler show_results, show_output, show_spec, show_log;
 /* handlers_series.c */
-route_handler list_samples, list_snapshots, send_snapshot;
+route_handler list_samples, list_snapshots;
+/* handlers_snapshots.c */
+route_handler send_snapshot, send_frames;
 /* handlers_files.c */
 route_handler send_fields, send_walls, send_snapshot_series, send_archive;
 /* handlers_studies.c */

@@ -1,4 +1,4 @@
-/* Files of a job's folder, one by one or all in an archive. Snapshots are in handlers_series.c. */
+/* Files of a job's folder, one by one or all in an archive. Snapshots are in handlers_snapshots.c. */
 #include <string.h>
 
 #include "handlers.h"

@@ -1,4 +1,4 @@
-/* What a job gives over time: samples of its measures, and snapshots. Both come a page at a time; samples as CSV come
+/* What a job gives over time: samples of its measures, and the list of its snapshots. Both come a page at a time; samples as CSV come
  * whole where no limit is asked for. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -200,8 +200,12 @@ static bool add_snapshot(void *context, const snapshot_row *row)
     text_buffer_print(&series->out, "%s{\"number\":%lld,\"step\":%lld,\"time\":", series->rows > 1 ? "," : "",
                       (long long)row->number, (long long)row->step);
     text_buffer_add_number(&series->out, row->time);
-    text_buffer_print(&series->out, ",\"bytes\":%lld,\"particles\":%lld,\"href\":\"%s/jobs/%s/snapshots/%06lld.hdf\"}",
+    text_buffer_print(&series->out, ",\"bytes\":%lld,\"particles\":%lld,\"href\":\"%s/jobs/%s/snapshots/%06lld.hdf\"",
                       (long long)row->bytes, (long long)row->particles, series->base, series->id, (long long)row->number);
+    if (row->frame_bytes > 0)
+        text_buffer_print(&series->out, ",\"frame\":\"%s/jobs/%s/snapshots/%06lld.bin\",\"frame_bytes\":%lld", series->base,
+                          series->id, (long long)row->number, (long long)row->frame_bytes);
+    text_buffer_print(&series->out, "}");
     return true;
 }
 
@@ -214,30 +218,4 @@ void list_snapshots(api_service *service, const http_request *request, http_resp
     const store_status status = store_list_snapshots(service->store, series.id, after, series.limit + 1, add_snapshot, &series);
     add_links(&series, "snapshots");
     close_series(&series, response, status, "application/json", "list the snapshots");
-}
-
-/* "000012.hdf" or "12.hdf" is number 12; -1: neither. */
-static int64_t snapshot_number(const char *name)
-{
-    const size_t digits = strspn(name, "0123456789");
-    if (digits == 0 || digits > 12 || strcmp(name + digits, ".hdf") != 0) return -1;
-    return strtoll(name, NULL, 10);
-}
-
-void send_snapshot(api_service *service, const http_request *request, http_response *response)
-{
-    job_record job;
-    if (!find_job(service, request, response, &job)) return;
-    const int64_t number = snapshot_number(request->segment[1]);
-    int file;
-    const store_status status = number < 0 ? STORE_NOT_FOUND : store_open_snapshot(service->store, job.id, number, &file);
-    char end[40];
-    snprintf(end, sizeof end, "-%06lld.hdf", (long long)number);
-    name_file(response, job.id, end, true);
-    if (status == STORE_OK) http_respond_file(request, response, file, "application/x-hdf5", HTTP_FILE_IMMUTABLE);
-    else if (status == STORE_NOT_FOUND)
-        http_respond_problem(response, 404, NULL, "No such snapshot",
-                             "job %s has no snapshot \"%s\"; /jobs/%s/snapshots lists them", job.id, request->segment[1], job.id);
-    else respond_store_failure(response, status, "open the snapshot");
-    job_record_clear(&job);
 }

@@ -63,6 +63,7 @@ typedef struct http_response {
     int file;   /* owned descriptor, or -1: length bytes from offset are sent */
     uint64_t offset, length;
     http_pieces pieces;        /* what comes after the body */
+    uint64_t pieces_length;    /* of all pieces, where it is known before and there is no body; 0: it is not known */
     char base[HTTP_BASE_SIZE]; /* "http://host:port[/prefix]", put before addresses that begin with /; "": they stay as they are */
     char file_name[100];       /* under which a client may keep the body; "": none */
     bool is_attachment;        /* to be kept rather than shown */
@@ -105,5 +106,8 @@ bool http_respond_unchanged(const http_request *request, http_response *response
 enum http_file_kind { HTTP_FILE_IMMUTABLE, HTTP_FILE_CHANGING, HTTP_FILE_GROWING };
 void http_respond_file(const http_request *request, http_response *response, int file, const char *content_type,
                        enum http_file_kind kind);
+/* Of an answer of `size` bytes, whose etag is set: offset, length, status and headers of what is to be sent of it, all or the part
+ * asked for. False: there is no such part, and the response says so. */
+bool http_respond_part(const http_request *request, http_response *response, uint64_t size);
 
 #endif

@@ -133,8 +133,9 @@ bool http_respond_unchanged(const http_request *request, http_response *response
     return true;
 }
 
-static void send_part(const http_request *request, http_response *response, uint64_t size)
+bool http_respond_part(const http_request *request, http_response *response, uint64_t size)
 {
+    response->accept_ranges = "bytes";
     /* If-Range asks for the part only while the whole is still the one the client knows. */
     const bool part_is_wanted = !request->if_range || (response->etag[0] && strcmp(request->if_range, response->etag) == 0);
     const http_range_kind kind =
@@ -145,8 +146,6 @@ static void send_part(const http_request *request, http_response *response, uint
                  (unsigned long long)response->offset, (unsigned long long)(response->offset + response->length - 1),
                  (unsigned long long)size);
     } else if (kind == HTTP_RANGE_OUTSIDE) {
-        close(response->file);
-        response->file = -1;
         http_respond_problem(response, 416, NULL, "Range outside the file", "the file has %llu bytes; Range was \"%.60s\"",
                              (unsigned long long)size, request->range);
         snprintf(response->content_range, sizeof response->content_range, "bytes */%llu", (unsigned long long)size);
@@ -154,6 +153,7 @@ static void send_part(const http_request *request, http_response *response, uint
         response->offset = 0;
         response->length = size;
     }
+    return kind != HTTP_RANGE_OUTSIDE;
 }
 
 void http_respond_file(const http_request *request, http_response *response, int file, const char *content_type,
@@ -168,13 +168,12 @@ void http_respond_file(const http_request *request, http_response *response, int
     response->status = 200;
     response->content_type = content_type;
     response->cache_control = kind == HTTP_FILE_IMMUTABLE ? "private, max-age=31536000, immutable" : "no-cache";
-    response->accept_ranges = "bytes";
     if (kind != HTTP_FILE_GROWING) set_etag(response, &facts);
     if (kind != HTTP_FILE_GROWING && etag_is_listed(request->if_none_match, response->etag)) {
         close(file);
         response->status = 304;
         return;
     }
-    response->file = file;
-    send_part(request, response, (uint64_t)facts.st_size);
+    if (http_respond_part(request, response, (uint64_t)facts.st_size)) response->file = file;
+    else close(file);
 }

@@ -30,6 +30,7 @@ const http_route route_table[] = {
     { "GET", "/jobs/{}/samples", " after limit format f ", list_samples, .formats = " json csv " },
     { "GET", "/jobs/{}/snapshots", " after limit f ", list_snapshots, .open = false },
     { "GET", "/jobs/{}/snapshots/{}", "", send_snapshot, .open = false },
+    { "GET", "/jobs/{}/frames.bin", " from to every ", send_frames, .open = false },
     { "GET", "/jobs/{}/fields.hdf", "", send_fields, .open = false },
     { "GET", "/jobs/{}/walls.vtp", "", send_walls, .open = false },
     { "GET", "/jobs/{}/snapshots.hdf.series", "", send_snapshot_series, .open = false },

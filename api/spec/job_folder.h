@@ -28,6 +28,7 @@
  *     A later attempt goes on from the checkpoint and repeats what came after it with the same numbers: readers
  *     key samples and snapshots by "number" and let the later line win.
  *   snapshots/000000.hdf ...   written as .tmp, closed, fsynced, renamed; never changed after
+ *   snapshots/000000.bin ...   what programs that show a run need of each, in few bytes (frame_format.h); there before it
  *   snapshots.hdf.series       opens them in ParaView as one time series
  *   walls.vtp                  the container's walls, where they are at the newest snapshot; rewritten with that
  *   fields.hdf                 a drum's fields over the cross-section, averaged over the run; before result.json
@@ -54,6 +55,7 @@
 #define JOB_EVENTS_FILE "events.ndjson"
 #define JOB_SNAPSHOT_FOLDER "snapshots"
 #define JOB_SNAPSHOT_FILE_FORMAT "%06lld.hdf"
+#define JOB_FRAME_FILE_FORMAT "%06lld.bin"
 #define JOB_SERIES_FILE "snapshots.hdf.series"
 #define JOB_WALLS_FILE "walls.vtp"
 #define JOB_FIELDS_FILE "fields.hdf"

@@ -215,6 +215,8 @@ store_status store_list_samples(job_store *store, const char *id, int64_t after,
 typedef struct snapshot_row {
     int64_t number, step, bytes, particles;
     double time;
+    int64_t frame_bytes;    /* of its frame (frame_format.h); 0: it has none */
+    uint64_t frame_version; /* another one for other bytes */
 } snapshot_row;
 typedef bool snapshot_visitor(void *context, const snapshot_row *row);
 store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit,

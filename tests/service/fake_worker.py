@@ -4,6 +4,7 @@
 import json
 import os
 import signal
+import struct
 import sys
 import time
 from pathlib import Path
@@ -40,6 +41,9 @@ def sample(number):
 
 def snapshot(number):
     (FOLDER / "snapshots").mkdir(exist_ok=True)
+    frame = FOLDER / "snapshots" / f"{number:06}.bin"
+    frame.with_suffix(".tmp").write_bytes(struct.pack("<8s2I2d8f", b"RPSFRM1", 0, 0, 0.1 * number, *[0] * 9))
+    frame.with_suffix(".tmp").rename(frame)
     publish(FOLDER / "snapshots" / f"{number:06}.hdf", f"snapshot {number} " + "0123456789" * 10)
     tell("snapshot", number=number, step=100 * number, time=0.1 * number, file=f"{number:06}.hdf", bytes=111, particles=41)
 

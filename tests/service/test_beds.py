@@ -34,7 +34,7 @@ def test_a_run_starts_from_a_table_beside_its_specification(tmp_path):
     (tmp_path / "beds/bed.csv").write_text(text)
     done = run(tmp_path, starting(file="beds/bed.csv"))
     assert done.returncode == 0, done.stdout
-    first = sorted((tmp_path / "out/snapshots").iterdir())[0]
+    first = sorted((tmp_path / "out/snapshots").glob("*.hdf"))[0]
     with h5py.File(first) as file:
         points = file["VTKHDF/Points"][:]
         assert math.isclose(file["VTKHDF/PointData/velocity"][0][0], 0.01, rel_tol=1e-6)

@@ -41,7 +41,7 @@ def test_in_every_snapshot_particles_are_between_the_ends_and_beside_the_bars(tm
     allowed = 0.002 * document["run"]["maximum_overlap"] + 1e-7  # places are kept in single precision
     assert allowed < 0.002 * 0.06
     near_bar, near_end = [], []
-    for path in sorted((tmp_path / "job" / "snapshots").iterdir()):
+    for path in sorted((tmp_path / "job" / "snapshots").glob("*.hdf")):
         with h5py.File(path, "r") as file:
             x, radius = file["VTKHDF/Points"][:].astype(float), file["VTKHDF/PointData/radius"][:].astype(float)
             time = float(numpy.ravel(file["VTKHDF/FieldData/time"][:])[0])

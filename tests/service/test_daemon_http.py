@@ -181,6 +181,40 @@ def test_snapshots_come_whole_in_part_and_from_the_cache(fake):
         assert fake.get(f"/jobs/{job}/snapshots/{name}").status_code == 404, name
 
 
+def test_frames_come_one_by_one_and_several_as_one_in_whole_and_in_part(fake):
+    """The fake worker's frames are heads alone, which differ in their times."""
+    job = fake.submit()
+    fake.ended(job)
+    listed = fake.get(f"/jobs/{job}/snapshots").json()["snapshots"]
+    single = [fake.get(snapshot["frame"]) for snapshot in listed]
+    frames = [answer.content for answer in single]
+    assert [len(frame) for frame in frames] == [snapshot["frame_bytes"] for snapshot in listed] == [64, 64] and frames[0] != frames[1]
+    assert "immutable" in single[0].headers["Cache-Control"]
+    assert fake.get(listed[1]["frame"], headers={"Range": "bytes=16-23"}).content == frames[1][16:24]
+    all_of_them = f"/jobs/{job}/frames.bin"
+    whole = fake.get(all_of_them)
+    assert whole.content == b"".join(frames) and whole.headers["Content-Length"] == "128" and whole.headers["Accept-Ranges"] == "bytes"
+    assert requests.head(fake.url + all_of_them, timeout=30).headers["Content-Length"] == "128"
+    for query, content in (("from=1", frames[1]), ("to=0", frames[0]), ("every=2", frames[0]), ("from=1&every=7&to=9", frames[1])):
+        assert fake.get(f"{all_of_them}?{query}").content == content, query
+    for part, content in (("0-9", whole.content[:10]), ("60-67", whole.content[60:68]), ("64-64", frames[1][:1]), ("-3", frames[1][-3:]),
+                          ("100-", whole.content[100:]), ("0-999", whole.content)):
+        answer = fake.get(all_of_them, headers={"Range": f"bytes={part}"})
+        assert answer.status_code == 206 and answer.content == content and answer.headers["Content-Length"] == str(len(content)), part
+    assert fake.get(all_of_them, headers={"Range": "bytes=128-"}).status_code == 416
+    etag = whole.headers["ETag"]
+    assert fake.get(all_of_them, headers={"If-None-Match": etag}).status_code == 304
+    assert fake.get(all_of_them, headers={"Range": "bytes=0-3", "If-Range": '"other"'}).status_code == 200
+    assert etag != fake.get(f"{all_of_them}?from=1").headers["ETag"]
+    for bad, status in (("from=-1", 400), ("every=0", 400), ("to=x", 400), ("from=2", 404)):
+        assert fake.get(f"{all_of_them}?{bad}").status_code == status, bad
+    (fake.data / "jobs" / job / "snapshots" / "000000.bin").unlink()  # as of a job of an earlier version
+    listed = fake.get(f"/jobs/{job}/snapshots").json()["snapshots"]
+    assert "frame" not in listed[0] and "frame" in listed[1]
+    assert fake.get(all_of_them, headers={"If-None-Match": etag}).content == frames[1]
+    assert fake.get(f"/jobs/{job}/snapshots/0.bin").status_code == 404
+
+
 def test_a_dripping_client_is_cut_off(fake):
     with socket.create_connection(("127.0.0.1", fake.port)) as connection:
         start = time.monotonic()

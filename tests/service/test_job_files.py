@@ -39,7 +39,7 @@ def made(tmp_path, spec, name="job"):
 
 
 def last_snapshot(folder):
-    return h5py.File(sorted((folder / "snapshots").iterdir())[-1])
+    return h5py.File(sorted((folder / "snapshots").glob("*.hdf"))[-1])
 
 
 @pytest.mark.parametrize("rate", [6.0, -6.0])
@@ -92,7 +92,7 @@ UNITS = {"VTKHDF/Points": "m", "VTKHDF/PointData/radius": "m", "VTKHDF/PointData
 def test_every_dataset_says_its_unit(tmp_path):
     folder = made(tmp_path, small(duration={"seconds": 0.1}))
     seen = {}
-    for path in (next((folder / "snapshots").iterdir()), folder / "fields.hdf", folder / "checkpoint.hdf"):
+    for path in (next((folder / "snapshots").glob("*.hdf")), folder / "fields.hdf", folder / "checkpoint.hdf"):
         with h5py.File(path) as file:
             def look(name, node):
                 if isinstance(node, h5py.Dataset):

@@ -172,6 +172,13 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     assert any(link["href"].endswith("/fields.hdf") for link in requests.get(job).json()["links"])
     for name in ("walls.vtp", "snapshots.hdf.series", "files.tar"):
         call(f"/jobs/{{id}}/{name}", f"{job}/{name}", 200)
+    frame = call("/jobs/{id}/snapshots/{file}", snapshots[-1]["frame"], 200)
+    assert len(frame.content) == snapshots[-1]["frame_bytes"]
+    frames = call("/jobs/{id}/frames.bin", f"{job}/frames.bin?from=0&every=1", 200)
+    assert len(frames.content) == sum(snapshot["frame_bytes"] for snapshot in snapshots)
+    call("/jobs/{id}/frames.bin", f"{job}/frames.bin", 206, headers={"Range": "bytes=10-200"})
+    call("/jobs/{id}/frames.bin", f"{job}/frames.bin", 304, headers={"If-None-Match": frames.headers["ETag"]})
+    call("/jobs/{id}/frames.bin", f"{job}/frames.bin", 416, headers={"Range": "bytes=99999999999-"})
     path, href = "/jobs/{id}/snapshots/{file}", snapshots[-1]["href"]
     whole = call(path, href, 200)
     assert len(whole.content) == snapshots[-1]["bytes"]

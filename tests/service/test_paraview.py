@@ -47,7 +47,7 @@ def test_paraview_opens_the_series_and_the_walls(tmp_path):
     done = subprocess.run([PROGRAM, script, tmp_path / "job", out], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, done.stderr
     seen = json.loads(out.read_text())
-    files = sorted((tmp_path / "job" / "snapshots").iterdir())
+    files = sorted((tmp_path / "job" / "snapshots").glob("*.hdf"))
     assert len(seen["series"]) == len(files) == result(tmp_path / "job")["run"]["snapshots"] > 2
     for step, path in zip(seen["series"], files):
         with h5py.File(path) as file:

@@ -1,6 +1,7 @@
 """Snapshots as other programs see them: h5py, VTK's own reader, and ParaView by the types it insists on."""
 import hashlib
 import json
+import struct
 
 import h5py
 import numpy
@@ -20,7 +21,7 @@ def job(tmp_path_factory):
 
 @pytest.fixture
 def last(job):
-    with h5py.File(sorted((job / "snapshots").iterdir())[-1], "r") as file:
+    with h5py.File(sorted((job / "snapshots").glob("*.hdf"))[-1], "r") as file:
         yield file
 
 
@@ -90,7 +91,7 @@ def test_position_is_another_name_of_the_points(last):
 def test_vtk_reads_points_and_fields(job):
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOHDF import vtkHDFReader
-    path = sorted((job / "snapshots").iterdir())[-1]
+    path = sorted((job / "snapshots").glob("*.hdf"))[-1]
     reader = vtkHDFReader()
     assert reader.CanReadFile(str(path))
     reader.SetFileName(str(path))
@@ -121,7 +122,7 @@ def test_equal_runs_have_equal_bytes(job, tmp_path):
     assert run(job / "spec.json", tmp_path / "again")[0] == 0
     hashes = [{name: hashlib.sha256(content).hexdigest() for name, content in snapshot_bytes(out).items()}
               for out in (job, tmp_path / "again")]
-    assert hashes[0] == hashes[1] and len(hashes[0]) == 4
+    assert hashes[0] == hashes[1] and sum(name.endswith(".hdf") for name in hashes[0]) == 4
 
 
 def test_no_dataset_carries_the_time_of_its_making(last):
@@ -163,7 +164,7 @@ def rotated(orientation, vector):
 def test_a_cluster_is_its_spheres_and_they_keep_their_distances(clusters):
     """Spheres by themselves first, then those of clusters, cluster after cluster."""
     facts = result(clusters)["run"]
-    for path in sorted((clusters / "snapshots").iterdir()):
+    for path in sorted((clusters / "snapshots").glob("*.hdf")):
         with h5py.File(path, "r") as file:
             points, fields = file["VTKHDF/Points"][:].astype(float), file["VTKHDF/PointData"]
             body, species, orientation = fields["cluster"][:], fields["species"][:], fields["orientation"][:].astype(float)
@@ -199,3 +200,58 @@ def test_a_run_of_clusters_goes_on_from_a_checkpoint_with_the_same_bits(clusters
     code, _, stderr = run(spec, tmp_path / "job")
     assert code == 0, stderr
     assert snapshot_bytes(tmp_path / "job") == snapshot_bytes(clusters)
+
+
+def frame_of(path):
+    """As api/FRAMES.md describes it: the head, and each array by its name."""
+    data = path.read_bytes()
+    magic, count, flags, time, turned, *rest = struct.unpack("<8s2I2d8f", data[:64])
+    assert magic == b"RPSFRM1\0"
+    arrays, at = {}, 64
+    for name, flag, kind, columns in (("place", 0, "<i2", 3), ("speed", 0, "u1", 1), ("species", 1, "u1", 1), ("radius", 2, "<u2", 1),
+                                      ("cluster", 4, "<u4", 1), ("spin", 8, "u1", 1), ("contacts", 16, "u1", 1)):
+        if flag and not flags & flag:
+            continue
+        arrays[name] = numpy.frombuffer(data, kind, count * columns, at).astype(float)
+        at += count * columns * numpy.dtype(kind).itemsize
+        assert data[at:at + -at % 4] == bytes(-at % 4)
+        at += -at % 4
+    assert at == len(data)
+    low, high = numpy.array(rest[0:3]), numpy.array(rest[3:6])
+    arrays["place"] = low + (arrays["place"].reshape(count, 3) + 32767) / 65534 * (high - low)
+    return {"count": count, "time": time, "turned": turned, "low": low, "high": high, "fastest": rest[6], "largest": rest[7]}, arrays
+
+
+@pytest.mark.parametrize("made", ["job", "clusters"])
+def test_a_frame_has_what_its_snapshot_has_as_nearly_as_it_says(made, request):
+    """Each number is off by half of its last place at most; single precision of box and snapshot takes a little more."""
+    folder = request.getfixturevalue(made)
+    snapshots = sorted((folder / "snapshots").glob("*.hdf"))
+    assert [path.stem for path in snapshots] == [path.stem for path in sorted((folder / "snapshots").glob("*.bin"))]
+    for path in snapshots:
+        with h5py.File(path, "r") as file:
+            points, fields = file["VTKHDF/Points"][:].astype(float), {name: data[:] for name, data in file["VTKHDF/PointData"].items()}
+            time, turned = (file["VTKHDF/FieldData"][name][0] for name in ("time", "drum_angle"))
+        head, arrays = frame_of(path.with_suffix(".bin"))
+        assert (head["count"], head["time"], head["turned"]) == (len(points), time, turned)
+        assert numpy.allclose(head["low"], points.min(axis=0), atol=1e-8) and numpy.allclose(head["high"], points.max(axis=0), atol=1e-8)
+        assert numpy.all(numpy.abs(arrays["place"] - points) <= 0.5 / 65534 * (head["high"] - head["low"]) + 1e-8)
+        assert head["fastest"] == pytest.approx(fields["speed"].max()) and head["largest"] == fields["radius"].max()
+        assert numpy.all(numpy.abs(arrays["speed"] / 255 - fields["speed"] / head["fastest"]) <= 0.5 / 255 + 1e-6)
+        assert numpy.all(numpy.abs(arrays["radius"] / 65535 - fields["radius"] / head["largest"]) <= 0.5 / 65535 + 1e-6)
+        spin = numpy.linalg.norm(fields["angular_velocity"], axis=1) * head["largest"] / head["fastest"]
+        assert numpy.all(numpy.abs(arrays["spin"] / 255 - numpy.minimum(spin, 1)) <= 0.5 / 255 + 1e-6) and arrays["spin"].max() > 100
+        for name in ("species", "contacts"):
+            assert numpy.array_equal(arrays[name], fields[name]), name
+        assert ("cluster" in arrays) == (made == "clusters")
+        assert made != "clusters" or numpy.array_equal(arrays["cluster"], fields["cluster"])
+
+
+def test_a_frame_of_equal_spheres_says_nothing_of_them_one_by_one(tmp_path):
+    """And in a drum that turns the other way, x is that of the snapshot, too."""
+    spec = small(drum={"rotation_rate": -6.0}, duration={"seconds": 0.02}, snapshots={"interval": 0})
+    assert run(write_spec(tmp_path, spec), tmp_path / "job")[0] == 0
+    head, arrays = frame_of(tmp_path / "job/snapshots/000000.bin")
+    assert set(arrays) == {"place", "speed", "spin", "contacts"} and head["turned"] < 0
+    with h5py.File(tmp_path / "job/snapshots/000000.hdf", "r") as file:
+        assert numpy.allclose(arrays["place"], file["VTKHDF/Points"], atol=1e-6)

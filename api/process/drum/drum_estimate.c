@@ -7,7 +7,7 @@
 
 /* A snapshot: so much for the file's structure, and for each sphere after compression. */
 #define SNAPSHOT_FILE_BYTES 30e3
-#define SNAPSHOT_PARTICLE_BYTES 60.0
+#define SNAPSHOT_PARTICLE_BYTES 70.0 /* and of its frame */
 /* A frame of measurement, kept in memory: so many numbers and the interface's height at steps of d/4, or pairs of column and
  * height where those that the spheres reach are fewer. */
 #define FRAME_NUMBERS 20.0

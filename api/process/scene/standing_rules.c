@@ -6,7 +6,7 @@
 
 /* A snapshot: so much for the file's structure, and for each sphere after compression. */
 #define SNAPSHOT_FILE_BYTES 30e3
-#define SNAPSHOT_PARTICLE_BYTES 60.0
+#define SNAPSHOT_PARTICLE_BYTES 70.0 /* and of its frame */
 #define FRAME_BYTES 100.0
 
 void standing_derive_scene(scene_inputs *inputs, dem_scene_definition *scene, uint64_t seed_if_missing, problem_list *problems)

@@ -100,7 +100,8 @@ static struct MHD_Response *reply_in_pieces(http_response *response)
     from->pieces = response->pieces;
     response->body = NULL;
     response->pieces = (http_pieces){ .context = NULL };
-    struct MHD_Response *reply = MHD_create_response_from_callback(MHD_SIZE_UNKNOWN, READ_AT_ONCE, read_stream, from, free_stream);
+    const uint64_t length = response->pieces_length ? response->pieces_length : MHD_SIZE_UNKNOWN;
+    struct MHD_Response *reply = MHD_create_response_from_callback(length, READ_AT_ONCE, read_stream, from, free_stream);
     if (!reply) free_stream(from);
     return reply;
 }

@@ -35,8 +35,8 @@ static bool say(const char *name, const char *what)
 static bool never_changes(const char *name)
 {
     const char *end = strrchr(name, '.');
-    return (end && strcmp(end, ".hdf") == 0) || strcmp(name, JOB_SPEC_FILE) == 0 || strcmp(name, JOB_RESULT_FILE) == 0
-           || strcmp(name, JOB_RESULT_SUM_FILE) == 0;
+    return (end && (strcmp(end, ".hdf") == 0 || strcmp(end, ".bin") == 0)) || strcmp(name, JOB_SPEC_FILE) == 0
+           || strcmp(name, JOB_RESULT_FILE) == 0 || strcmp(name, JOB_RESULT_SUM_FILE) == 0;
 }
 
 static bool copy_file(int from, int to, const char *name)

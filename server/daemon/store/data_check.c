@@ -14,6 +14,7 @@
 #include "checksum.h"
 #include "data_folder.h"
 #include "database.h"
+#include "frame_format.h"
 #include "job_folder.h"
 #include "log.h"
 #include "schema.h"
@@ -128,28 +129,37 @@ static const char *put_into_lost(look *l, const char *id, const char *name)
     return renameat(l->data.jobs, from, l->data.jobs, to) == 0 ? "put into lost" : NULL;
 }
 
-static void check_hdf(look *l, const char *id, const char *folder, const char *name)
+static void check_file(look *l, const char *id, const char *folder, const char *name, bool (*is_whole)(int file, off_t size))
 {
     char path[200];
     snprintf(path, sizeof path, "%s%s%.100s", folder ? folder : "", folder ? "/" : "", name);
     const int file = job_file_open(&l->data, id, folder, name);
     struct stat facts;
     const bool opened = file >= 0 && fstat(file, &facts) == 0;
-    const bool whole = opened && S_ISREG(facts.st_mode) && hdf_is_whole(file, facts.st_size);
+    const bool whole = opened && S_ISREG(facts.st_mode) && is_whole(file, facts.st_size);
     if (file >= 0) close(file);
     l->files++;
     if (!whole && (opened || errno != ENOENT))
-        tell(l, put_into_lost(l, id, path), "job %s: %s does not fit its checksum", id, path);
+        tell(l, put_into_lost(l, id, path), "job %s: %s does not fit its %s", id, path,
+             is_whole == hdf_is_whole ? "checksum" : "head");
 }
 
-static void check_hdfs(look *l, const char *id, const char *folder)
+/* Cut short by a crash of the machine, it would be sent as it is. */
+static bool frame_is_whole(int file, off_t size)
+{
+    unsigned char head[FRAME_HEAD_BYTES];
+    return pread(file, head, sizeof head, 0) == (ssize_t)sizeof head && frame_bytes_told(head) == (size_t)size;
+}
+
+static void check_binaries(look *l, const char *id, const char *folder)
 {
     const int job = job_folder_open(&l->data, id);
     const int inner = job >= 0 && folder ? openat(job, folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC) : job;
     DIR *list = inner >= 0 ? fdopendir(inner) : NULL;
     for (const struct dirent *entry; list && (entry = readdir(list)) != NULL;) {
         const char *end = strrchr(entry->d_name, '.');
-        if (end && strcmp(end, ".hdf") == 0) check_hdf(l, id, folder, entry->d_name);
+        if (end && strcmp(end, ".hdf") == 0) check_file(l, id, folder, entry->d_name, hdf_is_whole);
+        else if (end && folder && strcmp(end, ".bin") == 0) check_file(l, id, folder, entry->d_name, frame_is_whole);
     }
     if (list) closedir(list);
     else if (inner >= 0) close(inner);
@@ -220,9 +230,9 @@ static void check_snapshots(look *l, const char *id)
 static void check_job(look *l, const char *id)
 {
     l->jobs++;
-    check_hdfs(l, id, JOB_SNAPSHOT_FOLDER);
-    check_hdfs(l, id, JOB_BEDS_FOLDER);
-    check_hdfs(l, id, NULL);
+    check_binaries(l, id, JOB_SNAPSHOT_FOLDER);
+    check_binaries(l, id, JOB_BEDS_FOLDER);
+    check_binaries(l, id, NULL);
     check_document(l, id);
     check_result(l, id);
     check_snapshots(l, id);

@@ -1,11 +1,16 @@
 /* Walks over jobs, samples and snapshots. */
 #include <assert.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
+#include "checksum.h"
 #include "database.h"
+#include "job_folder.h"
 #include "job_index.h"
 #include "job_store.h"
 #include "process_type.h"
@@ -315,25 +320,49 @@ store_status store_list_samples(job_store *store, const char *id, int64_t after,
 typedef struct snapshot_walk {
     snapshot_visitor *visit;
     void *context;
+    int folder; /* descriptor of the job's snapshots; -1: there is none */
 } snapshot_walk;
+
+/* Files are only ever replaced: another one has another inode, size or time. */
+static void look_at_frame(int folder, snapshot_row *snapshot)
+{
+    char name[64];
+    struct stat facts;
+    snprintf(name, sizeof name, JOB_FRAME_FILE_FORMAT, (long long)snapshot->number);
+    if (folder < 0 || fstatat(folder, name, &facts, AT_SYMLINK_NOFOLLOW) != 0 || !S_ISREG(facts.st_mode)) return;
+    const uint64_t seen[] = { facts.st_ino, (uint64_t)facts.st_mtim.tv_sec, (uint64_t)facts.st_mtim.tv_nsec };
+    snapshot->frame_bytes = facts.st_size;
+    snapshot->frame_version = checksum_of(seen, sizeof seen);
+}
 
 static bool take_snapshot(sqlite3_stmt *row, void *context)
 {
     const snapshot_walk *to = context;
-    const snapshot_row snapshot = { sqlite3_column_int64(row, 0), sqlite3_column_int64(row, 1), sqlite3_column_int64(row, 2),
-                                    sqlite3_column_int64(row, 3), sqlite3_column_double(row, 4) };
+    snapshot_row snapshot = { .number = sqlite3_column_int64(row, 0),
+                              .step = sqlite3_column_int64(row, 1),
+                              .bytes = sqlite3_column_int64(row, 2),
+                              .particles = sqlite3_column_int64(row, 3),
+                              .time = sqlite3_column_double(row, 4) };
+    look_at_frame(to->folder, &snapshot);
     return to->visit(to->context, &snapshot);
 }
 
 store_status store_list_snapshots(job_store *store, const char *id, int64_t after, int64_t limit, snapshot_visitor *visit,
                                   void *context)
 {
-    snapshot_walk to = { visit, context };
-    return walk(
-        store,
-        "SELECT number, step, bytes, particles, time FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
-        " ORDER BY number LIMIT ?",
-        id, after, limit, take_snapshot, &to);
+    const int job = job_folder_open(store->data, id);
+    snapshot_walk to = { visit, context, -1 };
+    if (job >= 0) {
+        to.folder = openat(job, JOB_SNAPSHOT_FOLDER, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        close(job);
+    }
+    const store_status status =
+        walk(store,
+             "SELECT number, step, bytes, particles, time FROM snapshot WHERE job=(SELECT number FROM job WHERE id=?) AND number>?"
+             " ORDER BY number LIMIT ?",
+             id, after, limit, take_snapshot, &to);
+    if (to.folder >= 0) close(to.folder);
+    return status;
 }
 
 typedef struct column_walk {

@@ -64,12 +64,15 @@ bool run_folder_enter(const char *folder, event_log *events)
 
 bool run_folder_add_beds(void) { return make_folder(JOB_BEDS_FOLDER); }
 
-/* "000000.hdf", "001.before.hdf" and the like: a file of ours. */
+/* "000000.hdf", "000000.bin", "001.before.hdf" and the like: a file of ours. */
 static bool is_numbered(const char *name, size_t least_digits)
 {
     size_t digits = 0;
     while (isdigit((unsigned char)name[digits])) digits++;
-    return digits >= least_digits && (strcmp(name + digits, ".hdf") == 0 || strcmp(name + digits, ".before.hdf") == 0);
+    static const char *const ends[] = { ".hdf", ".bin", ".before.hdf" };
+    for (size_t k = 0; digits >= least_digits && k < sizeof ends / sizeof ends[0]; k++)
+        if (strcmp(name + digits, ends[k]) == 0) return true;
+    return false;
 }
 
 static void remove_numbered(const char *folder, size_t least_digits)

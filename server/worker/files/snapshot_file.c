@@ -118,8 +118,7 @@ static bool write_file(const char *name, const dem_scene *scene, bool is_mirrore
     return hdf_publish(&file);
 }
 
-/* Somebody may have put a symbolic link in its place since the run began: what lies behind is not ours. */
-static bool has_folder(void)
+bool snapshot_folder_is_there(void)
 {
     struct stat folder;
     if (lstat(JOB_SNAPSHOT_FOLDER, &folder) == 0 && S_ISDIR(folder.st_mode)) return true;
@@ -130,7 +129,6 @@ static bool has_folder(void)
 bool snapshot_file_write(const dem_scene *scene, bool is_mirrored, int64_t number, const char *params, int64_t *bytes)
 {
     char name[64];
-    if (!has_folder()) return false;
     snprintf(name, sizeof name, JOB_SNAPSHOT_FOLDER "/" JOB_SNAPSHOT_FILE_FORMAT, (long long)number);
     const size_t n = dem_scene_sphere_count(scene);
     double *reals = malloc(4 * n * sizeof *reals);

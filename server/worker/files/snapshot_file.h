@@ -9,6 +9,9 @@
 #include "dem.h"
 #include "schedule.h"
 
+/* Somebody may have put a symbolic link in its place since the run began: what lies behind is not ours. False: logged. */
+bool snapshot_folder_is_there(void);
+
 /* Writes snapshots/NNNNNN.hdf. bytes: of the file. The same state and params give the same bytes.
  * params: canonical spec, kept in /run. */
 bool snapshot_file_write(const dem_scene *scene, bool is_mirrored, int64_t number, const char *params, int64_t *bytes);

@@ -17,6 +17,7 @@
 #include "bed_lanes.h"
 #include "failure_report.h"
 #include "file_publish.h"
+#include "frame_file.h"
 #include "json_text.h"
 #include "process_type.h"
 #include "run_folder.h"
@@ -82,7 +83,8 @@ static enum worker_exit take_snapshot(scene_group *g)
 {
     scene_run *r = g->bed;
     int64_t bytes;
-    if (!snapshot_file_write(r->scene, r->spec.is_mirrored, r->next_snapshot, r->params, &bytes))
+    if (!snapshot_folder_is_there() || !frame_file_write(r->scene, r->spec.is_mirrored, r->next_snapshot)
+        || !snapshot_file_write(r->scene, r->spec.is_mirrored, r->next_snapshot, r->params, &bytes))
         return fail_for_disk(g, "a snapshot");
     const long long number = r->next_snapshot++;
     json_t *event =
