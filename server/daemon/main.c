@@ -207,12 +207,11 @@ static bool open_parts(parts *all)
     if (!all->store) return false;
     all->running = &all->settings;
     all->limits = limits_of(&all->settings);
-    executor_local_init(&all->executor, all->settings.worker, all->settings.confine);
-    all->store->places = all->settings.workers;
-    if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.workers, all->settings.threads, all->signals))
-        return false;
-    all->dispatcher.recovered = store_recover(all->store) == STORE_OK;
-    if (!all->dispatcher.recovered) log_line("jobs that an earlier daemon left running can't be put back now: tried again later");
+    if (!executor_local_init(&all->executor, all->settings.worker, all->settings.confine, all->settings.workers)) return false;
+    all->store->places = all->executor.places;
+    if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.threads, all->signals)) return false;
+    if (!dispatcher_recover(&all->dispatcher))
+        log_line("jobs that an earlier daemon left running can't be put back now: tried again later");
     store_remove_unused_folders(all->store);
     readiness_init(&all->readiness, &all->dispatcher);
     all->dispatcher.jobs_changed = jobs_changed_by_worker;
@@ -277,6 +276,7 @@ int main(int argc, char **argv)
     folder_remover_stop(&all.remover);
     callback_sender_stop(all.callbacks);
     dispatcher_clear(&all.dispatcher);
+    executor_local_clear(&all.executor);
     store_close(all.store);
     data_folder_close(&all.data);
     return 0;

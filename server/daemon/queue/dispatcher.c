@@ -14,6 +14,7 @@
 #include <sys/eventfd.h>
 #include <unistd.h>
 
+#include "checksum.h"
 #include "job_folder.h"
 #include "log.h"
 #include "worker_ends.h"
@@ -23,8 +24,11 @@
 #define SECONDS_OF_SILENCE 15.0     /* workers report every second, but for some steps that may take long */
 #define SECONDS_OF_A_SHORT_JOB 30.0 /* after which it is none, whatever was expected */
 #define GIGABYTE 1073741824.0
+#define MOST_THREADS 1000000 /* of workers that share no machine */
 
-enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8, LONGEST_BEDS = 4 + 21 * (CONFIG_MOST_WORKERS + 1) };
+#define SECONDS_OF_STARTING 0.5 /* in a round: what workers write is recorded meanwhile, too */
+
+enum { BUSY_ROUND_MS = 1000, IDLE_ROUND_MS = 5000, BATCHES_A_ROUND = 8, LONGEST_NUMBER = 21 };
 
 /* Under nohup SIGHUP is ignored, and a blocked signal would come through all the same. */
 void dispatcher_end_signals(sigset_t *ends)
@@ -38,22 +42,21 @@ void dispatcher_end_signals(sigset_t *ends)
     for (int real_time = SIGRTMIN; real_time <= SIGRTMAX; real_time++) sigaddset(ends, real_time);
 }
 
-bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int workers, int threads_per_job,
-                     int signals)
+bool dispatcher_init(job_dispatcher *dispatcher, job_store *store, worker_executor *executor, int threads_per_job, int signals)
 {
-    *dispatcher = (job_dispatcher){
-        .store = store, .executor = executor, .workers = workers, .slots = workers + 1, .threads = workers * threads_per_job
-    };
-    dispatcher->signals = signals;
+    const int workers = executor->places, slots = workers + 1;
+    *dispatcher = (job_dispatcher){ .store = store, .executor = executor, .workers = workers, .slots = slots, .signals = signals };
+    dispatcher->threads = executor->shares_threads ? workers * threads_per_job : MOST_THREADS;
     dispatcher->wake = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
-    dispatcher->slot = calloc((size_t)dispatcher->slots, sizeof dispatcher->slot[0]);
+    dispatcher->slot = calloc((size_t)slots, sizeof dispatcher->slot[0]);
+    dispatcher->beds = malloc(4 + (size_t)slots * LONGEST_NUMBER);
     dispatcher->last_round = monotonic_seconds();
-    return dispatcher->slot && dispatcher->wake >= 0;
+    return dispatcher->slot && dispatcher->beds && dispatcher->wake >= 0;
 }
 
 void dispatcher_set_threads(job_dispatcher *dispatcher, int threads_per_job)
 {
-    dispatcher->threads = dispatcher->workers * threads_per_job;
+    if (dispatcher->executor->shares_threads) dispatcher->threads = dispatcher->workers * threads_per_job;
     dispatcher_wake(dispatcher);
 }
 
@@ -61,6 +64,7 @@ void dispatcher_clear(job_dispatcher *dispatcher)
 {
     close(dispatcher->wake);
     free(dispatcher->slot);
+    free(dispatcher->beds);
 }
 
 void dispatcher_wake(job_dispatcher *dispatcher)
@@ -72,19 +76,43 @@ void dispatcher_wake(job_dispatcher *dispatcher)
 
 /* --- starting --- */
 
+/* Of all that are in use: the first of them, and the one after. NULL: no more. */
+static worker_slot *next_slot(const job_dispatcher *dispatcher, const worker_slot *after)
+{
+    const worker_slot *lane = &dispatcher->slot[dispatcher->workers];
+    worker_slot *slot = after ? dispatcher->slot + (after - dispatcher->slot) + 1 : dispatcher->slot;
+    for (; slot < dispatcher->slot + dispatcher->used; slot++)
+        if (slot->state != SLOT_FREE) return slot;
+    if (after == lane || lane->state == SLOT_FREE) return NULL;
+    return dispatcher->slot + dispatcher->workers;
+}
+
 static int threads_in_use(const job_dispatcher *dispatcher)
 {
     int threads = 0;
-    for (int i = 0; i < dispatcher->workers; i++)
+    for (int i = 0; dispatcher->executor->shares_threads && i < dispatcher->used; i++)
         if (dispatcher->slot[i].state != SLOT_FREE) threads += dispatcher->slot[i].claim.threads;
     return threads;
 }
 
 static worker_slot *free_slot(job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->workers; i++)
+    worker_executor *executor = dispatcher->executor;
+    if (executor->has_room && !executor->has_room(executor)) return NULL;
+    const bool lane_taken = dispatcher->slot[dispatcher->workers].state != SLOT_FREE;
+    const bool has_gaps = dispatcher->taken - lane_taken < dispatcher->used;
+    for (int i = has_gaps ? 0 : dispatcher->used; i < dispatcher->workers; i++)
         if (dispatcher->slot[i].state == SLOT_FREE) return &dispatcher->slot[i];
     return NULL;
+}
+
+static void take_slot(job_dispatcher *dispatcher, worker_slot *slot, const job_claim *claim)
+{
+    const double now = monotonic_seconds();
+    const int index = (int)(slot - dispatcher->slot);
+    *slot = (worker_slot){ .state = SLOT_WORKING, .claim = *claim, .events = -1, .speed = NAN, .started = now, .last_word = now };
+    if (index < dispatcher->workers && index >= dispatcher->used) dispatcher->used = index + 1;
+    dispatcher->taken++;
 }
 
 /* Bounds against a worker gone wild, far above what a sound one needs. */
@@ -96,15 +124,31 @@ static void set_limits(const job_claim *claim, worker_order *order)
 }
 
 /* JSON: a list of the beds that workers are settling and other jobs wait for. Not for a worker that is held up. */
-static void beds_in_work(const job_dispatcher *dispatcher, char beds[LONGEST_BEDS])
+static const char *beds_in_work(const job_dispatcher *dispatcher)
 {
-    size_t length = (size_t)snprintf(beds, LONGEST_BEDS, "[0");
-    for (int i = 0; i < dispatcher->slots; i++) {
-        const worker_slot *slot = &dispatcher->slot[i];
+    const size_t room = 4 + (size_t)dispatcher->slots * LONGEST_NUMBER;
+    size_t length = (size_t)snprintf(dispatcher->beds, room, "[0");
+    for (const worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot))
         if (slot->state == SLOT_WORKING && slot->settles && !slot->silent && !slot->claim_lost)
-            length += (size_t)snprintf(beds + length, LONGEST_BEDS - length, ",%" PRId64, slot->claim.bed);
-    }
-    snprintf(beds + length, LONGEST_BEDS - length, "]");
+            length += (size_t)snprintf(dispatcher->beds + length, room - length, ",%" PRId64, slot->claim.bed);
+    snprintf(dispatcher->beds + length, room - length, "]");
+    return dispatcher->beds;
+}
+
+static worker_order order_of(const job_claim *claim, const char *folder, int file)
+{
+    worker_order order = { .job = claim->id,
+                           .job_folder = folder,
+                           .job_folder_file = file,
+                           .attempt = claim->attempt,
+                           .threads = claim->threads,
+                           .start = claim->starts,
+                           .estimated_seconds = claim->estimated_seconds,
+                           .estimated_memory_bytes = claim->estimated_memory_bytes,
+                           .more_time = claim->more_time,
+                           .more_memory = claim->more_memory };
+    set_limits(claim, &order);
+    return order;
 }
 
 static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
@@ -119,12 +163,8 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
     const int file = is_there ? job_folder_open(data, claim->id) : -1;
     if (file < 0) return false;
     slot->settles = claim->bed && !store_bring_bed(dispatcher->store, claim);
-    worker_order order = { .job_folder = folder,
-                           .job_folder_file = file,
-                           .attempt = claim->attempt,
-                           .threads = claim->threads,
-                           .save_bed = slot->settles };
-    set_limits(claim, &order);
+    worker_order order = order_of(claim, folder, file);
+    order.save_bed = slot->settles;
     const bool started = dispatcher->executor->start(dispatcher->executor, &order, &slot->worker);
     close(file);
     return started;
@@ -134,10 +174,9 @@ static bool start_worker(job_dispatcher *dispatcher, worker_slot *slot)
 static bool may_start(const job_dispatcher *dispatcher)
 {
     if (!dispatcher->recovered || queue_pause_holds(&dispatcher->pause, monotonic_seconds())) return false;
-    for (int i = 0; i < dispatcher->slots; i++) {
-        const worker_slot *slot = &dispatcher->slot[i];
-        if (slot->state != SLOT_FREE && queue_pause_is_trying(&dispatcher->pause, slot->started)) return false;
-    }
+    if (dispatcher->pause.setbacks == 0) return true;
+    for (const worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot))
+        if (queue_pause_is_trying(&dispatcher->pause, slot->started)) return false;
     return true;
 }
 
@@ -148,8 +187,8 @@ static worker_slot *free_lane(job_dispatcher *dispatcher)
 {
     const double now = monotonic_seconds();
     worker_slot *lane = &dispatcher->slot[dispatcher->workers];
-    if (lane->state != SLOT_FREE || dispatcher->pause.setbacks > 0) return NULL;
-    for (int i = 0; i < dispatcher->workers; i++) {
+    if (!dispatcher->executor->shares_threads || lane->state != SLOT_FREE || dispatcher->pause.setbacks > 0) return NULL;
+    for (int i = 0; i < dispatcher->used; i++) {
         const worker_slot *slot = &dispatcher->slot[i];
         if (slot->state == SLOT_FREE) continue;
         if (slot->claim.estimated_seconds < SHORT_JOB && now - slot->started < SECONDS_OF_A_SHORT_JOB) return NULL;
@@ -163,8 +202,7 @@ static worker_slot *claim_next_job(job_dispatcher *dispatcher, job_claim *claim)
     /* One that tries after a pause is the least suspect: a few that this machine can't run would be in all others' way. */
     const queue_order order = dispatcher->pause.setbacks > 0 ? QUEUE_BY_SETBACKS : QUEUE_BY_TURN;
     const int all = dispatcher->threads, left = all - threads_in_use(dispatcher);
-    char beds[LONGEST_BEDS];
-    beds_in_work(dispatcher, beds);
+    const char *beds = beds_in_work(dispatcher);
     worker_slot *slot = free_slot(dispatcher);
     if (slot && store_claim_job(dispatcher->store, order, left, all, beds, claim) == STORE_OK) return slot;
     worker_slot *lane = free_lane(dispatcher);
@@ -177,30 +215,32 @@ static bool start_next_job(job_dispatcher *dispatcher)
     job_claim claim;
     worker_slot *slot = may_start(dispatcher) ? claim_next_job(dispatcher, &claim) : NULL;
     if (!slot) return false;
-    const double now = monotonic_seconds();
-    *slot = (worker_slot){ .state = SLOT_WORKING,
-                           .claim = claim,
-                           .worker.watch = -1,
-                           .events = -1,
-                           .speed = NAN,
-                           .started = now,
-                           .last_word = now,
-                           .oom_kills = worker_end_oom_kills() };
+    take_slot(dispatcher, slot, &claim);
     const bool started = start_worker(dispatcher, slot);
     const int reason = errno;
     free(slot->claim.spec);
     slot->claim.spec = NULL;
     if (started) {
         dispatcher->started++;
-        log_line("job %s: attempt %d started, process %d", claim.id, claim.attempt, (int)slot->worker.process);
+        log_line("job %s: attempt %d started, %s", claim.id, claim.attempt, slot->worker.name);
     } else { /* no folder or no process to be had */
         slot->state = SLOT_ENDED;
-        slot->end = (worker_end){ false, WORKER_MACHINE };
+        slot->end = (worker_end){ .code = WORKER_MACHINE };
         snprintf(slot->trouble, sizeof slot->trouble, "its worker can't be started: %s", strerror(reason));
-        queue_pause_add(&dispatcher->pause, now);
+        queue_pause_add(&dispatcher->pause, monotonic_seconds());
     }
     dispatcher->jobs_changed(dispatcher->context);
     return true;
+}
+
+static void start_jobs(job_dispatcher *dispatcher)
+{
+    const double until = monotonic_seconds() + SECONDS_OF_STARTING;
+    while (start_next_job(dispatcher))
+        if (monotonic_seconds() > until) {
+            dispatcher_wake(dispatcher);
+            return;
+        }
 }
 
 /* --- following --- */
@@ -237,18 +277,32 @@ static store_status record_batch(job_dispatcher *dispatcher, worker_slot *slot, 
 static store_status record_silence(job_dispatcher *dispatcher, worker_slot *slot)
 {
     const double seconds = monotonic_seconds() - slot->last_word;
-    if (slot->silent || slot->state != SLOT_WORKING || seconds < SECONDS_OF_SILENCE) return STORE_OK;
+    if (slot->silent || slot->state != SLOT_WORKING || slot->worker.waits_for[0] || seconds < SECONDS_OF_SILENCE) return STORE_OK;
     const store_status status = store_record_silence(dispatcher->store, &slot->claim, seconds);
     if (status != STORE_OK) return status;
     slot->silent = true;
-    log_line("job %s: no word from process %d for %.0f s", slot->claim.id, (int)slot->worker.process, seconds);
+    log_line("job %s: no word from %s for %.0f s", slot->claim.id, slot->worker.name, seconds);
     return STORE_OK;
+}
+
+/* What the next daemon finds the worker by, and why it has not begun to work. */
+static store_status record_worker(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    const worker_handle *worker = &slot->worker;
+    if (!dispatcher->executor->adopt || slot->state != SLOT_WORKING) return STORE_OK;
+    if (worker->waits_for[0]) slot->last_word = monotonic_seconds();
+    const uint64_t told =
+        checksum_of(worker->name, strlen(worker->name)) ^ checksum_of(worker->waits_for, strlen(worker->waits_for));
+    if (told == slot->told) return STORE_OK;
+    const store_status status = store_record_worker(dispatcher->store, &slot->claim, worker->name, worker->waits_for);
+    if (status == STORE_OK) slot->told = told;
+    return status;
 }
 
 static store_status record_events_of(job_dispatcher *dispatcher, worker_slot *slot)
 {
-    bool more = true;
-    store_status status = STORE_OK;
+    bool more = !slot->worker.waits_for[0];
+    store_status status = record_worker(dispatcher, slot);
     for (int i = 0; more && status == STORE_OK && i < BATCHES_A_ROUND; i++) status = record_batch(dispatcher, slot, &more);
     if (status == STORE_OK) status = record_silence(dispatcher, slot);
     if (status == STORE_CONFLICT) slot->claim_lost = true;
@@ -258,23 +312,25 @@ static store_status record_events_of(job_dispatcher *dispatcher, worker_slot *sl
 /* One transaction for what all workers wrote. If it fails nothing is forgotten: the files still have it. */
 static void record_events(job_dispatcher *dispatcher)
 {
-    int64_t before[CONFIG_MOST_WORKERS + 1] = { 0 };
     bool any = false;
-    for (int i = 0; i < dispatcher->slots; i++) {
-        before[i] = dispatcher->slot[i].events_at;
-        any = any || (dispatcher->slot[i].state != SLOT_FREE && !dispatcher->slot[i].claim_lost);
+    for (worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot)) {
+        slot->events_before = slot->events_at;
+        slot->told_before = slot->told;
+        any = any || !slot->claim_lost;
     }
     if (!any) return;
     store_status status = store_begin(dispatcher->store);
     if (status == STORE_OK) {
-        for (int i = 0; status == STORE_OK && i < dispatcher->slots; i++)
-            if (dispatcher->slot[i].state != SLOT_FREE && !dispatcher->slot[i].claim_lost)
-                status = record_events_of(dispatcher, &dispatcher->slot[i]);
+        for (worker_slot *slot = next_slot(dispatcher, NULL); status == STORE_OK && slot; slot = next_slot(dispatcher, slot))
+            if (!slot->claim_lost) status = record_events_of(dispatcher, slot);
         status = store_end(dispatcher->store, status);
     }
     if (status == STORE_OK) return;
     dispatcher->store_failures++;
-    for (int i = 0; i < dispatcher->slots; i++) dispatcher->slot[i].events_at = before[i];
+    for (worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot)) {
+        slot->events_at = slot->events_before;
+        slot->told = slot->told_before;
+    }
 }
 
 /* --- stopping and ending --- */
@@ -290,22 +346,23 @@ static void stop_worker(job_dispatcher *dispatcher, worker_slot *slot)
     }
 }
 
+/* Workers that outlive the daemon are left to the next. */
+static bool takes_workers_along(const job_dispatcher *dispatcher) { return dispatcher->stopping && !dispatcher->executor->adopt; }
+
 static void stop_unwanted(job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->slots; i++) {
-        worker_slot *slot = &dispatcher->slot[i];
+    for (worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot)) {
         if (slot->state != SLOT_WORKING) continue;
         /* Leaving asks nobody: the store may be what hangs. */
         if (!dispatcher->stopping && !slot->claim_lost && !store_claim_holds(dispatcher->store, &slot->claim))
             slot->claim_lost = true;
-        if (slot->claim_lost || dispatcher->stopping) stop_worker(dispatcher, slot);
+        if (slot->claim_lost || takes_workers_along(dispatcher)) stop_worker(dispatcher, slot);
     }
 }
 
 static void notice_ends(job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->slots; i++) {
-        worker_slot *slot = &dispatcher->slot[i];
+    for (worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot)) {
         if (slot->state != SLOT_WORKING || !dispatcher->executor->has_ended(dispatcher->executor, &slot->worker, &slot->end))
             continue;
         slot->state = SLOT_ENDED;
@@ -314,17 +371,18 @@ static void notice_ends(job_dispatcher *dispatcher)
     }
 }
 
-static void release_slot(worker_slot *slot)
+static void release_slot(job_dispatcher *dispatcher, worker_slot *slot)
 {
     if (slot->events >= 0) close(slot->events);
     json_decref(slot->failure);
     *slot = (worker_slot){ .state = SLOT_FREE, .events = -1 };
+    dispatcher->taken--;
+    while (dispatcher->used > 0 && dispatcher->slot[dispatcher->used - 1].state == SLOT_FREE) dispatcher->used--;
 }
 
 static void record_ends(job_dispatcher *dispatcher)
 {
-    for (int i = 0; i < dispatcher->slots; i++) {
-        worker_slot *slot = &dispatcher->slot[i];
+    for (worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot)) {
         if (slot->state != SLOT_ENDED) continue;
         const store_status status = slot->claim_lost ? STORE_CONFLICT : worker_end_record(dispatcher, slot);
         if (status != STORE_OK && status != STORE_CONFLICT) {
@@ -333,7 +391,7 @@ static void record_ends(job_dispatcher *dispatcher)
         }
         if (status == STORE_CONFLICT) log_line("job %s: dismissed, its worker has left", slot->claim.id);
         if (slot->claim.bed) store_drop_beds(dispatcher->store);
-        release_slot(slot);
+        release_slot(dispatcher, slot);
         dispatcher->jobs_changed(dispatcher->context);
     }
 }
@@ -344,21 +402,17 @@ static void count_work(job_dispatcher *dispatcher)
 {
     double speed = 0.0;
     int running = 0;
-    for (int i = 0; i < dispatcher->slots; i++) {
-        if (dispatcher->slot[i].state == SLOT_WORKING) running++;
-        if (dispatcher->slot[i].state == SLOT_WORKING && isfinite(dispatcher->slot[i].speed)) speed += dispatcher->slot[i].speed;
+    for (const worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot)) {
+        if (slot->state != SLOT_WORKING || slot->worker.waits_for[0]) continue;
+        running++;
+        if (isfinite(slot->speed)) speed += slot->speed;
     }
     dispatcher->running = running;
     dispatcher->speed = speed;
     dispatcher->last_round = monotonic_seconds();
 }
 
-static bool is_idle(const job_dispatcher *dispatcher)
-{
-    for (int i = 0; i < dispatcher->slots; i++)
-        if (dispatcher->slot[i].state != SLOT_FREE) return false;
-    return true;
-}
+static bool is_idle(const job_dispatcher *dispatcher) { return dispatcher->taken == 0; }
 
 static bool take_signal(job_dispatcher *dispatcher)
 {
@@ -368,24 +422,60 @@ static bool take_signal(job_dispatcher *dispatcher)
 
 static void sleep_until_needed(job_dispatcher *dispatcher)
 {
-    struct pollfd watched[CONFIG_MOST_WORKERS + 3] = { { .fd = dispatcher->wake, .events = POLLIN },
-                                                       { .fd = dispatcher->signals, .events = POLLIN } };
-    nfds_t count = 2;
-    for (int i = 0; i < dispatcher->slots; i++)
-        if (dispatcher->slot[i].state == SLOT_WORKING && dispatcher->slot[i].worker.watch >= 0)
-            watched[count++] = (struct pollfd){ .fd = dispatcher->slot[i].worker.watch, .events = POLLIN };
+    struct pollfd watched[] = { { .fd = dispatcher->wake, .events = POLLIN },
+                                { .fd = dispatcher->signals, .events = POLLIN },
+                                { .fd = dispatcher->executor->bell, .events = POLLIN } };
     const bool calm = is_idle(dispatcher) && dispatcher->recovered && dispatcher->pause.setbacks == 0;
-    poll(watched, count, calm ? IDLE_ROUND_MS : BUSY_ROUND_MS);
+    poll(watched, sizeof watched / sizeof watched[0], calm ? IDLE_ROUND_MS : BUSY_ROUND_MS);
     uint64_t ignored;
     while (read(dispatcher->wake, &ignored, sizeof ignored) > 0) continue;
+}
+
+/* --- after another daemon --- */
+
+/* A job that was left running, whose worker may still be at work. */
+static bool adopt(void *context, const job_claim *claim, const char *name)
+{
+    job_dispatcher *dispatcher = context;
+    worker_executor *executor = dispatcher->executor;
+    worker_slot *slot = dispatcher->used < dispatcher->workers ? &dispatcher->slot[dispatcher->used] : NULL;
+    char folder[4096];
+    worker_handle worker;
+    snprintf(folder, sizeof folder, "%s/jobs/%s", dispatcher->store->data->path, claim->id);
+    const worker_order order = order_of(claim, folder, -1);
+    if (!executor->adopt || !slot || !executor->adopt(executor, &order, name, &worker)) return false;
+    take_slot(dispatcher, slot, claim);
+    slot->claim.spec = NULL;
+    slot->worker = worker;
+    slot->settles = claim->bed && !store_has_bed(dispatcher->store, claim->bed);
+    log_line("job %s: left running by an earlier daemon; gone on with, %s", claim->id, worker.name);
+    return true;
+}
+
+static bool is_followed(const job_dispatcher *dispatcher, int64_t number)
+{
+    for (const worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot))
+        if (slot->claim.number == number) return true;
+    return false;
+}
+
+/* A second try finds those that the first has taken. */
+static bool adopt_once(void *context, const job_claim *claim, const char *name)
+{
+    return is_followed(context, claim->number) || adopt(context, claim, name);
+}
+
+bool dispatcher_recover(job_dispatcher *dispatcher)
+{
+    dispatcher->recovered = store_recover(dispatcher->store, adopt_once, dispatcher) == STORE_OK;
+    return dispatcher->recovered;
 }
 
 /* What an earlier daemon left running goes first; on a full disk that has to wait, and reads are served meanwhile. */
 static void recover(job_dispatcher *dispatcher)
 {
     if (dispatcher->recovered || dispatcher->stopping) return;
-    dispatcher->recovered = store_recover(dispatcher->store) == STORE_OK;
-    if (dispatcher->recovered) dispatcher->jobs_changed(dispatcher->context);
+    if (dispatcher_recover(dispatcher)) dispatcher->jobs_changed(dispatcher->context);
     else dispatcher->store_failures++;
 }
 
@@ -393,7 +483,8 @@ static void record(job_dispatcher *dispatcher, double *recorded)
 {
     bool ended = false;
     notice_ends(dispatcher);
-    for (int i = 0; i < dispatcher->slots; i++) ended = ended || dispatcher->slot[i].state == SLOT_ENDED;
+    for (const worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot))
+        ended = ended || slot->state == SLOT_ENDED;
     if (!ended && monotonic_seconds() - *recorded < 0.95) return; /* progress reaches the disk once a second, not at every wake */
     record_events(dispatcher);
     *recorded = monotonic_seconds();
@@ -403,7 +494,7 @@ static void begin_to_leave(job_dispatcher *dispatcher, void (*leaving)(void *con
 {
     dispatcher->stopping = true;
     dispatcher->stopping_from = monotonic_seconds();
-    log_line("leaving: workers are asked to save their state");
+    log_line("leaving: %s", takes_workers_along(dispatcher) ? "workers are asked to save their state" : "workers go on without it");
     stop_unwanted(dispatcher);
     leaving(dispatcher->context);
 }
@@ -412,9 +503,12 @@ static void begin_to_leave(job_dispatcher *dispatcher, void (*leaving)(void *con
 static bool may_leave(const job_dispatcher *dispatcher)
 {
     if (!dispatcher->stopping) return false;
-    if (is_idle(dispatcher)) return true;
-    for (int i = 0; i < dispatcher->slots; i++)
-        if (dispatcher->slot[i].state == SLOT_WORKING) return false;
+    bool all_recorded = true;
+    for (const worker_slot *slot = next_slot(dispatcher, NULL); slot; slot = next_slot(dispatcher, slot)) {
+        if (slot->state == SLOT_WORKING && takes_workers_along(dispatcher)) return false;
+        all_recorded = all_recorded && slot->state != SLOT_ENDED;
+    }
+    if (all_recorded) return true;
     if (monotonic_seconds() - dispatcher->stopping_from < SECONDS_TO_RECORD) return false;
     log_line("leaving: what became of the last workers can't be recorded now; the next start does it");
     return true;
@@ -428,7 +522,7 @@ void dispatcher_run(job_dispatcher *dispatcher, void (*leaving)(void *context))
         record(dispatcher, &recorded);
         stop_unwanted(dispatcher);
         record_ends(dispatcher);
-        while (!dispatcher->stopping && start_next_job(dispatcher)) continue;
+        if (!dispatcher->stopping) start_jobs(dispatcher);
         count_work(dispatcher);
         if (may_leave(dispatcher)) break;
         sleep_until_needed(dispatcher);

@@ -8,7 +8,9 @@
 #include <linux/close_range.h>
 #include <signal.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+#include <sys/epoll.h>
 #include <sys/file.h>
 #include <sys/pidfd.h>
 #include <sys/prctl.h>
@@ -105,13 +107,34 @@ static void become_worker(const worker_order *order, const worker_streams *strea
     _exit(EXEC_FAILED);
 }
 
+typedef struct local_executor {
+    const char *program;
+    bool confine; /* to the job's folder; the worker does it itself */
+} local_executor;
+
+/* What a handle has of its own. */
+enum { PROCESS, WATCH, OOM_KILLS }; /* the process; a descriptor of it, -1: none; the machine's count when it was started */
+
+/* Processes that the machine has killed for want of memory since it was started; -1: unknown. */
+static int64_t oom_kills(void)
+{
+    char line[128];
+    long long kills = -1;
+    FILE *file = fopen("/proc/vmstat", "re");
+    while (file && fgets(line, sizeof line, file))
+        if (sscanf(line, "oom_kill %lld", &kills) == 1) break;
+    if (file) fclose(file);
+    return kills;
+}
+
 static bool start(worker_executor *executor, const worker_order *order, worker_handle *worker)
 {
+    const local_executor *local = executor->own;
     char spec[4200], attempt[16], threads[16];
     snprintf(spec, sizeof spec, "%s/" JOB_SPEC_FILE, order->job_folder);
     snprintf(attempt, sizeof attempt, "%d", order->attempt);
     snprintf(threads, sizeof threads, "%d", order->threads);
-    char *arguments[] = { (char *)executor->program,
+    char *arguments[] = { (char *)local->program,
                           "run",
                           spec,
                           "--out",
@@ -124,29 +147,44 @@ static bool start(worker_executor *executor, const worker_order *order, worker_h
                           NULL,
                           NULL };
     size_t next = sizeof arguments / sizeof arguments[0] - 3;
-    if (executor->confine) arguments[next++] = "--confine";
+    if (local->confine) arguments[next++] = "--confine";
     if (order->save_bed) arguments[next++] = "--save-bed";
     worker_streams streams;
     const pid_t parent = getpid();
+    const int64_t kills = oom_kills();
     const pid_t process = streams_open(&streams, order->job_folder_file) ? fork() : -1;
-    if (process == 0) become_worker(order, &streams, executor->program, arguments, parent);
+    if (process == 0) become_worker(order, &streams, local->program, arguments, parent);
     streams_close(&streams);
     if (process < 0) return false;
     setpgid(process, process); /* also here: whoever comes first */
-    *worker = (worker_handle){ .process = process, .watch = pidfd_open(process, 0) };
+    *worker = (worker_handle){ .own = { [PROCESS] = process, [WATCH] = pidfd_open(process, 0), [OOM_KILLS] = kills } };
+    snprintf(worker->name, sizeof worker->name, "process %d", (int)process);
+    struct epoll_event ends = { .events = EPOLLIN };
+    if (worker->own[WATCH] >= 0) epoll_ctl(executor->bell, EPOLL_CTL_ADD, (int)worker->own[WATCH], &ends);
     return true;
+}
+
+static worker_end end_by_signal(const worker_handle *worker, int number)
+{
+    const int64_t before = worker->own[OOM_KILLS];
+    const bool starved = number == SIGKILL && before >= 0 && oom_kills() > before;
+    return (worker_end){ .kind = starved ? WORKER_STARVED : WORKER_KILLED, .code = number };
 }
 
 static bool has_ended(worker_executor *executor, worker_handle *worker, worker_end *end)
 {
-    (void)executor;
     int status;
-    const pid_t process = waitpid(worker->process, &status, WNOHANG);
+    const pid_t process = waitpid((pid_t)worker->own[PROCESS], &status, WNOHANG);
     if (process == 0 || (process < 0 && errno == EINTR)) return false;
-    *end = WIFSIGNALED(status) ? (worker_end){ true, WTERMSIG(status) } : (worker_end){ false, WEXITSTATUS(status) };
-    if (process < 0) *end = (worker_end){ false, WORKER_MACHINE }; /* not our child: nothing to wait for */
-    if (worker->watch >= 0) close(worker->watch);
-    *worker = (worker_handle){ .watch = -1 };
+    if (process < 0) *end = (worker_end){ .code = WORKER_MACHINE }; /* not our child: nothing to wait for */
+    else if (WIFSIGNALED(status)) *end = end_by_signal(worker, WTERMSIG(status));
+    else *end = (worker_end){ .code = WEXITSTATUS(status) };
+    if (worker->own[WATCH] >= 0) {
+        /* A child between fork and exec may still have it open, so that closing it alone would not take it off the list. */
+        epoll_ctl(executor->bell, EPOLL_CTL_DEL, (int)worker->own[WATCH], NULL);
+        close((int)worker->own[WATCH]);
+    }
+    *worker = (worker_handle){ .own = { [WATCH] = -1 } };
     return true;
 }
 
@@ -154,22 +192,33 @@ static bool has_ended(worker_executor *executor, worker_handle *worker, worker_e
 static void ask_to_stop(worker_executor *executor, const worker_handle *worker)
 {
     (void)executor;
-    kill(worker->process, SIGTERM);
+    kill((pid_t)worker->own[PROCESS], SIGTERM);
 }
 
 static void kill_worker(worker_executor *executor, const worker_handle *worker)
 {
     (void)executor;
-    kill(-worker->process, SIGKILL);
-    kill(worker->process, SIGKILL);
+    kill(-(pid_t)worker->own[PROCESS], SIGKILL);
+    kill((pid_t)worker->own[PROCESS], SIGKILL);
 }
 
-void executor_local_init(worker_executor *executor, const char *program, bool confine)
+bool executor_local_init(worker_executor *executor, const char *program, bool confine, int places)
 {
+    local_executor *local = malloc(sizeof *local);
+    if (local) *local = (local_executor){ program, confine };
     *executor = (worker_executor){ .start = start,
                                    .has_ended = has_ended,
                                    .ask_to_stop = ask_to_stop,
                                    .kill = kill_worker,
-                                   .program = program,
-                                   .confine = confine };
+                                   .places = places,
+                                   .shares_threads = true,
+                                   .bell = epoll_create1(EPOLL_CLOEXEC),
+                                   .own = local };
+    return local && executor->bell >= 0;
+}
+
+void executor_local_clear(worker_executor *executor)
+{
+    if (executor->bell >= 0) close(executor->bell);
+    free(executor->own);
 }

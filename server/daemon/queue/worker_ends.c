@@ -8,6 +8,10 @@
  *   SIGSYS                         likewise: a call that its confinement refuses is no fault of the job
  *   SIGTERM and the like           accepted again: somebody stopped it
  *   another signal                 accepted again, attempt + 1; failed when three in a row saved no newer checkpoint
+ *   lost with its machine          accepted again
+ *   out of the time it was given   accepted again with twice the time, as after another signal
+ *   out of the memory likewise     accepted again with twice the memory, once; then failed
+ *   withdrawn by somebody else     failed, and said so
  */
 #include "worker_ends.h"
 
@@ -108,23 +112,10 @@ static store_status put_off(job_dispatcher *dispatcher, worker_slot *slot)
 
 /* --- whose fault it was --- */
 
-int64_t worker_end_oom_kills(void)
+static const char *trouble_of_signal(int number)
 {
-    char line[128];
-    long long kills = -1;
-    FILE *file = fopen("/proc/vmstat", "re");
-    while (file && fgets(line, sizeof line, file))
-        if (sscanf(line, "oom_kill %lld", &kills) == 1) break;
-    if (file) fclose(file);
-    return kills;
-}
-
-static const char *trouble_of_signal(const worker_slot *slot)
-{
-    if (slot->end.code == SIGBUS) return "a file that the worker needs could not be read from the disk";
-    if (slot->end.code == SIGSYS) return "the worker's confinement refused it a system call";
-    if (slot->end.code != SIGKILL || slot->oom_kills < 0) return NULL;
-    return worker_end_oom_kills() > slot->oom_kills ? "the machine ran out of memory, and the worker was killed" : NULL;
+    if (number == SIGBUS) return "a file that the worker needs could not be read from the disk";
+    return number == SIGSYS ? "the worker's confinement refused it a system call" : NULL;
 }
 
 static const char *trouble_of_exit(int code)
@@ -137,12 +128,22 @@ static const char *trouble_of_exit(int code)
     }
 }
 
+static const char *trouble_of(const worker_end *end)
+{
+    switch (end->kind) {
+    case WORKER_LEFT: return trouble_of_exit(end->code);
+    case WORKER_KILLED: return trouble_of_signal(end->code);
+    case WORKER_STARVED: return "the machine ran out of memory, and the worker was killed";
+    default: return NULL;
+    }
+}
+
 bool worker_end_is_of_the_machine(const job_dispatcher *dispatcher, worker_slot *slot)
 {
-    const char *what = slot->end.by_signal ? trouble_of_signal(slot) : trouble_of_exit(slot->end.code);
+    const char *what = trouble_of(&slot->end);
     char words[LOG_TAIL + 1] = "";
     if (!what) return false;
-    if (!slot->end.by_signal) last_words(dispatcher, slot, words, sizeof words);
+    if (slot->end.kind == WORKER_LEFT) last_words(dispatcher, slot, words, sizeof words);
     snprintf(slot->trouble, sizeof slot->trouble, "%s%s%s", what, words[0] ? "; its last words: " : "", words);
     return true;
 }
@@ -163,15 +164,44 @@ static store_status record_signal(job_dispatcher *dispatcher, worker_slot *slot)
     return put_back(dispatcher, slot, !is_a_request_to_stop(slot->end.code), why);
 }
 
-store_status worker_end_record(job_dispatcher *dispatcher, worker_slot *slot)
+/* Twice as much each time; where the run comes no further for some attempts, more does not help. */
+static store_status record_lack_of_time(job_dispatcher *dispatcher, worker_slot *slot)
 {
-    if (slot->trouble[0]) return put_off(dispatcher, slot);
-    if (slot->end.by_signal) return record_signal(dispatcher, slot);
+    slot->claim.more_time++;
+    const store_status status = put_back(dispatcher, slot, true, slot->end.why);
+    if (status != STORE_OK) slot->claim.more_time--; /* tried again */
+    return status;
+}
+
+static store_status record_lack_of_memory(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    if (slot->claim.more_memory > 0) return fail(dispatcher, slot, slot->end.why);
+    slot->claim.more_memory++;
+    const store_status status = put_back(dispatcher, slot, false, slot->end.why);
+    if (status != STORE_OK) slot->claim.more_memory--;
+    return status;
+}
+
+static store_status record_exit(job_dispatcher *dispatcher, worker_slot *slot)
+{
     switch (slot->end.code) {
     case WORKER_DONE: return succeed(dispatcher, slot);
     case WORKER_STOPPED: return put_back(dispatcher, slot, false, "stopped in good order");
     case WORKER_BAD_SPEC: return fail(dispatcher, slot, "the worker refused the specification");
     case WORKER_NUMERICAL: return fail(dispatcher, slot, "the simulation broke down");
     default: return fail(dispatcher, slot, "the worker ended with a fault of its own");
+    }
+}
+
+store_status worker_end_record(job_dispatcher *dispatcher, worker_slot *slot)
+{
+    if (slot->trouble[0]) return put_off(dispatcher, slot);
+    switch (slot->end.kind) {
+    case WORKER_KILLED: return record_signal(dispatcher, slot);
+    case WORKER_LOST: return put_back(dispatcher, slot, false, slot->end.why);
+    case WORKER_WITHDRAWN: return fail(dispatcher, slot, slot->end.why);
+    case WORKER_OUT_OF_TIME: return record_lack_of_time(dispatcher, slot);
+    case WORKER_OUT_OF_MEMORY: return record_lack_of_memory(dispatcher, slot);
+    default: return record_exit(dispatcher, slot);
     }
 }

@@ -102,11 +102,13 @@ typedef struct job_claim {
     int64_t number;
     char id[JOB_ID_SIZE];
     int attempt, threads;
+    int starts; /* with this one: no two of the job have the same number */
     double estimated_seconds, estimated_memory_bytes;
-    int64_t bed;        /* the number of the bed that others would settle, too; 0: none would */
-    char *spec;         /* owned; NULL once the worker has started */
-    int64_t saved_step; /* of the furthest checkpoint that any attempt told of, */
-    int saved_in;       /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
+    int more_time, more_memory; /* how often an attempt had too little, and was given twice as much */
+    int64_t bed;                /* the number of the bed that others would settle, too; 0: none would */
+    char *spec;                 /* owned; NULL once the worker has started */
+    int64_t saved_step;         /* of the furthest checkpoint that any attempt told of, */
+    int saved_in;               /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
 } job_claim;
 
 #define SHORT_JOB 2.0 /* s of estimate: what takes less has a lane */
@@ -126,6 +128,7 @@ store_status store_claim_job(job_store *store, queue_order order, int free_threa
 store_status store_record_bed(job_store *store, const job_claim *claim, const char *sha256);
 /* Gives the job the bed that another has settled. False: nobody has; the job settles it for the others, too. */
 bool store_bring_bed(job_store *store, const job_claim *claim);
+bool store_has_bed(job_store *store, int64_t bed);
 /* Beds that no job waits for any more. */
 void store_drop_beds(job_store *store);
 
@@ -149,9 +152,14 @@ store_status store_put_back(job_store *store, const job_claim *claim, bool uses_
 store_status store_put_off(job_store *store, const job_claim *claim, const char *message);
 bool store_claim_holds(job_store *store, const job_claim *claim);
 
-/* Jobs that a dead daemon left running are put back, with no attempt used, or recorded as done where the result is
- * there. Anything but STORE_OK: to be called again. */
-store_status store_recover(job_store *store);
+/* What its worker is called, by which the next daemon finds it again, and why that has not begun to work ("": it has). Between
+ * begin and end. */
+store_status store_record_worker(job_store *store, const job_claim *claim, const char *name, const char *waits_for);
+/* Jobs that a dead daemon left running are recorded as done where the result is there, left as they are where `adopt` goes on with
+ * the worker of that name, or else put back, with no attempt used. Anything but STORE_OK: to be called again. The claim's spec is
+ * only lent. */
+typedef bool worker_adopter(void *context, const job_claim *claim, const char *name);
+store_status store_recover(job_store *store, worker_adopter *adopt, void *context);
 /* unused_folders.c: those that a POST made which a crash has cut off. Before the first request: one that is being posted has no
  * row either. */
 store_status store_remove_unused_folders(job_store *store);

@@ -17,11 +17,15 @@
 
 #define FENCE " WHERE number=? AND attempt=? AND status='running'"
 
-enum { LONGEST_DELAY = 3600 /* s; no job is put off for longer */ };
+enum { LONGEST_DELAY = 3600 /* s; no job is put off for longer */, LONGEST_WORKER_NAME = 200 };
 /* s: no longer, so that a job goes on soon after the machine is sound again */
 #define LONGEST_DELAY_OF_SETBACKS 60.0
 
-static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
+/* After the number, the id, the attempt and the threads. */
+#define CLAIMED " estimated_seconds, estimated_memory_bytes, spec, study, attempts_before, bed, starts, more_time, more_memory"
+
+/* name: of its worker, where the row has that; NULL: not wanted. */
+static store_status read_claim(sqlite3_stmt *statement, job_claim *claim, char *name)
 {
     const int code = sqlite3_step(statement);
     if (code != SQLITE_ROW) {
@@ -34,8 +38,12 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
                           .estimated_seconds = sqlite3_column_double(statement, 4),
                           .estimated_memory_bytes = sqlite3_column_double(statement, 5),
                           .saved_in = sqlite3_column_int(statement, 8),
-                          .bed = sqlite3_column_int64(statement, 9) };
+                          .bed = sqlite3_column_int64(statement, 9),
+                          .starts = sqlite3_column_int(statement, 10),
+                          .more_time = sqlite3_column_int(statement, 11),
+                          .more_memory = sqlite3_column_int(statement, 12) };
     snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
+    if (name) snprintf(name, LONGEST_WORKER_NAME, "%s", (const char *)sqlite3_column_text(statement, 13));
     const char *spec = (const char *)sqlite3_column_text(statement, 6);
     claim->spec = spec ? study_parts_expand(sqlite3_db_handle(statement), sqlite3_column_int64(statement, 7), spec) : NULL;
     /* The update counts only when the statement has ended well. */
@@ -51,10 +59,10 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim)
         and " AND not_before NOT BETWEEN ?2 AND ?5"                                                                                \
             " AND (bed IS NULL OR bed NOT IN (SELECT value FROM json_each(?6))) ORDER BY " order " LIMIT 1)"
 #define CLAIM(next)                                                                                                                \
-    "UPDATE job SET status='running', message='starting', started=coalesce(started,?1), updated=?1, eta_seconds=NULL"              \
+    "UPDATE job SET status='running', message='starting', started=coalesce(started,?1), updated=?1, eta_seconds=NULL,"             \
+    " starts=starts+1, worker=NULL"                                                                                                \
     " WHERE number=" next " AND min(threads,?3)<=?4"                                                                               \
-    " RETURNING number, id, attempt, min(threads,?3), estimated_seconds, estimated_memory_bytes, spec, study, attempts_before,"    \
-    " bed"
+    " RETURNING number, id, attempt, min(threads,?3)," CLAIMED
 
 static const char *const claims[] = {
     [QUEUE_BY_TURN] = CLAIM(NEXT_JOB("job INDEXED BY job_waiting_turn", "", "priority DESC, turn, number")),
@@ -74,7 +82,7 @@ store_status store_claim_job(job_store *store, queue_order order, int free_threa
     if (status != STORE_OK) return status;
     sqlite3_stmt *statement = sql_prepare(store->writer, claims[order], "tdiidt", now, unix, (int64_t)all_threads,
                                           (int64_t)free_threads, unix + LONGEST_DELAY, beds);
-    status = statement ? read_claim(statement, claim) : STORE_FAILED;
+    status = statement ? read_claim(statement, claim, NULL) : STORE_FAILED;
     if (status == STORE_OK && order != QUEUE_SHORT)
         status = sql_run(store->writer, NULL,
                          "INSERT INTO queue_turn SELECT priority, turn FROM job WHERE number=?"
@@ -173,6 +181,15 @@ store_status store_record_silence(job_store *store, const job_claim *claim, doub
     return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
 }
 
+store_status store_record_worker(job_store *store, const job_claim *claim, const char *name, const char *waits_for)
+{
+    int64_t changed;
+    const store_status status =
+        sql_run(store->writer, &changed, "UPDATE job SET worker=?, message=coalesce(nullif(?,''),message)" FENCE, "ttii", name,
+                waits_for, claim->number, (int64_t)claim->attempt);
+    return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
+}
+
 void job_claim_note(job_claim *claim, const event_batch *events)
 {
     for (size_t i = 0; i < json_array_size(events->checkpoints); i++) {
@@ -238,8 +255,9 @@ static store_status put_back(job_store *store, const job_claim *claim, bool uses
     int64_t changed;
     const store_status status = sql_run(store->writer, &changed,
                                         "UPDATE job SET status='accepted', attempt=attempt+?, setbacks=0, not_before=0, message=?, "
-                                        "updated=?, eta_seconds=NULL" FENCE,
-                                        "ittii", (int64_t)uses_attempt, message, now, claim->number, (int64_t)claim->attempt);
+                                        "updated=?, eta_seconds=NULL, more_time=?, more_memory=?" FENCE,
+                                        "ittiiii", (int64_t)uses_attempt, message, now, (int64_t)claim->more_time,
+                                        (int64_t)claim->more_memory, claim->number, (int64_t)claim->attempt);
     return status == STORE_OK && changed == 0 ? STORE_CONFLICT : status;
 }
 
@@ -271,15 +289,14 @@ store_status store_put_off(job_store *store, const job_claim *claim, const char 
 
 /* --- after a crash --- */
 
-/* The oldest job still marked running, with a number above `after`. */
-static store_status next_orphan(job_store *store, int64_t after, job_claim *claim)
+/* The oldest job still marked running, with a number above `after`, and what its worker is called. */
+static store_status next_orphan(job_store *store, int64_t after, job_claim *claim, char name[LONGEST_WORKER_NAME])
 {
-    sqlite3_stmt *statement = sql_prepare(
-        store->writer,
-        "SELECT number, id, attempt, threads, estimated_seconds, estimated_memory_bytes, spec, study, attempts_before, bed FROM job"
-        " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
-        "i", after);
-    return statement ? read_claim(statement, claim) : STORE_FAILED;
+    sqlite3_stmt *statement = sql_prepare(store->writer,
+                                          "SELECT number, id, attempt, threads," CLAIMED ", coalesce(worker,'') FROM job"
+                                          " WHERE status='running' AND number>? ORDER BY number LIMIT 1",
+                                          "i", after);
+    return statement ? read_claim(statement, claim, name) : STORE_FAILED;
 }
 
 /* What its worker wrote after the last look of the daemon that died. */
@@ -305,33 +322,39 @@ static store_status record_left_events(job_store *store, job_claim *claim)
 
 /* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. One that was not made
  * from this job's spec, or that does not tell, does not count: the job runs again. */
-static store_status recover_one(job_store *store, job_claim *claim)
+static store_status recover_result(job_store *store, const job_claim *claim)
 {
-    store_status status = record_left_events(store, claim);
-    if (status != STORE_OK) return status;
     errno = 0;
     char *text = job_file_read(store->data, claim->id, JOB_RESULT_FILE, LARGEST_RESULT);
     if (!text && machine_error_is(errno)) return STORE_FAILED;
     free(text);
     char *document = job_result_read(store->data, claim->id, claim->spec);
-    status = document ? store_record_success(store, claim, document) : STORE_REFUSED;
-    const bool done = status == STORE_OK;
+    const store_status status = document ? store_record_success(store, claim, document) : STORE_REFUSED;
     free(document);
-    if (status == STORE_REFUSED) job_result_remove(store->data, claim->id); /* nobody is to take it for one again */
-    if (status == STORE_REFUSED) status = store_put_back(store, claim, false, "the daemon stopped while it ran");
-    if (status != STORE_OK) return status;
-    log_line("job %s: left running by an earlier daemon; %s", claim->id, done ? "its result is there" : "put back");
-    return STORE_OK;
+    if (status == STORE_OK) log_line("job %s: left running by an earlier daemon; its result is there", claim->id);
+    return status;
 }
 
-store_status store_recover(job_store *store)
+static store_status recover_one(job_store *store, job_claim *claim, const char *name, worker_adopter *adopt, void *context)
+{
+    store_status status = record_left_events(store, claim);
+    if (status == STORE_OK) status = recover_result(store, claim);
+    if (status != STORE_REFUSED || adopt(context, claim, name)) return status == STORE_REFUSED ? STORE_OK : status;
+    job_result_remove(store->data, claim->id); /* nobody is to take it for one again */
+    status = store_put_back(store, claim, false, "the daemon stopped while it ran");
+    if (status == STORE_OK) log_line("job %s: left running by an earlier daemon; put back", claim->id);
+    return status;
+}
+
+store_status store_recover(job_store *store, worker_adopter *adopt, void *context)
 {
     job_claim claim = { 0 };
+    char name[LONGEST_WORKER_NAME];
     int64_t after = 0;
     store_status status, worst = STORE_OK;
-    while ((status = next_orphan(store, after, &claim)) == STORE_OK) {
+    while ((status = next_orphan(store, after, &claim, name)) == STORE_OK) {
         after = claim.number;
-        status = recover_one(store, &claim);
+        status = recover_one(store, &claim, name, adopt, context);
         free(claim.spec);
         if (status == STORE_CONFLICT) status = STORE_OK; /* dismissed meanwhile */
         if (status != STORE_OK) worst = status;

@@ -228,6 +228,12 @@ static const char interfaces[] =
     " JOIN json_each(result.document,'$.repose.interface.height') AS height ON height.key=x.key"
     " LEFT JOIN json_each(result.document,'$.repose.interface.standard_error') AS error ON error.key=x.key;";
 
+/* What finds a worker again that lives on without its daemon, and what it was given beyond what was expected. */
+static const char workers_of_jobs[] = "ALTER TABLE job ADD COLUMN starts INTEGER NOT NULL DEFAULT 0;"
+                                      "ALTER TABLE job ADD COLUMN worker TEXT;"
+                                      "ALTER TABLE job ADD COLUMN more_time INTEGER NOT NULL DEFAULT 0;"
+                                      "ALTER TABLE job ADD COLUMN more_memory INTEGER NOT NULL DEFAULT 0;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -271,5 +277,6 @@ const schema_migration schema_migrations[] = {
     { { shared_beds } },
     { { sent_beds } },
     { { interfaces } },
+    { { workers_of_jobs } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -38,6 +38,12 @@ static bool find_bed(job_store *store, int64_t bed, char from[JOB_ID_SIZE], char
     return found;
 }
 
+bool store_has_bed(job_store *store, int64_t bed)
+{
+    char from[JOB_ID_SIZE], line[LONGEST_LINE];
+    return find_bed(store, bed, from, line);
+}
+
 /* Where that fails the next job finds once more that the file is gone. */
 static void forget_bed(job_store *store, int64_t bed)
 {
