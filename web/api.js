@@ -5,11 +5,12 @@ export const root = new URL('..', import.meta.url).pathname;
 
 const SILENCE = 20_000; // ms without a byte: an answer may take as long as it likes, while it comes
 
-// What the daemon answered, when it was not what we asked for. `status` 0: no answer at all.
+// What the daemon answered, when it was not what we asked for. `status` 0: no answer at all; `problem`: the document, if there was one.
 export class ApiError extends Error {
-  constructor(status, message) {
+  constructor(status, message, problem = null) {
     super(message);
     this.status = status;
+    this.problem = problem;
   }
 }
 
@@ -42,7 +43,7 @@ export async function request(path, { method = 'GET', accept = 'application/json
   } finally {
     clearTimeout(timer);
   }
-  if (!answer.ok) throw new ApiError(answer.status, await reasonIn(answer));
+  if (!answer.ok) throw await errorOf(answer);
   return answer;
 }
 
@@ -60,12 +61,12 @@ async function whole(answer, heard) {
 
 export const json = async (path, options) => (await request(path, options)).json();
 
-async function reasonIn(answer) {
+async function errorOf(answer) {
   try {
     const problem = await answer.json();
-    return problem.detail || problem.title || `status ${answer.status}`;
+    return new ApiError(answer.status, problem.detail || problem.title || `status ${answer.status}`, problem);
   } catch {
-    return `status ${answer.status}`;
+    return new ApiError(answer.status, `status ${answer.status}`);
   }
 }
 

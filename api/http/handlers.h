@@ -19,6 +19,8 @@ route_handler list_jobs, show_job, remove_job, retry_job, pin_job, unpin_job;
 void respond_jobs_csv(api_service *service, const http_request *request, http_response *response, const job_filter *filter);
 /* handlers_batch.c */
 route_handler cancel_jobs, delete_jobs;
+/* handlers_examples.c */
+route_handler list_examples, show_example;
 /* handlers_results.c */
 route_handler show_results, show_output, show_spec, show_log;
 /* handlers_series.c */

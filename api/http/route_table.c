@@ -2,14 +2,16 @@
 
 const http_route route_table[] = {
     { "GET", "/", " status q study cursor open f ", show_landing, .formats = " json html ",
-      .open = true }, /* read by the page: what it shows */
-    { "GET", "/web/{}", "", show_asset, .open = true },
+      .open = true },                                                                /* read by the page: what it shows */
+    { "GET", "/web/{}", " id ids from process example ", show_asset, .open = true }, /* likewise */
     { "GET", "/conformance", " f ", show_conformance, .open = false },
     { "GET", "/api", " f version ", show_api, .formats = " json yaml " },
     { "GET", "/problems", " f ", list_problems, .open = false },
     { "GET", "/problems/{}", " f ", show_problem, .open = false },
     { "GET", "/processes", " limit cursor f ", list_processes, .open = false },
     { "GET", "/processes/{}", " f ", show_process, .open = false },
+    { "GET", "/examples", " f ", list_examples, .slow = true },
+    { "GET", "/examples/{}", " f ", show_example, .open = false },
     { "POST", "/processes/{}/execution", " f ", execute_process, .open = false },
     { "GET", "/jobs", " status* processID* type* datetime minDuration maxDuration q study label. value. limit cursor sort f ",
       list_jobs, .formats = " json html csv " },

@@ -12,6 +12,7 @@
 #define LISTED .is_listed = true
 #define IN_VIEW(place) .in_view = (place)
 #define IN_LIST(order, before, by, after) .list_order = (order), .list_before = (before), .list_factor = (by), .list_after = (after)
+#define IN_FORM(place, in) .form_order = (place), .form_unit = (in)
 #define FREE_OF_BED .is_free_of_bed = true
 #define ACTS_LATER .acts_later = true
 #define OPEN_RANGE(low, high) .minimum = (low), .minimum_open = true, .maximum = (high)

@@ -55,6 +55,14 @@ static json_t *listed_schema(const spec_table *table, const spec_field *field)
     return listed;
 }
 
+/* A place among the inputs that a form asks for first, and the unit that it asks in where that is not the dimension's usual one. */
+static json_t *form_schema(const spec_field *field)
+{
+    json_t *form = json_pack("{s:i}", "order", field->form_order);
+    if (field->form_unit) json_object_set_new(form, "unit", json_string(field->form_unit));
+    return form;
+}
+
 static json_t *field_schema(const spec_table *table, const spec_field *field)
 {
     json_t *schema;
@@ -101,6 +109,7 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
     default: schema = group_schema(table, field->child);
     }
     json_object_set_new(schema, "description", json_string(field->meaning));
+    if (field->form_order) json_object_set_new(schema, "x-form", form_schema(field));
     if (field->list_order) json_object_set_new(schema, "x-listed", listed_schema(table, field));
     return schema;
 }
@@ -164,6 +173,24 @@ static json_t *inputs_description(const spec_table *table)
     return inputs;
 }
 
+/* Of each unit that a number of these inputs is kept in: the others that it may be given in, as multiples of it. */
+static json_t *units_description(const spec_table *table)
+{
+    json_t *units = json_object();
+    for (size_t f = 0; f < table->count; f++) {
+        const spec_field *field = &table->field[f];
+        if (field->kind != FIELD_REAL || json_object_get(units, field->unit)) continue;
+        json_t *names = unit_names(field), *multiples = json_object(), *name;
+        size_t i;
+        double multiple;
+        json_array_foreach(names, i, name) if (unit_convert(field, json_string_value(name), 1.0, &multiple))
+            json_object_set_new(multiples, json_string_value(name), json_real(multiple));
+        json_object_set_new(units, field->unit, json_pack("{s:s, s:o}", "usual", unit_usual(field), "multiples", multiples));
+        json_decref(names);
+    }
+    return units;
+}
+
 static json_t *summary_of(const process_type *type)
 {
     return json_pack("{s:s, s:s, s:s, s:s, s:[s, s], s:[s, s]}", "id", type->name, "title", type->title, "description",
@@ -178,6 +205,7 @@ json_t *process_description(const char *process)
     json_t *description = summary_of(type);
     json_object_set_new(description, "inputs", inputs_description(type->inputs));
     json_object_set_new(description, "outputs", result_outputs_description(type->results));
+    json_object_set_new(description, "x-units", units_description(type->inputs));
     return description;
 }
 

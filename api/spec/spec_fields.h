@@ -114,6 +114,10 @@ typedef struct spec_field {
     const char *list_after; /* NULL: the unit, as is usual for it */
     double list_above;      /* shown only where it is more than this */
 
+    /* In a form: the place among the few inputs that are usually asked for. */
+    int form_order;        /* 0: folded away with the rest */
+    const char *form_unit; /* NULL: the usual one of its dimension */
+
     bool is_left_out_by_default; /* not written where it is its default: it came later than files that are still read */
     bool is_left_out_where_null; /* an object or null, which is not written where it is null */
 

@@ -35,6 +35,7 @@ typedef struct unit {
     dimension of;
     int ten;          /* one of it is 10^ten times `times` over `by` of the dimension's first unit */
     double times, by; /* 0: 1 */
+    bool is_usual;    /* what people give such numbers in */
 } unit;
 
 /* A row of inputs is of the dimension in which its unit is found first. One revolution a minute is 1/min where something
@@ -42,7 +43,7 @@ typedef struct unit {
 static const unit units[] = {
     { .name = "m", LENGTH, 0 },
     { .name = "cm", LENGTH, -2 },
-    { .name = "mm", LENGTH, -3 },
+    { .name = "mm", LENGTH, -3, .is_usual = true },
     { .name = "um", LENGTH, -6 },
     { .name = "µm", LENGTH, -6 }, /* the sign micro, U+00B5 */
     { .name = "μm", LENGTH, -6 }, /* the Greek letter, U+03BC */
@@ -82,7 +83,7 @@ static const unit units[] = {
     { .name = "1/h", FREQUENCY, 0, .by = 3600.0 },
     { .name = "rad/s", ROTATION, 0 },
     { .name = "deg/s", ROTATION, 0, .times = DEM_PI, .by = 180.0 },
-    { .name = "rpm", ROTATION, 0, .times = 2.0 * DEM_PI, .by = 60.0 },
+    { .name = "rpm", ROTATION, 0, .times = 2.0 * DEM_PI, .by = 60.0, .is_usual = true },
     { .name = "1/min", ROTATION, 0, .times = 2.0 * DEM_PI, .by = 60.0 },
     { .name = "rev/min", ROTATION, 0, .times = 2.0 * DEM_PI, .by = 60.0 },
     { .name = "rev/s", ROTATION, 0, .times = 2.0 * DEM_PI },
@@ -183,6 +184,14 @@ json_t *quantity_to_json(const spec_field *field, const json_t *quantity)
     double number;
     if (!json_is_number(value) || !name || !unit_convert(field, name, json_number_value(value), &number)) return NULL;
     return json_is_integer(value) && field->kind == FIELD_INTEGER ? json_integer(json_integer_value(value)) : json_real(number);
+}
+
+const char *unit_usual(const spec_field *field)
+{
+    const unit *own = own_unit(field);
+    for (size_t u = 0; u < unit_count; u++)
+        if (units[u].is_usual && is_allowed(field, own, &units[u])) return units[u].name;
+    return field->unit;
 }
 
 const char *unit_dimension(const spec_field *field)

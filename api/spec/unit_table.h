@@ -19,6 +19,8 @@ bool unit_convert(const spec_field *field, const char *unit, double number, doub
 /* The quantity as a number in the field's unit. New reference; NULL: it is none that the field can be given as. */
 json_t *quantity_to_json(const spec_field *field, const json_t *quantity);
 
+/* What people give numbers of this dimension in: "mm" of a length; the field's own unit where there is no other such. */
+const char *unit_usual(const spec_field *field);
 const char *unit_dimension(const spec_field *field); /* "length" */
 /* "m", "mm", ...: the field's own first. New reference. */
 json_t *unit_names(const spec_field *field);

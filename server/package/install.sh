@@ -23,8 +23,9 @@ install -d -m 755 "$root/bin"
 for program in reposed repose; do ln -sfn "../lib/reposed/$program" "$root/bin/$program"; done
 put 644 share/reposed/web web/*.html web/*.js web/*.css web/*.svg web/*.png
 put 644 share/reposed/api api/openapi.yaml
-put 644 share/reposed/examples api/examples/*.json
-put 644 share/reposed/studies api/studies/*.json
+put 644 share/reposed/api/examples api/examples/*.json
+put 644 share/reposed/api/examples/instruments api/examples/instruments/*.json
+put 644 share/reposed/api/studies api/studies/*.json
 put 644 share/doc/reposed "$sources/reposed.conf" README.md LICENSE core/NUMERICS.md server/DESIGN.md api/CALIBRATION.md api/FRAMES.md
 put 644 share/man/man1 "$sources/repose.1"
 put 644 share/man/man8 "$sources/reposed.8"

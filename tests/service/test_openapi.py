@@ -142,6 +142,11 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/metrics", f"{url}/metrics", 200)
     call("/processes", f"{url}/processes", 200)
     call("/processes/{process}", f"{url}/processes/drum", 200)
+    examples = call("/examples", f"{url}/examples", 200).json()["examples"]
+    assert len(examples) > 20
+    for one in examples:
+        call("/examples/{example}", one["links"][0]["href"], 200)
+    call("/examples/{example}", f"{url}/examples/no-such", 404)
     created = call("/processes/{process}/execution", f"{url}/processes/drum/execution", 201, "POST",
                    json={"inputs": ENDLESS})
     assert created.headers["Location"] == f"{url}/jobs/{created.json()['jobID']}"

@@ -48,7 +48,7 @@ def test_what_is_installed_serves_its_page_and_runs_its_example(tree, tmp_path):
         script = re.search(r'src="(web/[a-z_]+\.js)"', page.text).group(1)
         assert installed.get(f"/{script}").text == (ROOT / script).read_text()
         assert installed.get("/api").status_code == 200
-        example = (tree / "share/reposed/examples/granule.json").read_bytes()
+        example = (tree / "share/reposed/api/examples/granule.json").read_bytes()
         answer = requests.post(installed.url + "/processes/granule/execution", data=example,
                                headers={"Content-Type": "application/json"}, timeout=30)
         assert installed.ended(answer.json()["jobID"])["status"] == "successful"

@@ -7,7 +7,7 @@ static const spec_field fields[] = {
       .meaning = "what the particles stand in: a cylinder of that diameter, or a flat box of that width and depth" },
     { SPEC_VESSEL, "diameter", FIELD_REAL, .required = true, .spared_by = "width", .unit = "m", RANGE(0.001, 20.0), .fallback = NAN,
       AT(orifice.vessel_diameter), USUAL(0.003, 3.0), SLIP("cm", 0.01), COLUMN("vessel_width", REAL, scene.diameter), LISTED,
-      IN_LIST(140, "vessel Ø ", 1, NULL), IN_VIEW(141),
+      IN_LIST(140, "vessel Ø ", 1, NULL), IN_VIEW(141), IN_FORM(10, NULL),
       .meaning =
           "inner diameter; at least 5 of the largest particle diameters. Above a slot: the same as width. The column has the "
           "diameter or the width" },
@@ -28,7 +28,7 @@ static const spec_field fields[] = {
       .meaning = "the hole in the middle of the floor, or below the hopper, which is closed until the bed is at rest" },
     { SPEC_ORIFICE, "diameter", FIELD_REAL, .required = true, .spared_by = "width", .unit = "m", RANGE(1e-5, 20.0), .fallback = NAN,
       AT(orifice.diameter), USUAL(3e-4, 1.0), SLIP("cm", 0.01), COLUMN("opening", REAL, scene.orifice.opening), LISTED,
-      IN_LIST(150, "orifice ", 1, NULL), IN_VIEW(144),
+      IN_LIST(150, "orifice ", 1, NULL), IN_VIEW(144), IN_FORM(20, NULL),
       .meaning =
           "of a round hole; at least one of the largest particle diameters. The column has the diameter, or the slot's width" },
     { SPEC_ORIFICE, "width", FIELD_REAL, .unit = "m", RANGE(1e-5, 20.0), .fallback = NAN, .excludes_too = "diameter",
@@ -40,7 +40,7 @@ static const spec_field fields[] = {
       COLUMN("hopper_half_angle_deg", REAL, inputs.orifice.half_angle_deg), .column_may_miss = true, IN_VIEW(145),
       .unit = "degrees", .meaning = "a cone, or two inclined plates over a slot, down to the orifice; null: a flat floor" },
     { SPEC_HOPPER, "half_angle_deg", FIELD_REAL, .required = true, .unit = "degrees", RANGE(5.0, 85.0), .fallback = NAN,
-      AT(orifice.half_angle_deg), .meaning = "between its wall and the vertical" },
+      AT(orifice.half_angle_deg), IN_FORM(30, NULL), .meaning = "between its wall and the vertical" },
 
     FIELDS_OF_PARTICLES,
 

@@ -50,7 +50,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .spared_by_too = "size_distribution", .excludes_too = "size_distribution", .unit = "m", RANGE(1e-5, 1.0), \
       .fallback = NAN, AT_SPECIES(diameter), \
       USUAL(1e-4, 0.05), SLIP("cm", 0.01), \
-      COLUMN("diameter", REAL, scene.species[0].diameter), LISTED, IN_LIST(130, "× ", 1, NULL), IN_VIEW(200), \
+      COLUMN("diameter", REAL, scene.species[0].diameter), LISTED, IN_LIST(130, "× ", 1, NULL), IN_VIEW(200), IN_FORM(40, NULL), \
       .meaning = "diameter of the sphere, or of each sphere of a cluster; to be left out only where every sphere of a " \
                  "cluster has its own, or with size_distribution; the column then has that of the sphere of mean volume" }, \
     { SPEC_PARTICLES, "size_distribution", FIELD_OBJECT_OR_NULL, SPEC_SIZES, .is_left_out_where_null = true, AT_SIZES(type), \
@@ -107,7 +107,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
                  "hertz-mindlin: elastic, no-slip, damping set from restitution" }, \
     { SPEC_CONTACT, "friction", FIELD_REAL, .unit = "", RANGE(0.0, 5.0), .fallback = 0.3, AT(friction), \
       USUAL(0.0, 1.5), \
-      COLUMN("friction", REAL, scene.contact.friction), LISTED, IN_LIST(10, "μ ", 1, NULL), IN_VIEW(220), \
+      COLUMN("friction", REAL, scene.contact.friction), LISTED, IN_LIST(10, "μ ", 1, NULL), IN_VIEW(220), IN_FORM(60, NULL), \
       .meaning = "coefficient of friction between particles" }, \
     { SPEC_CONTACT, "rolling_friction", FIELD_REAL, .unit = "", RANGE(0.0, 1.0), .fallback = 0.0, AT(rolling_friction), \
       COLUMN("rolling_friction", REAL, scene.contact.rolling_friction), IN_VIEW(250), \
@@ -241,7 +241,7 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
 /* Of processes that stand still: fill, heap, orifice. whole, all, one: how the wall is told of. */
 #define FIELD_OF_COUNT \
     { SPEC_INPUTS, "particle_count", FIELD_INTEGER, .unit = "", RANGE(8, 5000000), .fallback = NAN, .excludes_too = "fill_height", \
-      AT(particle_count), COLUMN("particles", COUNT, scene.particle_count), LISTED, IN_LIST(110, "", 1, NULL), \
+      AT(particle_count), COLUMN("particles", COUNT, scene.particle_count), LISTED, IN_LIST(110, "", 1, NULL), IN_FORM(50, NULL), \
       .meaning = "number of particles, instead of fill_height" }
 
 #define FIELDS_OF_STANDING_WALL(whole, all, one) \
