@@ -195,9 +195,12 @@ void unpin_job(api_service *service, const http_request *request, http_response 
     set_pin(service, request, response, false);
 }
 
+enum { LONGEST_PAGE = 256 << 20 };
+
 typedef struct job_page {
-    json_t *jobs;
-    int64_t limit;
+    text_buffer text; /* the jobs, with commas between them */
+    const char *base; /* before addresses */
+    int64_t limit, jobs;
     char last[JOB_CURSOR_SIZE]; /* of the last job on the page */
     bool more;
 } job_page;
@@ -205,12 +208,12 @@ typedef struct job_page {
 static bool add_job_to_page(void *context, const job_record *job)
 {
     job_page *page = context;
-    if ((int64_t)json_array_size(page->jobs) == page->limit) {
-        page->more = true;
-        return false;
-    }
+    page->more = page->jobs == page->limit;
+    if (page->more) return false;
     snprintf(page->last, sizeof page->last, "%s", job->cursor);
-    return json_array_append_new(page->jobs, status_info(job)) == 0;
+    if (page->jobs++ > 0) text_buffer_add(&page->text, ",", 1);
+    status_info_write(&page->text, job, page->base);
+    return !page->text.failed;
 }
 
 static void add_escaped(text_buffer *out, const char *text)
@@ -290,17 +293,19 @@ static json_t *counts_to_json(const int64_t counts[JOB_STATUSES])
 static void respond_list(api_service *service, const http_request *request, http_response *response, job_filter *filter)
 {
     int64_t counts[JOB_STATUSES] = { 0 };
-    job_page page = { .jobs = json_array(), .limit = filter->limit };
+    job_page page = { .base = response->base, .limit = filter->limit };
+    text_buffer_init(&page.text, LONGEST_PAGE);
+    text_buffer_print(&page.text, "{\"jobs\":[");
     filter->limit++; /* one more than asked for says whether there is a next page */
-    if (store_list_jobs(service->store, filter, counts, add_job_to_page, &page) != STORE_OK) {
-        json_decref(page.jobs);
+    if (store_list_jobs(service->store, filter, counts, add_job_to_page, &page) != STORE_OK || page.text.failed) {
+        text_buffer_clear(&page.text);
         respond_store_failure(response, STORE_FAILED, "list the jobs");
         return;
     }
-    json_t *links = json_pack("[o]", list_link(request, "self", NULL));
-    if (page.more) json_array_append_new(links, list_link(request, "next", page.last));
-    http_respond_json(response, 200,
-                      json_pack("{s:o, s:o, s:o}", "jobs", page.jobs, "links", links, "counts", counts_to_json(counts)));
+    json_t *rest = json_pack("{s:[o], s:o}", "links", list_link(request, "self", NULL), "counts", counts_to_json(counts));
+    if (page.more) json_array_append_new(json_object_get(rest, "links"), list_link(request, "next", page.last));
+    text_buffer_add(&page.text, "]", 1);
+    http_respond_json_after(response, &page.text, rest);
 }
 
 void list_jobs(api_service *service, const http_request *request, http_response *response)

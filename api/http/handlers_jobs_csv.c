@@ -67,13 +67,18 @@ static void write_header(const jobs_table *table, text_buffer *out)
 
 static void add_text(text_buffer *out, const char *text) { text_buffer_add_csv_field(out, text, strlen(text)); }
 
-static void add_value(text_buffer *out, const json_t *value)
+/* found: where the last value was; they come in the order of the columns. */
+static void add_value(text_buffer *out, const job_record *job, const char *name, size_t *found)
 {
-    text_buffer_print(out, ",");
-    if (json_is_string(value)) add_text(out, json_string_value(value));
-    else if (json_is_boolean(value)) text_buffer_print(out, "%d", json_is_true(value));
-    else if (json_is_integer(value)) text_buffer_print(out, "%lld", (long long)json_integer_value(value));
-    else if (json_is_real(value)) text_buffer_add_number(out, json_real_value(value));
+    text_buffer_add(out, ",", 1);
+    size_t at = *found;
+    while (at < job->summary_count && strcmp(job->summary[at].name, name) != 0) at++;
+    if (at == job->summary_count) return;
+    *found = at + 1;
+    const summary_value *value = &job->summary[at];
+    if (value->kind == SUMMARY_TEXT) add_text(out, value->text);
+    else if (value->kind == SUMMARY_REAL) text_buffer_add_number(out, value->real);
+    else text_buffer_print(out, "%lld", (long long)value->whole);
 }
 
 static bool add_row(void *context, const job_record *job)
@@ -95,7 +100,8 @@ static bool add_row(void *context, const job_record *job)
     free(label);
     const char *name;
     json_t *unused;
-    json_object_foreach(table->columns, name, unused) add_value(out, json_object_get(job->summary, name));
+    size_t found = 0;
+    json_object_foreach(table->columns, name, unused) add_value(out, job, name, &found);
     text_buffer_print(out, "\r\n");
     return !out->failed;
 }

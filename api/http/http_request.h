@@ -90,6 +90,8 @@ bool http_request_integer(const http_request *request, const char *name, int64_t
 void http_response_init(http_response *response);
 void http_response_clear(http_response *response);
 void http_respond_json(http_response *response, int status, json_t *document); /* takes the reference; NULL: no memory */
+/* An object whose first members are written already, from its brace on; rest has the others. Takes both. */
+void http_respond_json_after(http_response *response, text_buffer *begun, json_t *rest);
 void http_respond_text(http_response *response, int status, const char *content_type, char *text, size_t length); /* takes text */
 /* type NULL: that of the kind of problem which has this title (problem_kinds.h). */
 void http_respond_problem(http_response *response, int status, const char *type, const char *title, const char *format, ...)

@@ -7,6 +7,7 @@
 
 #include "http_range.h"
 #include "http_request.h"
+#include "json_writer.h"
 #include "problem_kinds.h"
 
 void http_response_init(http_response *response) { *response = (http_response){ .status = 500, .file = -1 }; }
@@ -54,22 +55,25 @@ static void make_links_absolute(const char *base, const json_t *document)
 
 enum { LONGEST_JSON = 1 << 30 };
 
-static int add_piece(const char *piece, size_t length, void *out)
-{
-    text_buffer_add(out, piece, length);
-    return ((const text_buffer *)out)->failed ? -1 : 0;
-}
-
 /* Into one buffer that is sent as it is: json_dumps would copy all of it once more, which is half the time of a list. */
 void http_respond_json(http_response *response, int status, json_t *document)
 {
     text_buffer text;
     text_buffer_init(&text, LONGEST_JSON);
     if (*response->base) make_links_absolute(response->base, document);
-    if (!document || json_dump_callback(document, add_piece, &text, JSON_COMPACT | JSON_REAL_PRECISION(15)) != 0)
-        text_buffer_clear(&text);
+    if (!json_write(&text, document)) text_buffer_clear(&text);
     json_decref(document);
     http_respond_text(response, status, status >= 400 ? "application/problem+json" : "application/json", text.text, text.length);
+}
+
+void http_respond_json_after(http_response *response, text_buffer *begun, json_t *rest)
+{
+    const size_t end = begun->length;
+    if (*response->base) make_links_absolute(response->base, rest);
+    if (json_write(begun, rest)) begun->text[end] = ','; /* its brace */
+    else text_buffer_clear(begun);
+    json_decref(rest);
+    http_respond_text(response, 200, "application/json", begun->text, begun->length);
 }
 
 static void set_type(const http_response *response, json_t *document, const char *title)

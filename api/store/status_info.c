@@ -2,7 +2,12 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "json_writer.h"
+
+enum { LONGEST_BASE = 400, LONGEST_INFO = 1 << 20 };
 
 static const char *const status_names[] = { "accepted", "running", "successful", "failed", "dismissed" };
 _Static_assert(sizeof status_names / sizeof *status_names == JOB_STATUSES, "each status has a name");
@@ -22,7 +27,8 @@ bool job_status_parse(const char *name, size_t length, job_status *status)
 void job_record_clear(job_record *job)
 {
     json_decref(job->label);
-    json_decref(job->summary);
+    for (size_t i = 0; i < job->summary_count; i++) free(job->summary[i].text);
+    free(job->summary);
     *job = (job_record){ .number = 0 };
 }
 
@@ -31,7 +37,9 @@ json_t *link_to(const char *rel, const char *type, const char *href)
     return json_pack("{s:s, s:s, s:s}", "rel", rel, "type", type, "href", href);
 }
 
-static json_t *links_of(const job_record *job)
+#define WRITE(out, literal) text_buffer_add(out, literal, sizeof literal - 1)
+
+static void write_links(text_buffer *out, const job_record *job, const char *base)
 {
     static const struct {
         const char *rel, *type, *end;
@@ -50,40 +58,102 @@ static json_t *links_of(const job_record *job)
         { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "drum" },
         { "archive", "application/x-tar", .end = "/files.tar" },
     };
-    json_t *list = json_array();
+    char between = '[';
     for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
         if (links[i].is_result && job->status != JOB_SUCCESSFUL) continue;
         if (links[i].process && strcmp(job->process, links[i].process) != 0) continue;
         if (links[i].but && strcmp(job->process, links[i].but) == 0) continue;
-        char href[80];
-        snprintf(href, sizeof href, "/jobs/%s%s", job->id, links[i].end);
-        json_array_append_new(list, link_to(links[i].rel, links[i].type, href));
+        char href[LONGEST_BASE + 80];
+        snprintf(href, sizeof href, "%.*s/jobs/%s%s", LONGEST_BASE, base, job->id, links[i].end);
+        text_buffer_add(out, &between, 1);
+        between = ',';
+        WRITE(out, "{\"rel\":");
+        json_write_string(out, links[i].rel);
+        WRITE(out, ",\"type\":");
+        json_write_string(out, links[i].type);
+        WRITE(out, ",\"href\":");
+        json_write_string(out, href);
+        WRITE(out, "}");
     }
-    return list;
+    WRITE(out, "]");
 }
 
-static void set_time(json_t *info, const char *name, const char *time)
+static void write_summary(text_buffer *out, const job_record *job)
 {
-    if (time[0]) json_object_set_new(info, name, json_string(time));
+    char between = '{';
+    for (size_t i = 0; i < job->summary_count; i++) {
+        const summary_value *value = &job->summary[i];
+        text_buffer_add(out, &between, 1);
+        between = ',';
+        json_write_string(out, value->name);
+        WRITE(out, ":");
+        if (value->kind == SUMMARY_REAL) json_write_real(out, value->real);
+        else if (value->kind == SUMMARY_TEXT) json_write_string(out, value->text);
+        else if (value->kind == SUMMARY_WHOLE) json_write_integer(out, value->whole);
+        else if (value->whole) WRITE(out, "true");
+        else WRITE(out, "false");
+    }
+    if (between == '{') WRITE(out, "{");
+    WRITE(out, "}");
+}
+
+/* "": it is not there. */
+static void write_text(text_buffer *out, const char *name, const char *text)
+{
+    if (!text[0]) return;
+    WRITE(out, ",");
+    json_write_string(out, name);
+    WRITE(out, ":");
+    json_write_string(out, text);
+}
+
+static void write_whole(text_buffer *out, const char *name, int64_t number)
+{
+    WRITE(out, ",");
+    json_write_string(out, name);
+    WRITE(out, ":");
+    json_write_integer(out, number);
+}
+
+void status_info_write(text_buffer *out, const job_record *job, const char *base)
+{
+    WRITE(out, "{\"jobID\":");
+    json_write_string(out, job->id);
+    write_text(out, "processID", job->process);
+    write_text(out, "type", "process");
+    write_text(out, "status", job_status_name(job->status));
+    WRITE(out, ",\"message\":");
+    json_write_string(out, job->message);
+    write_whole(out, "progress", (int64_t)job->progress);
+    write_whole(out, "attempt", job->attempt);
+    write_whole(out, "priority", job->priority);
+    write_text(out, "created", job->created);
+    write_text(out, "started", job->started);
+    write_text(out, "finished", job->finished);
+    write_text(out, "updated", job->updated);
+    if (job->status == JOB_RUNNING && isfinite(job->eta_seconds)) {
+        WRITE(out, ",\"eta_seconds\":");
+        json_write_real(out, job->eta_seconds);
+    }
+    write_text(out, "studyID", job->study);
+    if (job->is_pinned) WRITE(out, ",\"pinned\":true");
+    if (job->label) {
+        WRITE(out, ",\"label\":");
+        if (!json_write(out, job->label)) out->failed = true;
+    }
+    WRITE(out, ",\"summary\":");
+    write_summary(out, job);
+    WRITE(out, ",\"links\":");
+    write_links(out, job, base);
+    WRITE(out, "}");
 }
 
 json_t *status_info(const job_record *job)
 {
-    json_t *info =
-        json_pack("{s:s, s:s, s:s, s:s, s:s, s:i, s:i}", "jobID", job->id, "processID", job->process, "type", "process", "status",
-                  job_status_name(job->status), "message", job->message, "progress", (int)job->progress, "attempt", job->attempt);
-    if (!info) return NULL;
-    json_object_set_new(info, "priority", json_integer(job->priority));
-    set_time(info, "created", job->created);
-    set_time(info, "started", job->started);
-    set_time(info, "finished", job->finished);
-    set_time(info, "updated", job->updated);
-    if (job->status == JOB_RUNNING && isfinite(job->eta_seconds))
-        json_object_set_new(info, "eta_seconds", json_real(job->eta_seconds));
-    if (job->study[0]) json_object_set_new(info, "studyID", json_string(job->study));
-    if (job->is_pinned) json_object_set_new(info, "pinned", json_true());
-    json_object_set(info, "label", job->label);
-    json_object_set(info, "summary", job->summary);
-    json_object_set_new(info, "links", links_of(job));
+    text_buffer text;
+    text_buffer_init(&text, LONGEST_INFO);
+    status_info_write(&text, job, "");
+    json_t *info = text.failed ? NULL : json_loadb(text.text, text.length, 0, NULL);
+    text_buffer_clear(&text);
     return info;
 }

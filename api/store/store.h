@@ -31,6 +31,15 @@ enum { JOB_TIME_SIZE = 28, JOB_CURSOR_SIZE = 100 };
 const char *job_status_name(job_status status);
 bool job_status_parse(const char *name, size_t length, job_status *status);
 
+/* What is not known yet is left out. */
+typedef struct summary_value {
+    const char *name; /* of the tables of fields, or a constant */
+    enum { SUMMARY_WHOLE, SUMMARY_REAL, SUMMARY_TEXT, SUMMARY_TRUTH } kind;
+    int64_t whole; /* of a truth 0 or 1 */
+    double real;
+    char *text; /* owned; NULL where it is none */
+} summary_value;
+
 typedef struct job_record {
     int64_t number; /* order of submission */
     char id[JOB_ID_SIZE], process[16];
@@ -40,9 +49,10 @@ typedef struct job_record {
     double progress, eta_seconds; /* percent; s, NaN: unknown */
     char created[JOB_TIME_SIZE], started[JOB_TIME_SIZE], finished[JOB_TIME_SIZE], updated[JOB_TIME_SIZE];
     char message[1024];
-    bool is_pinned;               /* no rule removes it */
-    json_t *label;                /* owned */
-    json_t *summary;              /* owned: main inputs, and main results once there are any */
+    bool is_pinned;         /* no rule removes it */
+    json_t *label;          /* owned */
+    summary_value *summary; /* (summary_count) owned: main inputs, and main results once there are any */
+    size_t summary_count;
     char cursor[JOB_CURSOR_SIZE]; /* of a list: what comes after this job begins with this filter->after */
 } job_record;
 

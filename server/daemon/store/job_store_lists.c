@@ -37,30 +37,41 @@ static void copy_text(char *text, size_t size, sqlite3_stmt *row, int column)
     text_copy(text, size, (const char *)sqlite3_column_text(row, column));
 }
 
-static bool is_truth(const field_tables *fields, int i)
+static const char *name_of(const field_tables *fields, int i)
 {
-    const int listed = i - RECORD_COLUMNS - MORE_OF_JOB;
-    return listed >= 0 && field_column_is_truth(fields->listed[listed]);
+    static const char *const of_job[MORE_OF_JOB] = { "threads", "estimated_seconds" };
+    return i < MORE_OF_JOB ? of_job[i] : fields->listed[i - MORE_OF_JOB]->shown_as;
 }
 
-static json_t *summary_of(const field_tables *fields, sqlite3_stmt *row)
+/* False: it is not known yet. */
+static bool read_value(const field_tables *fields, sqlite3_stmt *row, int i, summary_value *value)
 {
-    json_t *summary = json_object();
-    assert(sqlite3_column_count(row) == RECORD_COLUMNS + MORE_OF_JOB + (int)fields->listed_count);
-    for (int i = RECORD_COLUMNS; i < sqlite3_column_count(row); i++) {
-        const char *name = sqlite3_column_name(row, i);
-        switch (sqlite3_column_type(row, i)) {
-        case SQLITE_INTEGER:
-            json_object_set_new(summary, name,
-                                is_truth(fields, i) ? json_boolean(sqlite3_column_int(row, i))
-                                                    : json_integer(sqlite3_column_int64(row, i)));
-            break;
-        case SQLITE_FLOAT: json_object_set_new(summary, name, json_real(sqlite3_column_double(row, i))); break;
-        case SQLITE_TEXT: json_object_set_new(summary, name, json_string((const char *)sqlite3_column_text(row, i))); break;
-        default: break; /* not known yet */
-        }
+    const int column = RECORD_COLUMNS + i;
+    *value = (summary_value){ .name = name_of(fields, i) };
+    switch (sqlite3_column_type(row, column)) {
+    case SQLITE_INTEGER:
+        value->kind = i >= MORE_OF_JOB && field_column_is_truth(fields->listed[i - MORE_OF_JOB]) ? SUMMARY_TRUTH : SUMMARY_WHOLE;
+        value->whole = sqlite3_column_int64(row, column);
+        return true;
+    case SQLITE_FLOAT:
+        value->kind = SUMMARY_REAL;
+        value->real = sqlite3_column_double(row, column);
+        return isfinite(value->real);
+    case SQLITE_TEXT:
+        value->kind = SUMMARY_TEXT;
+        value->text = strdup((const char *)sqlite3_column_text(row, column));
+        return value->text != NULL;
+    default: return false;
     }
-    return summary;
+}
+
+static void read_summary(const field_tables *fields, sqlite3_stmt *row, job_record *job)
+{
+    const int count = MORE_OF_JOB + (int)fields->listed_count;
+    assert(sqlite3_column_count(row) == RECORD_COLUMNS + count);
+    job->summary = malloc((size_t)count * sizeof *job->summary);
+    for (int i = 0; job->summary && i < count; i++)
+        if (read_value(fields, row, i, &job->summary[job->summary_count])) job->summary_count++;
 }
 
 static void fill_record(const field_tables *fields, sqlite3_stmt *row, job_record *job)
@@ -82,7 +93,7 @@ static void fill_record(const field_tables *fields, sqlite3_stmt *row, job_recor
     job->priority = sqlite3_column_int(row, 15);
     job->is_pinned = sqlite3_column_int(row, 14) != 0;
     job->label = json_loads((const char *)sqlite3_column_text(row, 12), 0, NULL);
-    job->summary = summary_of(fields, row);
+    read_summary(fields, row, job);
 }
 
 store_status store_find_job(job_store *store, const char *id, job_record *job)
