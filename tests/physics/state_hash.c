@@ -14,7 +14,8 @@ static named_number asked[] = {
     { "case", 0 }, /* 0: spheres, 1: two sizes, 2: tetrahedra, 3: spring-dashpot with lifters, 4: Hertz-Mindlin, end walls,
                       5: rolling friction, two sizes, 6: two materials and a third of the walls,
                       7: jkr, two sizes, 8: liquid bridges of latching springs,
-                      9: damped rolling of two materials, 10: constant rolling torque, Hertz-Mindlin, two sizes */
+                      9: damped rolling of two materials, 10: constant rolling torque, Hertz-Mindlin, two sizes,
+                      11: a vessel whose orifice opens */
     { "steps", 2000 }, { "threads", 1 }, { "settling", 1 }, /* 0: the steps begin with the growing, 1: with the rotation */
     { NULL, 0 },
 };
@@ -82,8 +83,16 @@ static dem_scene_definition drum_asked(void)
     if (number == 6 || number == 9) set_materials(&d);
     if (number == 7 || number == 8) set_cohesion(&d, number == 7);
     if (number == 5 || number == 10) d.contact.rolling_friction = d.contact.wall_rolling_friction = 0.05;
-    if (number >= 9) d.contact.rolling_law = number == 9 ? DEM_EPSD_DAMPED : DEM_CONSTANT_TORQUE;
+    if (number == 9 || number == 10) d.contact.rolling_law = number == 9 ? DEM_EPSD_DAMPED : DEM_CONSTANT_TORQUE;
     d.contact.rolling_damping = 0.3;
+    if (number == 11) {
+        d.container = DEM_VESSEL;
+        d.diameter = 0.025;
+        d.length = 0.08;
+        d.orifice = (dem_orifice){ .opening = 0.012, .half_angle = 0.6 };
+        d.ends.friction = 0.4;
+        d.rotation_rate = 0;
+    }
     d.contact.latch_damping = 0.3;
     d.threads = (int)of(THREADS);
     follow_rules(&d, 0.03);

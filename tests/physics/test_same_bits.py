@@ -11,7 +11,7 @@ SECTION = "The same bits"
 WHY = "every operation rounds alike: fused products are written out, and sums have one order"
 CASES = ["spheres", "two sizes", "tetrahedra", "spring-dashpot, lifters", "hertz-mindlin, end walls",
          "rolling friction, two sizes", "materials", "jkr, two sizes", "liquid bridges",
-         "damped rolling of materials", "constant rolling torque, two sizes"]
+         "damped rolling of materials", "constant rolling torque, two sizes", "flow out of a hopper"]
 KEPT = json.loads((Path(__file__).parent / "state_hashes.json").read_text())
 
 
