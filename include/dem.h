@@ -63,7 +63,7 @@ dem_status dem_scene_continue(dem_scene *scene, const dem_state *state);
  * them as rows of a table (with the checkpoint, too), and asks for the results from the table at the end.
  * A frame is dem_frame_width numbers; the first DEM_FRAME_SCALARS have the names that dem_frame_scalar_name
  * gives ("time", "angle_deg", ...), the rest is the interface's height over x. */
-enum { DEM_FRAME_SCALARS = 20 };
+enum { DEM_FRAME_SCALARS = 21 };
 size_t dem_frame_width(const dem_scene *scene);
 const char *dem_frame_scalar_name(size_t index); /* NULL beyond the last */
 dem_status dem_frame_measure(dem_scene *scene, double *frame);

@@ -19,13 +19,14 @@ typedef struct dem_flow_results {
     size_t passed, left;         /* particles */
     double passed_mass;          /* kg */
     double solid_fraction;       /* of the bed before the orifice was opened */
+    double tension_share;        /* of the contacts between spheres, that pull, over the steady part; NaN: nothing coheres */
     bool at_rest;                /* as of dem_standing, but without spin */
     bool drained;                /* nothing is left that could fall through the orifice, and all is at rest */
     double drained_angle_deg[2]; /* of what is left on a flat floor: of a line through its surface, of a pit of its volume */
     double drained_volume;       /* m3, of its particles */
 } dem_flow_results;
 
-enum { DEM_FLOW_FRAME = 8 };
+enum { DEM_FLOW_FRAME = 9 };
 const char *dem_flow_frame_name(size_t index); /* NULL beyond the last */
 dem_status dem_flow_frame_measure(dem_scene *scene, double *frame);
 

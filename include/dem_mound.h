@@ -65,6 +65,7 @@ dem_status dem_fill_measure(const dem_mound *mound, double cylinder_radius, dem_
 /* What a scene of either kind has beside its shape. */
 typedef struct dem_standing {
     double coordination_number; /* contacts a particle, of those that are not in flight */
+    double tension_share;       /* of the contacts between spheres, that pull; NaN: nothing coheres */
     size_t inside;              /* in the heap: of at least two contacts; in the bed: joined to the floor by the others */
     size_t in_flight;           /* or lying by themselves on the plate */
     size_t lost, waiting;       /* fell off the plate; did not yet enter */
@@ -73,7 +74,7 @@ typedef struct dem_standing {
 } dem_standing;
 
 /* Frames, as of a drum (dem.h): all of their numbers have names. */
-enum { DEM_HEAP_FRAME = 12, DEM_FILL_FRAME = 10 };
+enum { DEM_HEAP_FRAME = 13, DEM_FILL_FRAME = 11 };
 const char *dem_heap_frame_name(size_t index); /* NULL beyond the last */
 const char *dem_fill_frame_name(size_t index);
 dem_status dem_heap_frame_measure(dem_scene *scene, double *frame);

@@ -436,6 +436,7 @@ typedef struct dem_packing_result {
     double coordination_number; /* mean contacts a particle */
     double mean_overlap;        /* of contacts between spheres, share of the smallest diameter; mean over the window */
     double overlap_99;          /* what 99 of 100 such contacts stay below */
+    double tension_share;       /* of such contacts, that pull; NaN: nothing coheres */
 } dem_packing_result;
 
 /* What turns the drum. In a steady state its torque carries the bed's weight, m g x of the centre of mass. */

@@ -12,6 +12,7 @@ typedef struct run_facts {
     double maximum_overlap; /* while rotating, share of the smallest diameter */
     double stiffness;       /* N/m */
     double fill_fraction;
+    double bond_number; /* NaN: particles do not cohere */
     struct {
         double d10, d50, d90, number_d10, number_d50, number_d90, sauter_mean, smallest, largest, cut_off_below, cut_off_above;
     } sizes; /* m, of all particles, where a species has a size distribution; shares of it that are cut off */

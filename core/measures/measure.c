@@ -13,7 +13,7 @@ const char *dem_frame_scalar_name(size_t index)
         "time",         "angle_deg",      "center_of_mass_deg",  "theil_sen_deg",     "upper_chord_deg", "lower_chord_deg",
         "chord_deg",    "solid_fraction", "coordination_number", "airborne_fraction", "wall_slip",       "wall_coverage",
         "flow_speed",   "surface_lag",    "kinetic_energy",      "radial_index",      "torque",          "weight_torque",
-        "mean_overlap", "overlap_99",
+        "mean_overlap", "overlap_99",     "tension_share",
     };
     return index < DEM_FRAME_SCALARS ? name[index] : NULL;
 }
@@ -93,6 +93,7 @@ static dem_status measure_frame(dem_scene *scene, double *frame)
     dem_status status = measure_repose_frame(scene, contacts, frame);
     if (status == DEM_OK) status = measure_overlap_frame(scene, frame);
     if (status == DEM_OK) {
+        frame[FRAME_TENSION] = measure_tension_share(scene);
         measure_drive_frame(scene, frame);
         measure_regime_frame(scene, contacts, frame);
         frame[FRAME_KINETIC_ENERGY] = dem_scene_kinetic_energy(scene);
@@ -191,6 +192,7 @@ dem_status measure_results(const dem_scene *scene, const double *frames, size_t 
     results->packing.coordination_number = frame_window_mean(&window, FRAME_COORDINATION);
     results->packing.mean_overlap = frame_window_mean(&window, FRAME_MEAN_OVERLAP);
     results->packing.overlap_99 = frame_window_mean(&window, FRAME_OVERLAP_99);
+    results->packing.tension_share = frame_window_mean(&window, FRAME_TENSION);
     measure_drive_results(scene, &window, &results->drive);
     claim_what_a_repeat_would_show(scene, &window, results);
     return arrays_end(measure_segregation_results(scene, &results->segregation));

@@ -24,7 +24,8 @@ typedef enum frame_column {
     FRAME_TORQUE,
     FRAME_WEIGHT_TORQUE,
     FRAME_MEAN_OVERLAP,
-    FRAME_OVERLAP_99
+    FRAME_OVERLAP_99,
+    FRAME_TENSION
 } frame_column;
 
 /* A table of frames and the part of it that is measured. */
@@ -81,6 +82,10 @@ void measure_drive_results(const dem_scene *scene, const frame_window *window, d
 
 /* Overlaps of the contacts between spheres, shares of the smallest diameter: frame[FRAME_MEAN_OVERLAP, FRAME_OVERLAP_99]. */
 dem_status measure_overlap_frame(const dem_scene *scene, double *frame);
+double measure_overlap_of(const dem_scene *scene, size_t i, size_t j); /* m, of two spheres */
+
+/* Of the contacts between spheres; NaN where none cohere, or none touch. */
+double measure_tension_share(const dem_scene *scene);
 
 /* Slumps or avalanches in a series of the bed's angle: degrees, over time in s, positive for a surface that rises with the
  * drum. NaN where there are too few of them. Errors: DEM_NO_MEMORY. */

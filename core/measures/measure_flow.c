@@ -6,15 +6,15 @@
 #include "dem_flow.h"
 #include "dem_rules.h"
 #include "drained.h"
-#include "scene.h"
+#include "measure.h"
 #include "statistics.h"
 
-enum flow_column { FLOW_TIME, FLOW_PASSED, FLOW_MASS, FLOW_LEVEL, FLOW_SOLID, FLOW_ENERGY, FLOW_HELD, FLOW_AT_REST };
+enum flow_column { FLOW_TIME, FLOW_PASSED, FLOW_MASS, FLOW_LEVEL, FLOW_SOLID, FLOW_ENERGY, FLOW_HELD, FLOW_AT_REST, FLOW_TENSION };
 
 const char *dem_flow_frame_name(size_t index)
 {
     static const char *const name[DEM_FLOW_FRAME] = {
-        "time", "passed", "passed_mass", "level", "solid_fraction", "kinetic_energy", "over_orifice", "at_rest",
+        "time", "passed", "passed_mass", "level", "solid_fraction", "kinetic_energy", "over_orifice", "at_rest", "tension_share",
     };
     return index < DEM_FLOW_FRAME ? name[index] : NULL;
 }
@@ -103,6 +103,7 @@ dem_status dem_flow_frame_measure(dem_scene *scene, double *frame)
     frame[FLOW_ENERGY] = energy;
     frame[FLOW_HELD] = held;
     frame[FLOW_AT_REST] = energy <= REST * weight * s->smallest_diameter;
+    frame[FLOW_TENSION] = measure_tension_share(scene);
     return DEM_OK;
 }
 
@@ -185,6 +186,8 @@ static dem_status measure_steady(const dem_scene *scene, const double *frames, s
     const size_t last = last_passage(frames, count);
     if (dem_flow_ended(scene, frames, count) != DEM_FLOWS_ON && to > last) to = last;
     if (to <= from + 1) return DEM_OK;
+    const frame_window steady = { frame_at(frames, from), to - from, DEM_FLOW_FRAME };
+    r->tension_share = frame_window_mean(&steady, FLOW_TENSION);
     r->steady_start = frame_at(frames, from)[FLOW_TIME];
     r->steady_end = frame_at(frames, to - 1)[FLOW_TIME];
     const double passed = frame_at(frames, to - 1)[FLOW_PASSED] - frame_at(frames, from)[FLOW_PASSED];
@@ -200,7 +203,8 @@ static void set_nothing_known(dem_flow_results *r)
 {
     memset(r, 0, sizeof *r);
     r->mass_rate = r->number_rate = (dem_mean){ NAN, NAN };
-    r->number_fluctuation = r->steady_start = r->steady_end = r->clogged_at = r->last_left_at = r->solid_fraction = NAN;
+    r->number_fluctuation = r->steady_start = r->steady_end = r->clogged_at = r->last_left_at = r->solid_fraction =
+        r->tension_share = NAN;
     r->drained_angle_deg[0] = r->drained_angle_deg[1] = NAN;
 }
 

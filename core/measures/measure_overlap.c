@@ -6,11 +6,12 @@
 /* Share of the touching contacts that the percentile leaves above it. */
 static const double TAIL = 0.01;
 
-static double overlap_of(const spheres *s, const container *vessel, int32_t i, int32_t j)
+double measure_overlap_of(const dem_scene *scene, size_t i, size_t j)
 {
-    const double *a = sphere_place(s, (size_t)i), *b = sphere_place(s, (size_t)j);
-    return sphere_radius(s, (size_t)i) + sphere_radius(s, (size_t)j)
-           - sqrt(squared_distance(a, b, vessel->period, vessel->inverse_period));
+    const spheres *s = &scene->spheres;
+    const double *a = sphere_place(s, i), *b = sphere_place(s, j);
+    return sphere_radius(s, i) + sphere_radius(s, j)
+           - sqrt(squared_distance(a, b, scene->container.period, scene->container.inverse_period));
 }
 
 static int descending(const void *a, const void *b)
@@ -26,7 +27,7 @@ dem_status measure_overlap_frame(const dem_scene *scene, double *frame)
     if (!overlap) return DEM_NO_MEMORY;
     size_t touching = 0;
     for (size_t k = 0; k < pairs->count; k++) {
-        overlap[touching] = overlap_of(&scene->spheres, &scene->container, pairs->first[k], pairs->second[k]);
+        overlap[touching] = measure_overlap_of(scene, (size_t)pairs->first[k], (size_t)pairs->second[k]);
         if (overlap[touching] > 0) sum += overlap[touching++];
     }
     qsort(overlap, touching, sizeof *overlap, descending);

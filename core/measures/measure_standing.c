@@ -6,7 +6,7 @@
 #include "dem_rules.h"
 #include "drained.h"
 #include "grounded.h"
-#include "scene.h"
+#include "measure.h"
 #include "statistics.h"
 
 /* Of a heap: one that touches fewer is in flight, or rolls by itself on the plate. */
@@ -82,6 +82,7 @@ static dem_standing look(const dem_scene *scene, const int32_t *contacts, const 
     standing.in_flight = particles_count(s) - standing.lost - standing.inside;
     if (scene->stream.particles) standing.waiting = scene->stream.particles - particles_count(s);
     standing.coordination_number = standing.inside ? sum / (double)standing.inside : NAN;
+    standing.tension_share = measure_tension_share(scene);
     standing.at_rest = standing.kinetic_energy < REST * weight * s->smallest_diameter;
     return standing;
 }
@@ -136,7 +137,8 @@ enum heap_column {
     HEAP_LOST,
     HEAP_ENERGY,
     HEAP_TUBE,
-    HEAP_AT_REST
+    HEAP_AT_REST,
+    HEAP_TENSION
 };
 
 const char *dem_heap_frame_name(size_t index)
@@ -145,6 +147,7 @@ const char *dem_heap_frame_name(size_t index)
         "time",           "angle_deg",      "apex_to_base_deg", "equal_volume_cone_deg",
         "silhouette_deg", "height",         "base_diameter",    "coordination_number",
         "lost",           "kinetic_energy", "tube_height",      "at_rest",
+        "tension_share",
     };
     return index < DEM_HEAP_FRAME ? name[index] : NULL;
 }
@@ -167,6 +170,7 @@ dem_status dem_heap_frame_measure(dem_scene *scene, double *frame)
     frame[HEAP_ENERGY] = standing.kinetic_energy;
     frame[HEAP_TUBE] = scene->container.wall[0].low;
     frame[HEAP_AT_REST] = standing.at_rest;
+    frame[HEAP_TENSION] = standing.tension_share;
     return DEM_OK;
 }
 
@@ -190,14 +194,15 @@ enum fill_column {
     FILL_ENTERED,
     FILL_IN_FLIGHT,
     FILL_ENERGY,
-    FILL_AT_REST
+    FILL_AT_REST,
+    FILL_TENSION
 };
 
 const char *dem_fill_frame_name(size_t index)
 {
     static const char *const name[DEM_FILL_FRAME] = {
-        "time",    "angle_deg", "center_to_wall_deg", "area_fit_deg", "height", "coordination_number",
-        "entered", "in_flight", "kinetic_energy",     "at_rest",
+        "time",    "angle_deg", "center_to_wall_deg", "area_fit_deg", "height",        "coordination_number",
+        "entered", "in_flight", "kinetic_energy",     "at_rest",      "tension_share",
     };
     return index < DEM_FILL_FRAME ? name[index] : NULL;
 }
@@ -219,6 +224,7 @@ dem_status dem_fill_frame_measure(dem_scene *scene, double *frame)
     frame[FILL_ENERGY] = standing.kinetic_energy;
     /* Before the last has entered there is no rest, however still the bed. */
     frame[FILL_AT_REST] = standing.at_rest && standing.waiting == 0;
+    frame[FILL_TENSION] = standing.tension_share;
     return DEM_OK;
 }
 

@@ -69,3 +69,8 @@ def test_a_drum_s_surface_gets_steeper_and_swings_more_the_more_its_particles_co
     record.between("the same at 2", angle[1] - angle[0], 0.5, angle[2] - angle[0], "likewise, and less")
     record.between("interface fluctuation at a Bond number of 8 over that without", swing[2] / swing[0], 2, 30,
                    "such beds avalanche in lumps")
+    tension = [results[bond]["packing"]["tension_share"] for bond in (0, 2, 8)]
+    record.same("contacts in tension without cohesion", tension[0], None, "nothing pulls")
+    record.between("share of contacts in tension at a Bond number of 8", tension[2], tension[1], 0.6,
+                   "more than at 2, whose pulls more contacts outweigh; what is pressed holds up what hangs")
+    record.same("Bond number that the run tells", round(results[8]["run"]["bond_number"], 9), 8, "as asked for")

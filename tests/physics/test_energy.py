@@ -55,6 +55,13 @@ def test_a_drums_energy_is_accounted_for(record, clusters):
 
 
 @pytest.mark.minutes
+@pytest.mark.parametrize("law, number", [("constant", 1), ("sjkr", 2), ("jkr", 4), ("liquid-bridge", 5)])
+def test_a_cohesive_drums_energy_is_accounted_for(record, law, number):
+    """What a pull gives where spheres meet, and takes where they part, is the contacts' work as friction's is."""
+    record_audit(record, f"spheres that cohere by {law}", BUILDS["single"], cohesion=number)
+
+
+@pytest.mark.minutes
 def test_a_drums_energy_is_accounted_for_in_double(record):
     record_audit(record, "spheres, in double,", BUILDS["double"])
 

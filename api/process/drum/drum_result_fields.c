@@ -146,6 +146,9 @@ static const result_field fields[] = {
       IN_VIEW(710) },
     { "packing", NULL, "overlap_99", RESULT_REAL, PACKING(overlap_99), "", LABEL("99 of 100 overlaps below"),
       SHOWN(100, " % of the smallest diameter", 3), .meaning = "what 99 of 100 such contacts stay below", IN_VIEW(720) },
+    { "packing", NULL, "tension_share", RESULT_REAL, PACKING(tension_share), "", LABEL("contacts in tension"), SHOWN(100, " %", 3),
+      .meaning = "share of the contacts between spheres whose spring and cohesion together pull; null: nothing coheres",
+      IN_VIEW(722), IN_STUDY(112) },
 
     { "drive", NULL, "torque", RESULT_REAL, DRIVE(torque.mean), "N m", LABEL("torque"),
       .meaning = "of the drum on the bed about the axis, for the length simulated, mean", IN_VIEW(730), MAIN, IN_STUDY(120),

@@ -45,6 +45,9 @@ static const result_field fields[] = {
       .meaning = "of the core: two grains off wall, floor and surface; null: too small a bed" },
     { "packing", NULL, "coordination_number", RESULT_REAL, STANDING(coordination_number), "", LABEL("coordination number"),
       .meaning = "contacts a particle of the bed" },
+    { "packing", NULL, "tension_share", RESULT_REAL, STANDING(tension_share), "", LABEL("contacts in tension"), SHOWN(100, " %", 3),
+      .meaning = "share of the contacts between spheres whose spring and cohesion together pull; null: nothing coheres",
+      IN_VIEW(722), IN_STUDY(112) },
 
     { "fill", NULL, "inside", RESULT_SIZE, STANDING(inside), "", LABEL("in the bed"),
       .meaning = "particles of the bed: joined to the floor, by others if need be", STORED },

@@ -40,6 +40,9 @@ static const result_field fields[] = {
       .meaning = "solid over all that is below the surface, dips between spheres left out: higher than within the heap" },
     { "packing", NULL, "coordination_number", RESULT_REAL, STANDING(coordination_number), "", LABEL("coordination number"),
       .meaning = "contacts a particle of the heap" },
+    { "packing", NULL, "tension_share", RESULT_REAL, STANDING(tension_share), "", LABEL("contacts in tension"), SHOWN(100, " %", 3),
+      .meaning = "share of the contacts between spheres whose spring and cohesion together pull; null: nothing coheres",
+      IN_VIEW(722), IN_STUDY(112) },
 
     { "heap", NULL, "inside", RESULT_SIZE, STANDING(inside), "", LABEL("in the bed"),
       .meaning = "particles of the heap: with two contacts or more", STORED },

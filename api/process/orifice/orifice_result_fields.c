@@ -61,6 +61,10 @@ static const result_field fields[] = {
 
     { "packing", NULL, "solid_fraction", RESULT_REAL, FLOW(solid_fraction), "", LABEL("solid fraction"),
       .meaning = "of the bed before the orifice was opened: two grains off floor and surface, the layer along the side included" },
+    { "packing", NULL, "tension_share", RESULT_REAL, FLOW(tension_share), "", LABEL("contacts in tension"), SHOWN(100, " %", 3),
+      .meaning = "share of the contacts between spheres whose spring and cohesion together pull, over the steady part; null: "
+                 "nothing coheres",
+      IN_VIEW(722), IN_STUDY(112) },
 
     { "outlet", NULL, "solid_fraction", RESULT_REAL, offsetof(orifice_result, outlet_solid_fraction), "", LABEL("solid fraction"),
       .meaning = "in the plane of the orifice, mean over it and over the steady part", IN_VIEW(619),

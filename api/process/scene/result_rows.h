@@ -50,6 +50,8 @@
     { "run", NULL, "stiffness", RESULT_REAL, RUN(stiffness), "N/m", \
       LABEL("stiffness"), OVER_BEDS(ALIKE), SHOWN(1, " N/m", 4), \
       .meaning = "normal loading stiffness used; hertz-mindlin: the chord up to the largest overlap expected" }, \
+    { "run", NULL, "bond_number", RESULT_REAL, RUN(bond_number), "", LABEL("Bond number"), OVER_BEDS(ALIKE), SHOWN(1, "", 3), \
+      .meaning = "largest pull-off between particles over the weight of the mean one; null: they do not cohere" }, \
     { "run", "sizes", "d10", RESULT_REAL, RUN(sizes.d10), "m", LABEL("D10 by volume"), \
       .meaning = "of the particles of a size distribution, that a tenth of their volume is in smaller ones; null, as all below, " \
                  "where there is none", IN_VIEW(890) }, \

@@ -225,6 +225,7 @@ run_facts scene_run_facts(const scene_group *g, size_t bed)
         .maximum_overlap = dem_scene_maximum_overlap(r->scene),
         .stiffness = drum->contact.stiffness,
         .fill_fraction = drum->fill_fraction,
+        .bond_number = r->spec.bond_number,
         .samples = (double)r->next_sample,
         .snapshots = (double)r->next_snapshot,
         .threads = g->job->spec->threads,

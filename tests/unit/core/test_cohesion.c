@@ -1,6 +1,7 @@
 /* Cohesion against closed forms: forces at a given overlap or gap, what a contact bears, what a collision loses; and that no contact
  * which acts beyond touch is missed. */
 #include "container_by_hand.h"
+#include "measure.h"
 #include "scene_by_hand.h"
 #include "small_drum.h"
 
@@ -62,6 +63,14 @@ static double closed_form(dem_cohesion_law law, double alpha, bool is_wall)
     }
 }
 
+/* The pair pulls where the closed form is below 0, unless rounding decides. */
+static void check_tension(const dem_scene *scene, bool holds, double force, double off)
+{
+    const double share = measure_tension_share(scene);
+    if (!holds) assert_true(isnan(share));
+    else if (fabs(force) > off) assert_true(share == (force < 0 ? 1 : 0));
+}
+
 /* From rest, one step: m v = F dt. */
 static void forces_of_two_spheres_are_the_closed_forms(void **unused)
 {
@@ -88,6 +97,7 @@ static void forces_of_two_spheres_are_the_closed_forms(void **unused)
             const double more = alpha > -gap ? fabs(closed_form(law, alpha + off, false) - expected) : 0;
             CHECK_NEAR(force, expected, 2 * more + 30 * ROUNDING * (hertz(alpha, R_PAIR) + fabs(expected)));
             CHECK_NEAR(v[0], -v[3], 1e-6 * fabs(v[3]));
+            check_tension(scene, alpha > -gap, expected, more);
             dem_scene_free(scene);
         }
 }
