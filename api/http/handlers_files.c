@@ -28,7 +28,7 @@ static void send_file(api_service *service, const http_request *request, http_re
 void send_fields(api_service *service, const http_request *request, http_response *response)
 {
     static const job_file fields = { JOB_FIELDS_FILE, "application/x-hdf5", HTTP_FILE_IMMUTABLE,
-                                     "a drum has it when its run is over, other tests never" };
+                                     "a drum or an orifice has it when its run is over, other tests never" };
     send_file(service, request, response, &fields);
 }
 

@@ -31,7 +31,8 @@
  *   snapshots/000000.bin ...   what programs that show a run need of each, in few bytes (frame_format.h); there before it
  *   snapshots.hdf.series       opens them in ParaView as one time series
  *   walls.vtp                  the container's walls, where they are at the newest snapshot; rewritten with that
- *   fields.hdf                 a drum's fields over the cross-section, averaged over the run; before result.json
+ *   fields.hdf                 a drum's fields over the cross-section, or those at an orifice, averaged over the run; before
+ *                              result.json
  *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
  *   beds/001.hdf ...           of a run of several beds the checkpoint of each but the first, and 001.before.hdf; gone once
  *                              result.json is there. Samples, snapshots, walls and checkpoint.hdf are of the first bed

@@ -56,6 +56,7 @@ static void write_links(text_buffer *out, const job_record *job, const char *bas
         { "series", "application/json", .end = "/snapshots.hdf.series", .is_result = true, .but = "granule" },
         { "walls", "application/xml", .end = "/walls.vtp", .is_result = true, .but = "granule" },
         { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "drum" },
+        { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "orifice" },
         { "archive", "application/x-tar", .end = "/files.tar" },
     };
     char between = '[';

@@ -1,6 +1,8 @@
 """Flows through an orifice, from request to results."""
 import math
 
+import h5py
+import numpy
 import pytest
 import requests
 
@@ -52,6 +54,27 @@ def test_a_vessel_drains_and_no_particle_is_forgotten(tmp_path):
     assert through == pytest.approx(flow["mass_rate"], rel=0.15)
     # a fall from a dome over the orifice, of no more than its diameter
     assert 0.3 * math.sqrt(9.81 * 0.004) < outlet["velocity"] < math.sqrt(2 * 9.81 * 0.004)
+    check_fields(tmp_path / "job/fields.hdf", found)
+
+
+def check_fields(path, found):
+    """The first row is the profile; the same mass passes each plane of the converging flow, which comes from outside and falls faster."""
+    with h5py.File(path) as file:
+        solid, velocity = file["fields/solid_fraction"][:], file["fields/velocity"][:]
+        size, frames = file["fields"].attrs["size"], file["fields"].attrs["frames"]
+        image = file["VTKHDF/PointData/velocity"][:]
+        assert list(file["VTKHDF"].attrs["WholeExtent"]) == [0, solid.shape[1] - 1, 0, solid.shape[0] - 1, 0, 1]
+    assert frames > 10 and size * solid.shape[1] == pytest.approx(0.75 * 0.004) and size * solid.shape[0] == pytest.approx(2 * 0.004)
+    assert all(numpy.array_equal(layer, velocity, equal_nan=True) for layer in image)
+    profile = found["outlet"]["profile"]
+    within = len(profile["radius"])
+    assert solid[0, :within] == pytest.approx(profile["solid_fraction"], rel=1e-5)
+    assert -velocity[0, :within, 1] == pytest.approx(profile["velocity"], rel=1e-5)
+    ring = 2 * math.pi * size**2 * (numpy.arange(solid.shape[1]) + 0.5)
+    for row in (1, 2):  # a flow that widens upward, of which the rings see more than the orifice
+        through = 2500 * numpy.nansum(solid[row] * -velocity[row, :, 1] * ring)
+        assert through == pytest.approx(found["flow"]["mass_rate"], rel=0.15)
+    assert velocity[1, within - 1, 0] < 0 and velocity[0, 0, 1] < velocity[-1, 0, 1] < 0
 
 
 def test_a_narrow_orifice_clogs_and_the_run_ends_early(tmp_path):

@@ -100,13 +100,12 @@ void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing)
     add_set(file, array, (const hsize_t[]){ array->rows, array->columns }, array->columns ? 2 : 1, packing);
 }
 
-void hdf_add_image(hdf_file *file, const char *path, const double *data, size_t layers, size_t side, size_t components,
-                   const char *unit)
+void hdf_add_image(hdf_file *file, const hdf_image *i)
 {
-    const hdf_array array = { path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, side, side, data, unit };
-    const hsize_t extent[4] = { layers, side, side, components };
-    const int skipped = layers > 0 ? 0 : 1;
-    add_set(file, &array, extent + skipped, (components > 1 ? 4 : 3) - skipped, HDF_PLAIN);
+    const hdf_array array = { i->path, H5T_NATIVE_DOUBLE, H5T_IEEE_F32LE, i->rows, i->columns, i->data, i->unit };
+    const hsize_t extent[4] = { i->layers, i->rows, i->columns, i->components };
+    const int skipped = i->layers > 0 ? 0 : 1;
+    add_set(file, &array, extent + skipped, (i->components > 1 ? 4 : 3) - skipped, HDF_PLAIN);
 }
 
 void hdf_add_hard_link(hdf_file *file, const char *target, const char *path)

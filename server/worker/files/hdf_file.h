@@ -30,9 +30,14 @@ typedef struct hdf_array {
 void hdf_create(hdf_file *file, const char *name);
 void hdf_add_group(hdf_file *file, const char *path);
 void hdf_add_array(hdf_file *file, const hdf_array *array, hdf_packing packing);
-/* Points of squares one above the other, x fastest: ([layers,] side, side[, components]) of f4; layers 0: one square. */
-void hdf_add_image(hdf_file *file, const char *path, const double *data, size_t layers, size_t side, size_t components,
-                   const char *unit);
+/* Points of planes one above the other, x fastest: ([layers,] rows, columns[, components]) of f4; layers 0: one plane. */
+typedef struct hdf_image {
+    const char *path;
+    size_t layers, rows, columns, components;
+    const double *data;
+    const char *unit; /* NULL: none */
+} hdf_image;
+void hdf_add_image(hdf_file *file, const hdf_image *image);
 void hdf_add_hard_link(hdf_file *file, const char *target, const char *path);
 /* Attributes of the group or dataset at `path`. The text: fixed length, ASCII or UTF-8, padded with \0. */
 void hdf_add_text_attribute(hdf_file *file, const char *path, const char *name, const char *text, H5T_cset_t charset);

@@ -2,6 +2,7 @@
 
 #include <math.h>
 
+#include "fields_file.h"
 #include "orifice_result.h"
 #include "run_summary.h"
 #include "scene_run.h"
@@ -25,6 +26,11 @@ static dem_status add_outlet(const scene_run *run, double *tally)
 {
     dem_outlet_add(run->scene, run->frames + (size_t)run->next_sample * run->frame_width, tally);
     return DEM_OK;
+}
+
+static bool write_fields(const scene_group *group, const double *tally)
+{
+    return fields_file_write_outlet(group->bed->scene, tally, &group->job->spec->scene.orifice, group->job->params);
 }
 
 /* Over rings of these radii, or strips, whose share of the orifice grows with the radius. */
@@ -64,6 +70,7 @@ enum worker_exit orifice_run(const job_context *job)
         .frames_between_looks = look_at_every_frame,
         .look = end_of_flow,
         .ended_by_time = ended_by_time,
+        .write_files = write_fields,
         .results = measure_results,
     };
     return scene_run_job(job, &test);
