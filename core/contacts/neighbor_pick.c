@@ -133,7 +133,8 @@ static void pick_pairs(const pick_work *work, int part, int parts)
         const uint32_t now = list->outer.in_reach[g], was = list->outer.was_in_reach[g];
         const size_t count = (size_t)__builtin_popcount(now);
         const bool is_aside = part + 1 < parts && at + LANES > work->now[part + 1];
-        for (int m = 0; m < numbers; m++) wide_carry(is_aside ? aside[m] : to[m] + at, now, from[m] + old, was);
+        const wide_move move = wide_move_of(now, was);
+        for (int m = 0; m < numbers; m++) wide_carry(is_aside ? aside[m] : to[m] + at, &move, from[m] + old);
         wide_compress(is_aside ? second_aside : list->pairs.second + at, now, list->outer.second + g * LANES);
         wide_compress(is_aside ? first_aside : list->pairs.first + at, now, list->outer.first + g * LANES);
         for (int m = 0; is_aside && m < numbers; m++) memcpy(to[m] + at, aside[m], count * sizeof *to[m]);

@@ -67,6 +67,15 @@ typedef struct wide_rests {
     wide radius;  /* m */
 } wide_rests;
 
+/* Each of the three files below has these, too:
+ *
+ * size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from)
+ *     Copies those of the LANES numbers `from` whose bit is set to `to`, without gaps. `to` has room for LANES numbers, all of
+ *     which may be overwritten. Returns how many were copied.
+ * wide_move wide_move_of(uint32_t bits, uint32_t before); void wide_carry(real *to, const wide_move *move, const real *from)
+ *     Copies numbers from one compressed array to another. `from` has, without gaps, the numbers of those lanes whose bit is
+ *     set in `before`; `to` gets, without gaps, those of the lanes whose bit is set in `bits`, and 0 where `from` has no number
+ *     for such a lane. Both have room for LANES numbers: all of `from` may be read, and all of `to` overwritten. */
 #if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
 #include "wide_avx512.h"
 #elif WIDE_BYTES == 32 && !defined(DEM_DOUBLE)
@@ -119,40 +128,6 @@ WIDE_INLINE wide wide_spins_in_order(const void *rests, const int32_t *i, size_t
     (void)end;
 #endif
     return wide_rests_load(rests, i).omega_z;
-}
-
-/* Copies those of the LANES numbers `from` whose bit is set to `to`, without gaps. `to` has room for LANES numbers, all of which
- * may be overwritten. Returns how many were copied. */
-WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from)
-{
-#if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, _mm512_loadu_si512(from)));
-    return (size_t)__builtin_popcount(bits);
-#else
-    size_t n = 0;
-    for (int k = 0; k < LANES; k++) { /* no branch: it could not be predicted */
-        to[n] = from[k];
-        n += bits >> k & 1;
-    }
-    return n;
-#endif
-}
-
-/* Copies numbers from one compressed array to another. `from` has, without gaps, the numbers of those lanes whose bit is set in
- * `before`; `to` gets, without gaps, those of the lanes whose bit is set in `bits`, and 0 where `from` has no number for such a
- * lane. Both have room for LANES numbers: all of `from` may be read, and all of `to` overwritten. */
-WIDE_INLINE void wide_carry(real *to, uint32_t bits, const real *from, uint32_t before)
-{
-#if WIDE_BYTES == 64 && !defined(DEM_DOUBLE)
-    const __m512 all = _mm512_maskz_expand_ps((__mmask16)before, _mm512_loadu_ps(from));
-    _mm512_storeu_ps(to, _mm512_maskz_compress_ps((__mmask16)bits, all));
-#else
-    for (int k = 0; k < LANES; k++) {
-        *to = before >> k & 1 ? *from : 0;
-        from += before >> k & 1;
-        to += bits >> k & 1;
-    }
-#endif
 }
 
 /* a b + c, rounded once */

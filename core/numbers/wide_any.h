@@ -133,4 +133,29 @@ WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 /* Where wide_store_rows puts the row of lane k. */
 WIDE_INLINE int wide_row_slot(int k) { return k; }
 
+WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from)
+{
+    size_t n = 0;
+    for (int k = 0; k < LANES; k++) { /* no branch: it could not be predicted */
+        to[n] = from[k];
+        n += bits >> k & 1;
+    }
+    return n;
+}
+
+typedef struct wide_move {
+    uint32_t bits, before;
+} wide_move;
+
+WIDE_INLINE wide_move wide_move_of(uint32_t bits, uint32_t before) { return (wide_move){ bits, before }; }
+
+WIDE_INLINE void wide_carry(real *to, const wide_move *move, const real *from)
+{
+    for (int k = 0; k < LANES; k++) {
+        *to = move->before >> k & 1 ? *from : 0;
+        from += move->before >> k & 1;
+        to += move->bits >> k & 1;
+    }
+}
+
 #endif

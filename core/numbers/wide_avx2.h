@@ -106,4 +106,34 @@ WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 /* Where wide_store_rows puts the row of lane k. */
 WIDE_INLINE int wide_row_slot(int k) { return k; }
 
+/* For each set of lanes, a byte a lane (lane_tables.c). closing: which lane comes to lane k when the lanes of the set move together;
+ * opening: the reverse, where lanes that are not in the set have NO_LANE. */
+enum { NO_LANE = 0x80 };
+extern const uint64_t lanes_closing[1 << 8], lanes_opening[1 << 8];
+
+WIDE_INLINE __m256i lanes_of(uint64_t bytes) { return _mm256_cvtepi8_epi32(_mm_cvtsi64_si128((int64_t)bytes)); }
+
+WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from)
+{
+    const __m256i all = _mm256_loadu_si256((const __m256i_u *)from);
+    _mm256_storeu_si256((__m256i_u *)to, _mm256_permutevar8x32_epi32(all, lanes_of(lanes_closing[bits])));
+    return (size_t)__builtin_popcount(bits);
+}
+
+typedef struct wide_move {
+    __m256i lane, is_none; /* where each lane comes from; all bits set: from nowhere */
+} wide_move;
+
+WIDE_INLINE wide_move wide_move_of(uint32_t bits, uint32_t before)
+{
+    const __m256i lane = _mm256_permutevar8x32_epi32(lanes_of(lanes_opening[before]), lanes_of(lanes_closing[bits]));
+    return (wide_move){ lane, _mm256_srai_epi32(lane, 31) };
+}
+
+WIDE_INLINE void wide_carry(real *to, const wide_move *move, const real *from)
+{
+    const __m256 moved = _mm256_permutevar8x32_ps(_mm256_loadu_ps(from), move->lane);
+    _mm256_storeu_ps(to, _mm256_andnot_ps(_mm256_castsi256_ps(move->is_none), moved));
+}
+
 #endif

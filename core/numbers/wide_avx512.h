@@ -118,4 +118,22 @@ WIDE_INLINE void wide_store_rows(row8 *rows, const wide f[3], const wide q[3])
 /* Where wide_store_rows puts the row of lane k. */
 WIDE_INLINE int wide_row_slot(int k) { return (k & ~7) | (k & 3) << 1 | (k >> 2 & 1); }
 
+WIDE_INLINE size_t wide_compress(int32_t *to, uint32_t bits, const int32_t *from)
+{
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)bits, _mm512_loadu_si512(from)));
+    return (size_t)__builtin_popcount(bits);
+}
+
+typedef struct wide_move {
+    __mmask16 bits, before;
+} wide_move;
+
+WIDE_INLINE wide_move wide_move_of(uint32_t bits, uint32_t before) { return (wide_move){ (__mmask16)bits, (__mmask16)before }; }
+
+WIDE_INLINE void wide_carry(real *to, const wide_move *move, const real *from)
+{
+    const __m512 all = _mm512_maskz_expand_ps(move->before, _mm512_loadu_ps(from));
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps(move->bits, all));
+}
+
 #endif
