@@ -16,10 +16,10 @@ static bool add_id(void *context, const char *id)
 
 static bool read_dry_run(const http_request *request, problem_list *problems)
 {
-    const char *text = http_request_parameter(request, "dry_run");
-    const bool is_true = text && strcmp(text, "true") == 0;
-    if (text && !is_true && strcmp(text, "false") != 0)
-        problem_list_add(problems, "/dry_run", "parameter dry_run is \"%.40s\"; must be true or false", text);
+    char problem[160];
+    bool is_true;
+    if (!http_request_truth(request, "dry_run", &is_true, problem, sizeof problem))
+        problem_list_add(problems, "/dry_run", "%s", problem);
     return is_true;
 }
 

@@ -210,10 +210,18 @@ static void add_estimate(api_service *service, json_t *info, const job_spec *spe
 {
     calibration machine;
     store_read_calibration(service->store, &machine);
-    const job_estimate estimate = job_spec_estimate(spec, &machine);
-    json_object_set_new(info, "estimate", job_estimate_to_json(&estimate));
-    json_object_set_new(info, "understood", job_spec_understood(spec, &machine));
-    json_object_set_new(info, "warnings", job_spec_warnings(spec, &machine));
+    json_t *report = job_spec_report(spec, &machine);
+    json_object_del(report, "spec"); /* it has an address */
+    json_object_update(info, report);
+    json_decref(report);
+}
+
+/* What would become of it, and nothing else. */
+static void respond_checked(api_service *service, http_response *response, const job_spec *spec)
+{
+    calibration machine;
+    store_read_calibration(service->store, &machine);
+    http_respond_json(response, 200, job_spec_report(spec, &machine));
 }
 
 static void respond_created(api_service *service, const http_request *request, http_response *response, const job_spec *spec,
@@ -300,9 +308,16 @@ void execute_process(api_service *service, const http_request *request, http_res
         respond_to_wait(service, request, response);
         return;
     }
+    char problem[160];
+    bool checks;
+    if (!http_request_truth(request, "check", &checks, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return;
+    }
     job_spec spec;
     if (!read_spec(service, type, request, response, &spec)) return;
-    add_job(service, request, response, &spec, true);
+    if (checks) respond_checked(service, response, &spec);
+    else add_job(service, request, response, &spec, true);
     job_spec_clear(&spec);
 }
 

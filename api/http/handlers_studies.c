@@ -52,43 +52,74 @@ static void add_study(api_service *service, http_response *response, study_stage
     respond_created(service, response, estimate, warnings, id);
 }
 
-/* Refused whole or kept whole: every job is read, once, before any is added. */
+/* What would become of it, and nothing else. */
+static void respond_checked(http_response *response, const study_spec *study, const study_estimate *estimate,
+                            const problem_list *warnings)
+{
+    http_respond_json(response, 200,
+                      json_pack("{s:s, s:s, s:I, s:i, s:o, s:o}", "name", study->name, "process", study->process, "cases",
+                                (json_int_t)study->cases, "repeats", study->repeats, "estimate", study_estimate_to_json(estimate),
+                                "warnings", job_warnings_to_json(warnings)));
+}
+
+static bool take_nothing(void *context, const job_spec *spec, size_t index, int repeat)
+{
+    (void)context, (void)spec, (void)index, (void)repeat;
+    return true;
+}
+
+/* Reads each job, once; taker: who is given them. False: they can't be run, or its client has left. */
+static bool check_jobs(api_service *service, const http_request *request, const study_spec *study, study_taker taker,
+                       study_estimate *estimate, problem_list *problems, problem_list *warnings)
+{
+    calibration machine;
+    store_read_calibration(service->store, &machine);
+    taker.client = &request->client;
+    taker.limits = service->limits;
+    if (!study_check(study, &machine, &taker, estimate, problems, warnings)) return false;
+    if (taker.limits)
+        job_check_limits(taker.limits, "/base/inputs", estimate->wall_seconds, NAN, estimate->snapshot_bytes, NAN, problems);
+    job_check_disk(estimate->disk_bytes, store_free_bytes(service->store), "/base/inputs/snapshots/interval", problems);
+    return problem_list_is_empty(problems);
+}
+
+/* Refused whole or kept whole: every job is read before any is added. checks: only that. */
 static void check_and_add(api_service *service, const http_request *request, http_response *response, const study_spec *study,
-                          problem_list *problems)
+                          bool checks, problem_list *problems)
 {
     calibration machine;
     problem_list warnings;
     study_estimate estimate;
     store_read_calibration(service->store, &machine);
-    study_stage *stage = store_stage_study(service->store, study, &machine);
-    if (!stage || !problem_list_init(&warnings)) {
+    study_stage *stage = checks ? NULL : store_stage_study(service->store, study, &machine);
+    if ((!stage && !checks) || !problem_list_init(&warnings)) {
         respond_store_failure(response, STORE_FAILED, "keep the study");
         store_drop_stage(stage);
         return;
     }
-    study_taker taker = store_stage_taker(stage);
-    taker.client = &request->client;
-    taker.limits = service->limits;
-    if (study_check(study, &machine, &taker, &estimate, problems, &warnings)) {
-        if (taker.limits)
-            job_check_limits(taker.limits, "/base/inputs", estimate.wall_seconds, NAN, estimate.snapshot_bytes, NAN, problems);
-        job_check_disk(estimate.disk_bytes, store_free_bytes(service->store), "/base/inputs/snapshots/interval", problems);
-    }
-    if (store_stage_status(stage) == STORE_OK && problem_list_is_empty(problems))
-        add_study(service, response, stage, study, &estimate, &warnings);
-    else if (problem_list_is_empty(problems) && store_stage_status(stage) == STORE_OK)
-        http_respond_problem(response, 503, NULL, "Nobody waits", "the client has left, and nothing of the study was added");
-    else if (store_stage_status(stage) != STORE_OK)
-        respond_not_kept(service, response, store_stage_status(stage), "keep the study");
-    else
+    const study_taker taker = checks ? (study_taker){ .take = take_nothing } : store_stage_taker(stage);
+    const bool good = check_jobs(service, request, study, taker, &estimate, problems, &warnings);
+    const store_status status = stage ? store_stage_status(stage) : STORE_OK;
+    if (status != STORE_OK) respond_not_kept(service, response, status, "keep the study");
+    else if (!problem_list_is_empty(problems))
         http_respond_problems(response, 400, "The study can't be run, and none of its jobs was added",
                               "each entry of errors names a place in the study, what is there and what may be", problems);
+    else if (!good)
+        http_respond_problem(response, 503, NULL, "Nobody waits", "the client has left, and nothing of the study was added");
+    else if (checks) respond_checked(response, study, &estimate, &warnings);
+    else add_study(service, response, stage, study, &estimate, &warnings);
     problem_list_clear(&warnings);
     store_drop_stage(stage);
 }
 
 void create_study(api_service *service, const http_request *request, http_response *response)
 {
+    char problem[160];
+    bool checks;
+    if (!http_request_truth(request, "check", &checks, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+        return;
+    }
     json_t *document = parse_body(request, response);
     if (!document) return;
     const start_source beds = store_beds(service->store);
@@ -105,7 +136,7 @@ void create_study(api_service *service, const http_request *request, http_respon
     }
     study_spec_parse(document, &options, &study, &problems);
     json_decref(document);
-    check_and_add(service, request, response, &study, &problems);
+    check_and_add(service, request, response, &study, checks, &problems);
     study_spec_clear(&study);
     problem_list_clear(&problems);
 }

@@ -116,3 +116,12 @@ bool http_request_integer(const http_request *request, const char *name, int64_t
              (long long)high);
     return false;
 }
+
+bool http_request_truth(const http_request *request, const char *name, bool *value, char *problem, size_t problem_size)
+{
+    const char *text = http_request_parameter(request, name);
+    *value = text && strcmp(text, "true") == 0;
+    if (!text || *value || strcmp(text, "false") == 0) return true;
+    snprintf(problem, problem_size, "parameter %s is \"%.40s\"; must be true or false", name, text);
+    return false;
+}

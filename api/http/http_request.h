@@ -87,6 +87,8 @@ bool http_request_values(const http_request *request, const char *name, http_val
 /* Whole number in [low, high]; `missing` where the parameter is not given. False: *problem says what is wrong. */
 bool http_request_integer(const http_request *request, const char *name, int64_t low, int64_t high, int64_t missing, int64_t *value,
                           char *problem, size_t problem_size);
+/* "true" or "false", which it is where the parameter is not given. False: *problem says what is wrong. */
+bool http_request_truth(const http_request *request, const char *name, bool *value, char *problem, size_t problem_size);
 void http_response_init(http_response *response);
 void http_response_clear(http_response *response);
 void http_respond_json(http_response *response, int status, json_t *document); /* takes the reference; NULL: no memory */

@@ -265,6 +265,8 @@ json_t *job_warnings_to_json(const problem_list *warnings);
 json_t *job_spec_warnings(const job_spec *spec, const calibration *machine);
 /* What the inputs come to in other words: revolutions a minute, Froude number, ... New reference; NULL: no memory. */
 json_t *job_spec_understood(const job_spec *spec, const calibration *machine);
+/* These two, the canonical spec and its estimate: what a check answers. New reference; NULL: no memory. */
+json_t *job_spec_report(const job_spec *spec, const calibration *machine);
 
 /* OGC process description with every input's JSON Schema, unit, range and default, made from the same table
  * of fields that the parser uses. NULL for an unknown process. New reference. */

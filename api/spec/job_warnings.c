@@ -98,3 +98,10 @@ json_t *job_spec_understood(const job_spec *spec, const calibration *machine)
     json_object_set_new(words, "wall_time", json_sprintf("about %s", text));
     return words;
 }
+
+json_t *job_spec_report(const job_spec *spec, const calibration *machine)
+{
+    const job_estimate estimate = job_spec_estimate(spec, machine);
+    return json_pack("{s:o, s:o, s:o, s:o}", "spec", job_spec_to_json(spec), "estimate", job_estimate_to_json(&estimate),
+                     "understood", job_spec_understood(spec, machine), "warnings", job_spec_warnings(spec, machine));
+}

@@ -237,9 +237,7 @@ static json_t *check_document(const json_t *document, const start_source *beds, 
     if (study_report_is_study(document)) return study_report(document, beds, random_seed(), machine, problems);
     job_spec spec;
     if (!job_spec_parse_with(beds, NULL, document, random_seed(), &spec, problems)) return NULL;
-    const job_estimate estimate = job_spec_estimate(&spec, machine);
-    json_t *report = json_pack("{s:o, s:o, s:o, s:o}", "spec", job_spec_to_json(&spec), "estimate", job_estimate_to_json(&estimate),
-                               "understood", job_spec_understood(&spec, machine), "warnings", job_spec_warnings(&spec, machine));
+    json_t *report = job_spec_report(&spec, machine);
     job_spec_clear(&spec);
     return report;
 }

@@ -47,6 +47,33 @@ def test_a_study_is_one_post(bounded):
     assert len(bounded.get("/studies").json()["studies"]) == 1
 
 
+def test_a_check_tells_what_a_post_would_and_keeps_nothing(bounded):
+    """Of good ones and of bad ones; what was told is then held against the job itself."""
+    def post(path, document, **headers):
+        return requests.post(bounded.url + path, json=document, headers=headers, timeout=60)
+
+    key = {"Idempotency-Key": "once"}
+    good, bad = {"inputs": SPEC, "label": {"a": 1}}, {"inputs": SPEC | {"fill_fraction": 2, "colour": 1}}
+    checked, refused = post("/processes/drum/execution?check=true", good, **key), post("/processes/drum/execution?check=true", bad)
+    study = {"name": "two", "base": good, "vary": {"/inputs/contact/friction": [0.1, 0.2]}, "repeats": 3}
+    study_checked = post("/studies?check=true", study)
+    study_refused = post("/studies?check=true", study | {"vary": {"/inputs/threads": [1, 3]}})
+    assert (checked.status_code, study_checked.status_code) == (200, 200) and "Location" not in checked.headers
+    assert post("/processes/drum/execution?check=maybe", good).status_code == post("/studies?check=1", study).status_code == 400
+    assert bounded.get("/jobs").json()["jobs"] == bounded.get("/studies").json()["studies"] == []
+    assert list((bounded.data / "jobs").iterdir()) == []
+
+    assert errors_of(refused) == errors_of(post("/processes/drum/execution", bad)) and len(errors_of(refused)) == 2
+    assert errors_of(study_refused) == errors_of(post("/studies", study | {"vary": {"/inputs/threads": [1, 3]}}))
+    made = post("/processes/drum/execution?check=false", good, **key).json()  # a check has not used the key up
+    report = checked.json()
+    assert report.pop("spec") == bounded.get(f"/jobs/{made['jobID']}/spec").json() and report == {name: made[name] for name in report}
+    assert set(report) == {"estimate", "understood", "warnings"}
+    report, made = study_checked.json(), post("/studies", study).json()
+    assert (report["name"], report["cases"], report["repeats"], report["estimate"]["jobs"]) == ("two", 2, 3, 6)
+    assert report["estimate"] == made["estimate"] and report["warnings"] == made["warnings"]
+
+
 def test_every_line_of_the_log_is_an_object_and_tells_the_request(tmp_path):
     daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--log", "json"]).start()
     mine = {"X-Request-Id": "mine-1"}

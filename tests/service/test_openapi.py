@@ -147,6 +147,8 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     for one in examples:
         call("/examples/{example}", one["links"][0]["href"], 200)
     call("/examples/{example}", f"{url}/examples/no-such", 404)
+    checked = call("/processes/{process}/execution", f"{url}/processes/drum/execution?check=true", 200, "POST", json={"inputs": ENDLESS})
+    contract.validate(checked.json(), {"$ref": "#/components/schemas/Checked"})
     created = call("/processes/{process}/execution", f"{url}/processes/drum/execution", 201, "POST",
                    json={"inputs": ENDLESS})
     assert created.headers["Location"] == f"{url}/jobs/{created.json()['jobID']}"
@@ -215,6 +217,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
 
     study = {"name": "of the contract", "base": {"inputs": SPEC}, "repeats": 2,
              "cases": [{"name": "one", "inputs": {"contact": {"friction": 0.2}}, "label": {"paper": "25"}}]}
+    assert call("/studies", f"{url}/studies?check=true", 200, "POST", json=study).json()["estimate"]["jobs"] > 1
     created = call("/studies", f"{url}/studies", 201, "POST", json=study)
     study = created.headers["Location"]
     assert study == f"{url}/studies/{created.json()['studyID']}"
