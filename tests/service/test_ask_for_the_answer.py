@@ -13,7 +13,7 @@ def answer(folder, name, **duration):
 
 def test_a_run_ends_as_soon_as_its_angle_is_known_well_enough(tmp_path):
     coarse = answer(tmp_path, "coarse", until_standard_error_deg=4.0, at_most_revolutions=20)
-    better = 0.8 * coarse["repose"]["standard_error_deg"]
+    better = 0.9 * coarse["repose"]["standard_error_deg"]
     fine = answer(tmp_path, "fine", until_standard_error_deg=better, at_most_revolutions=60)
     for result, asked in (coarse, 4.0), (fine, better):
         assert result["run"]["ended_by"] == "standard-error"

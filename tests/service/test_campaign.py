@@ -293,6 +293,7 @@ def whole_campaign(folder, monkeypatch, right, jobs, studies, blows, seed, few):
             daemon.stop(signal.SIGKILL)
 
 
+@pytest.mark.torture
 def test_a_small_campaign_loses_nothing(tmp_path, monkeypatch, right):
     whole_campaign(tmp_path, monkeypatch, right, jobs=30, studies=2, blows=12, seed=1, few=2)
 

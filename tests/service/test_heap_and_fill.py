@@ -140,12 +140,12 @@ def heap_of_friction(folder, friction, seed=1, **changes):
 def test_a_heap_is_steeper_the_rougher(tmp_path):
     def mean_angle(friction):
         # of the four angles the one that a flat heap has, too
-        heaps = [heap_of_friction(tmp_path / f"{friction}-{seed}", friction, seed) for seed in range(1, 7)]
+        heaps = [heap_of_friction(tmp_path / f"{friction}-{seed}", friction, seed) for seed in range(1, 5)]
         return statistics.mean(heap["repose"]["other_methods"]["equal-volume-cone"] for heap in heaps)
 
-    # Over 24 heaps each these are 26.2 and 29.7 degrees, with deviations of 0.84 and 0.89: means of six differ by
-    # 3.5 +- 0.5, and 2 is three of them away.
-    assert mean_angle(1.0) > mean_angle(0.1) + 2
+    # Over 24 heaps each these are 26.2 and 29.7 degrees, with deviations of 0.84 and 0.89: means of four differ by
+    # 3.5 +- 0.6, and 1.7 is three of them away.
+    assert mean_angle(1.0) > mean_angle(0.1) + 1.7
 
 
 def test_without_friction_there_is_no_heap(tmp_path):

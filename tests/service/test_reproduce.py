@@ -269,7 +269,7 @@ def test_the_report_comes_from_runs_and_nothing_is_run_twice(tmp_path):
 
 
 def test_an_interrupted_reproduction_goes_on(tmp_path):
-    command = tiny(tmp_path, seconds=6.0, repeats=3)
+    command = tiny(tmp_path, seconds=2.0, repeats=3)
     process = subprocess.Popen([*command, "figure3"], stdout=subprocess.PIPE, text=True, start_new_session=True)
     for line in process.stdout:
         if "tiny: 0 of 3" in line or "tiny: 1 of 3" in line:

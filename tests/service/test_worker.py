@@ -175,7 +175,7 @@ def test_an_interval_of_0_writes_the_last_snapshot_alone(tmp_path):
 
 def test_the_number_of_threads_changes_nothing(tmp_path):
     # Short: two threads that share a core with others wait for each other at every step.
-    spec = write_spec(tmp_path, small(duration={"seconds": 0.1}))
+    spec = write_spec(tmp_path, small(duration={"seconds": 0.05}, snapshots={"interval": 0.02}))
     for threads in (1, 2):
         code, _, stderr = run(spec, tmp_path / str(threads), "--threads", threads)
         assert code == 0, stderr
@@ -267,7 +267,7 @@ def test_a_killed_run_goes_on_from_its_checkpoint_to_the_same_result(whole, tmp_
 
 def test_a_run_killed_before_its_first_checkpoint_starts_anew(whole, tmp_path):
     spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
-    worker = start(spec, out)
+    worker = start(spec, out, "--checkpoint-seconds", 3600)
     wait_until(lambda: len(events(out, "sample")) > 3)
     worker.kill()
     worker.communicate()
@@ -295,16 +295,14 @@ HARMLESS = {signal.SIGCHLD, signal.SIGCONT, signal.SIGURG, signal.SIGWINCH, sign
 
 def test_no_signal_from_outside_ends_a_run_without_a_checkpoint(tmp_path):
     endless = small(duration={"seconds": 2000.0}, snapshots={"interval": 0})
-    spec, running = write_spec(tmp_path, endless), {}
+    spec = write_spec(tmp_path, endless)
     for number in sorted(OUTSIDE - HARMLESS)[:13] + [signal.SIGRTMIN, signal.SIGRTMAX]:
-        running[number] = start(spec, tmp_path / str(int(number)), "--checkpoint-seconds", 3600,
-                                preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # also where a shell ignores it
-    for number, worker in running.items():
+        worker = start(spec, tmp_path / str(int(number)), "--checkpoint-seconds", 3600,
+                       preexec_fn=lambda: signal.signal(number, signal.SIG_DFL))  # also where a shell ignores it
         wait_until(lambda: events(tmp_path / str(int(number)), "start"))
         for harmless in HARMLESS:
             worker.send_signal(harmless)
         worker.send_signal(number)
-    for number, worker in running.items():
         worker.communicate(timeout=60)
         assert worker.returncode == 3, number
         assert events(tmp_path / str(int(number)))[-1]["event"] == "checkpoint", number
@@ -337,8 +335,8 @@ def limit_files_to(size):
 
 def test_a_full_disk_ends_with_5_and_leaves_no_half_file(whole, tmp_path):
     spec, out = write_spec(tmp_path, SMALL), tmp_path / "job"
-    smallest = min(len(content) for content in snapshot_bytes(whole[0]).values())
-    code, _, stderr = run(spec, out, preexec_fn=limit_files_to(smallest // 2))
+    smallest = min(path.stat().st_size for path in (whole[0] / "snapshots").glob("*.hdf"))
+    code, _, stderr = run(spec, out, "--checkpoint-seconds", 3600, preexec_fn=limit_files_to(smallest // 2))
     assert code == 5
     assert "can't write snapshots/000000.hdf" in stderr
     assert events(out, "failure")[0]["status"] == "disk"

@@ -8,12 +8,12 @@ import time
 
 REPOSE = os.environ.get("REPOSE", str(pathlib.Path(__file__).resolve().parents[2] / "build" / "repose"))
 
-# Some 180 particles: a second or two, with every part of a run in it.
+# Some 180 soft particles: a second, with every part of a run in it.
 SMALL = {
     "inputs": {
         "drum": {"diameter": 0.03, "length": 0.01, "rotation_rate": 6.0},
         "particles": [{"diameter": 0.003}],
-        "contact": {"maximum_overlap": 0.01},
+        "contact": {"maximum_overlap": 0.03},
         "duration": {"revolutions": 2.0},
         "snapshots": {"interval": 0.1},
         "seed": 7,
