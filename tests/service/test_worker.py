@@ -169,7 +169,7 @@ def test_snapshots_are_regular_and_end_with_the_run(whole):
 def test_an_interval_of_0_writes_the_last_snapshot_alone(tmp_path):
     spec = small(snapshots={"interval": 0}, duration={"seconds": 0.05})
     assert run(write_spec(tmp_path, spec), tmp_path / "job")[0] == 0
-    assert list(snapshot_bytes(tmp_path / "job")) == ["000000.hdf"]
+    assert list(snapshot_bytes(tmp_path / "job")) == ["000000.bin", "000000.hdf"]
     assert events(tmp_path / "job", "snapshot")[0]["time"] == pytest.approx(0.05, abs=1e-3)
 
 
@@ -340,7 +340,7 @@ def test_a_full_disk_ends_with_5_and_leaves_no_half_file(whole, tmp_path):
     assert code == 5
     assert "can't write snapshots/000000.hdf" in stderr
     assert events(out, "failure")[0]["status"] == "disk"
-    assert snapshot_bytes(out) == {} and not list(out.rglob("*.tmp")) and not (out / "result.json").exists()
+    assert not list(out.rglob("*.hdf")) and not list(out.rglob("*.tmp")) and not (out / "result.json").exists()
     assert run(spec, out, "--attempt", 2)[0] == 0
     expect_as_if_never_interrupted(out, whole[0])
 
@@ -407,7 +407,7 @@ def test_results_of_another_spec_are_never_overwritten(tmp_path):
     result = (out / "result.json").read_bytes()
     code, _, said = run(write_spec(tmp_path, short), out)
     assert code == 2 and "results of another spec" in said
-    assert (out / "result.json").read_bytes() == result and len(snapshot_bytes(out)) == 5
+    assert (out / "result.json").read_bytes() == result and len(snapshot_bytes(out)) == 2 * 5  # each with its frame
 
 
 def test_another_spec_leaves_nothing_of_an_unfinished_run(tmp_path):
@@ -416,7 +416,7 @@ def test_another_spec_leaves_nothing_of_an_unfinished_run(tmp_path):
     assert run(write_spec(tmp_path, long), out)[0] == 0
     (out / "result.json").unlink()
     assert run(write_spec(tmp_path, short), out)[0] == 0
-    assert len(snapshot_bytes(out)) == 2
+    assert len(snapshot_bytes(out)) == 2 * 2
     assert len(events(out, "start")) == 1
     assert json.loads((out / "spec.json").read_text())["inputs"]["duration"] == {"seconds": 0.02}
 
