@@ -44,6 +44,7 @@
  *                              All .hdf files end in such a line. What does not fit its checksum is not believed
  *   profile.json               what the time went into, where `repose run --profile` was asked for it
  *   log.txt                    the worker's stderr
+ *   fence.000001 ...           of each start of a worker on another machine, who may write here (attempt_fence.h)
  */
 #ifndef JOB_FOLDER_H
 #define JOB_FOLDER_H
@@ -67,6 +68,8 @@
 #define JOB_RESULT_SUM_FILE JOB_RESULT_FILE ".sum"
 #define JOB_PROFILE_FILE "profile.json"
 #define JOB_LOG_FILE "log.txt"
+#define JOB_FENCE_START "fence."
+#define JOB_FENCE_FORMAT JOB_FENCE_START "%06d"
 
 /* Signals on which either program saves what it has and leaves in good order: all that end a program from outside, but for
  * SIGKILL and those that tell of its own faults. Batch systems warn by some of them. The real-time signals are meant, too. */
@@ -81,7 +84,8 @@ enum worker_exit {
     WORKER_STOPPED = 3,   /* JOB_STOP_SIGNALS: checkpoint written, to be continued (or dismissed: the daemon knows which) */
     WORKER_NUMERICAL = 4, /* the failure event says what, where, when */
     WORKER_DISK = 5,
-    WORKER_MACHINE = 6 /* memory, descriptors, threads or the like that the machine did not give */
+    WORKER_SUPERSEDED = 7, /* another start of the same job has the folder: this one has nothing to say of it */
+    WORKER_MACHINE = 6     /* memory, descriptors, threads or the like that the machine did not give */
 };
 
 #endif

@@ -16,6 +16,7 @@
 #include "client.h"
 #include "data_check.h"
 #include "end_signals.h"
+#include "executor_slurm.h"
 #include "folder_remover.h"
 #include "http_server.h"
 #include "json_text.h"
@@ -200,6 +201,15 @@ static void announce(const parts *all)
     if (all->settings.port_file) write_port_file(all->settings.port_file, all->server.port);
 }
 
+static bool open_executor(worker_executor *executor, const config *s, const data_folder *data)
+{
+    const slurm_settings slurm = { s->slurm_partition,  s->slurm_account,        s->slurm_qos,
+                                   s->slurm_constraint, s->slurm_line,           s->slurm_lines,
+                                   s->slurm_queue,      s->slurm_bundle_seconds, s->slurm_longest };
+    return s->on_slurm ? executor_slurm_init(executor, &slurm, data, s->worker, s->confine)
+                       : executor_local_init(executor, s->worker, s->confine, s->workers);
+}
+
 static bool open_parts(parts *all)
 {
     if (!data_folder_open(&all->data, all->settings.data)) return false;
@@ -207,7 +217,7 @@ static bool open_parts(parts *all)
     if (!all->store) return false;
     all->running = &all->settings;
     all->limits = limits_of(&all->settings);
-    if (!executor_local_init(&all->executor, all->settings.worker, all->settings.confine, all->settings.workers)) return false;
+    if (!open_executor(&all->executor, &all->settings, &all->data)) return false;
     all->store->places = all->executor.places;
     if (!dispatcher_init(&all->dispatcher, all->store, &all->executor, all->settings.threads, all->signals)) return false;
     if (!dispatcher_recover(&all->dispatcher))
@@ -276,7 +286,7 @@ int main(int argc, char **argv)
     folder_remover_stop(&all.remover);
     callback_sender_stop(all.callbacks);
     dispatcher_clear(&all.dispatcher);
-    executor_local_clear(&all.executor);
+    (all.settings.on_slurm ? executor_slurm_clear : executor_local_clear)(&all.executor);
     store_close(all.store);
     data_folder_close(&all.data);
     return 0;

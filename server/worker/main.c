@@ -44,6 +44,8 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "                              depend on it. Also of check and calibrate\n"                                                    \
     "    --confine                 let the run read and write DIR alone, and let it neither start programs nor use the\n"          \
     "                              network, as the daemon's workers; a file to start from must then lie in DIR\n"                  \
+    "    --start N                 of several workers on one folder, on whatever machine, the one with the largest N has it;\n"    \
+    "                              the others leave (exit 7)\n"                                                                    \
     "    --save-bed                keep the settled bed as bed.hdf, for other jobs of a study that would settle the same\n"
 #define HELP_CHECK                                                                                                                 \
     "repose check SPEC             print the spec with every default filled in, and an estimate of steps, time and\n"              \
@@ -63,7 +65,7 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"        \
     "of another SPEC in DIR are never overwritten.\n"                                                                              \
     "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk,\n"          \
-    "6 memory, descriptors or the like that the machine did not give.\n"
+    "6 memory, descriptors or the like that the machine did not give, 7 another start has DIR.\n"
 
 static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE HELP_PLAN "repose COMMAND --help | --help | --version\n" HELP_EXIT;
 
@@ -113,12 +115,19 @@ static bool read_seconds(const char *name, const char *text, double *seconds)
 static enum worker_exit read_command_line(int argc, char **argv, command_line *line)
 {
     static const struct option options[] = {
-        { "out", required_argument, NULL, 'o' },     { "threads", required_argument, NULL, 't' },
-        { "attempt", required_argument, NULL, 'a' }, { "checkpoint-seconds", required_argument, NULL, 'c' },
-        { "json", no_argument, NULL, 'j' },          { "profile", no_argument, NULL, 'p' },
-        { "data", required_argument, NULL, 'd' },    { "isa", required_argument, NULL, 'i' },
-        { "help", no_argument, NULL, 'h' },          { "confine", no_argument, NULL, 'f' },
-        { "save-bed", no_argument, NULL, 'b' },      { NULL, 0, NULL, 0 },
+        { "out", required_argument, NULL, 'o' },
+        { "threads", required_argument, NULL, 't' },
+        { "attempt", required_argument, NULL, 'a' },
+        { "checkpoint-seconds", required_argument, NULL, 'c' },
+        { "json", no_argument, NULL, 'j' },
+        { "profile", no_argument, NULL, 'p' },
+        { "data", required_argument, NULL, 'd' },
+        { "isa", required_argument, NULL, 'i' },
+        { "help", no_argument, NULL, 'h' },
+        { "confine", no_argument, NULL, 'f' },
+        { "save-bed", no_argument, NULL, 'b' },
+        { "start", required_argument, NULL, 's' },
+        { NULL, 0, NULL, 0 },
     };
     *line = (command_line){ .run = { .attempt = 1, .checkpoint_seconds = 30.0, .program = program_version } };
     bool good = true;
@@ -134,6 +143,7 @@ static enum worker_exit read_command_line(int argc, char **argv, command_line *l
         case 'd': line->data = optarg; break;
         case 'f': line->confine = true; break;
         case 'b': line->run.save_bed = true; break;
+        case 's': good = read_whole("start", optarg, INT_MAX, &line->run.start_number); break;
         case 'i':
             line->isa = optarg;
             good = variant_isa_is_usable(optarg);

@@ -17,6 +17,14 @@ spec = json.loads(SPEC.read_text())
 label = spec["label"]
 what, seconds = label.get("fake", "quick"), float(label.get("seconds", 0))
 stopped = False
+START = int(sys.argv[sys.argv.index("--start") + 1]) if "--start" in sys.argv else 0
+FENCE = FOLDER / f"fence.{START:06}"
+if START:  # of a worker that others may be beside
+    try:
+        os.close(os.open(FENCE, os.O_CREAT | os.O_EXCL | os.O_WRONLY))
+    except FileExistsError:
+        sys.exit(7)
+    FENCE.write_text("taken\n")
 
 
 def tell(event, **facts):
@@ -58,7 +66,10 @@ def run():
     step = int(CHECKPOINT.read_text()) if CHECKPOINT.exists() else 0
     tell("start", attempt=int(sys.argv[6]), step=step, resumed=step > 0)
     while step < 20:
-        if stopped and what != "stubborn":
+        told = FENCE.read_text() if START else ""
+        if "leave" in told:
+            sys.exit(7)
+        if (stopped or "stop" in told) and what != "stubborn":
             checkpoint(step)
             sys.exit(3)
         sample(step)

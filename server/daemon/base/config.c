@@ -238,6 +238,9 @@ static enum config_outcome read_all(config *settings, const struct command *comm
     settings->queue_limit = 10000;
     settings->address_rate = 2000;
     settings->confine = true;
+    settings->slurm_queue = 200;
+    settings->slurm_bundle_seconds = 300;
+    settings->slurm_longest = 86400.0;
     settings->workers = cores < 1 ? 1 : cores > CONFIG_MOST_WORKERS ? CONFIG_MOST_WORKERS : (int)cores;
     find_parts(settings);
     const enum config_outcome outcome = read_options(settings, command);
@@ -291,6 +294,7 @@ static void keep_running(const config_option *option, config *fresh, const confi
 {
     const size_t size = option->kind == OPTION_WHOLE  ? sizeof(int)
                         : option->kind == OPTION_TEXT ? sizeof(char *)
+                        : option->kind == OPTION_AMOUNT ? sizeof(double)
                                                       : sizeof(bool); /* confine */
     memcpy((char *)fresh + option->offset, (const char *)running + option->offset, size);
 }

@@ -18,6 +18,12 @@ typedef struct config {
     int port, workers, threads, queue_limit;
     int address_rate; /* requests a second of one address */
     bool confine;     /* workers, to their folders */
+    bool on_slurm;    /* workers run in Slurm's jobs, of which all that begins so is told */
+    int slurm_queue, slurm_bundle_seconds;
+    double slurm_longest;
+    const char *slurm_partition, *slurm_account, *slurm_qos, *slurm_constraint;
+    const char *slurm_line[CONFIG_HOSTS];
+    int slurm_lines;
     const char *worker, *web, *api_file;
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;

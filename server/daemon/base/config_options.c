@@ -64,6 +64,21 @@ static bool take_confine(config *settings, const char *value, char problem[OPTIO
     return settings->confine || strcmp(value, "no") == 0;
 }
 
+static bool take_executor(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    settings->on_slurm = strcmp(value, "slurm") == 0;
+    snprintf(problem, OPTION_PROBLEM_SIZE, "local or slurm");
+    return settings->on_slurm || strcmp(value, "local") == 0;
+}
+
+static bool take_slurm_line(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    const bool good = strncmp(value, "--", 2) == 0 && strlen(value) < 250 && settings->slurm_lines < CONFIG_HOSTS;
+    snprintf(problem, OPTION_PROBLEM_SIZE, "one of %d at most, a long option of sbatch as --reservation=drums", CONFIG_HOSTS);
+    if (good) settings->slurm_line[settings->slurm_lines++] = value;
+    return good;
+}
+
 static bool take_log_format(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
 {
     settings->log_json = strcmp(value, "json") == 0;
@@ -75,6 +90,7 @@ static bool is_same_text(const char *one, const char *other) { return one && oth
 
 static bool has_same_url(const config *one, const config *other) { return is_same_text(one->public_url, other->public_url); }
 static bool confines_alike(const config *one, const config *other) { return one->confine == other->confine; }
+static bool execute_alike(const config *one, const config *other) { return one->on_slurm == other->on_slurm; }
 static bool logs_alike(const config *one, const config *other) { return one->log_json == other->log_json; }
 
 static bool is_same_list(const char *const *one, int count, const char *const *other, int others)
@@ -97,6 +113,11 @@ static bool allows_same_origins(const config *one, const config *other)
 static bool calls_same_hosts(const config *one, const config *other)
 {
     return is_same_list(one->callback_host, one->callback_hosts, other->callback_host, other->callback_hosts);
+}
+
+static bool has_same_slurm_lines(const config *one, const config *other)
+{
+    return is_same_list(one->slurm_line, one->slurm_lines, other->slurm_line, other->slurm_lines);
 }
 
 #define LIVE .is_live = true
@@ -145,6 +166,20 @@ const config_option config_options[] = {
     { "worker", "PATH", "the worker program (repose, beside this one)", TEXT(worker) },
     { "confine", "yes|no", "let a worker use its job folder alone, no network and no programs (yes)", .kind = OPTION_TAKEN,
       AT(confine), .take = take_confine, .is_same = confines_alike },
+    { "executor", "local|slurm", "where workers run: on this machine, or in jobs of Slurm (local)", .kind = OPTION_TAKEN,
+      AT(on_slurm), .take = take_executor, .is_same = execute_alike },
+    { "slurm-queue", "N", "most jobs of ours in Slurm's queue, 1 to 100000 (200)", WHOLE(slurm_queue, 1, 100000) },
+    { "bundle-seconds", "S",
+      "short jobs run one after the other in one job of Slurm, until they are expected to take\nso long, 0 to 86400 (300); 0: none",
+      WHOLE(slurm_bundle_seconds, 0, 86400) },
+    { "slurm-longest", "S", "what one job of Slurm is given at most, at least 180 (86400); what takes longer goes on in another",
+      AMOUNT(slurm_longest, 180.0, 1e8) },
+    { "slurm-partition", "NAME", "the partition of Slurm's that is asked for", TEXT(slurm_partition) },
+    { "slurm-account", "NAME", "the account that is charged", TEXT(slurm_account) },
+    { "slurm-qos", "NAME", "the quality of service that is asked for", TEXT(slurm_qos) },
+    { "slurm-constraint", "LIST", "features that a node must have", TEXT(slurm_constraint) },
+    { "slurm-line", "OPTION", "another option of sbatch, which has the last word; may be given 8 times", .kind = OPTION_TAKEN,
+      .may_repeat = true, .take = take_slurm_line, .is_same = has_same_slurm_lines },
     { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
     { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
     { "wait", NULL, "of submit: until it has ended; 0 only where it is successful", FLAG(wait) },

@@ -81,6 +81,23 @@ static void write_jobs(job_dispatcher *dispatcher, text_buffer *out)
               dispatcher->speed);
 }
 
+/* What is handed on to a batch system. */
+static void write_executor(worker_executor *executor, text_buffer *out)
+{
+    executor_counts counts;
+    if (!executor->count) return;
+    executor->count(executor, &counts);
+    write_one(out, "reposed_batch_submissions_total", "counter", "Batch jobs that were submitted.", (double)counts.submissions);
+    write_one(out, "reposed_batch_refusals_total", "counter", "Submissions that were refused, to be tried again.",
+              (double)counts.refusals);
+    write_one(out, "reposed_batch_questions_total", "counter", "How often the batch system was asked how its jobs are.",
+              (double)counts.questions);
+    write_one(out, "reposed_batch_waiting", "gauge", "Batch jobs in its queue that have not begun.", (double)counts.waiting);
+    write_one(out, "reposed_batch_running", "gauge", "Batch jobs that run.", (double)counts.running);
+    write_one(out, "reposed_batch_pause_seconds", "gauge", "Pause after the latest refusal; 0: the latest was taken.",
+              counts.pause);
+}
+
 static void write_disk(const data_folder *data, text_buffer *out)
 {
     const disk_room room = data_folder_room(data);
@@ -113,6 +130,7 @@ void metrics_write(http_metrics *metrics, job_dispatcher *dispatcher, const prun
     write_head(out, "reposed_build_info", "gauge", "Always 1; the label tells the version.");
     text_buffer_print(out, "reposed_build_info{version=\"" REPOSED_VERSION "\"} 1\n");
     write_jobs(dispatcher, out);
+    write_executor(dispatcher->executor, out);
     write_requests(metrics, out);
     write_latencies(metrics, out);
     write_one(out, "reposed_http_connections", "gauge", "Open connections.", metrics->connections);

@@ -143,6 +143,7 @@ bool worker_end_is_of_the_machine(const job_dispatcher *dispatcher, worker_slot 
     const char *what = trouble_of(&slot->end);
     char words[LOG_TAIL + 1] = "";
     if (!what) return false;
+    if (slot->end.why[0]) what = slot->end.why;
     if (slot->end.kind == WORKER_LEFT) last_words(dispatcher, slot, words, sizeof words);
     snprintf(slot->trouble, sizeof slot->trouble, "%s%s%s", what, words[0] ? "; its last words: " : "", words);
     return true;

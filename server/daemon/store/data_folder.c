@@ -32,8 +32,20 @@ static bool ends_in_tmp(const char *name)
     return length > 4 && strcmp(name + length - 4, ".tmp") == 0;
 }
 
-/* Files being written when something died: never renamed, so nobody knows them. depth: folders further down. */
-static void sweep_unfinished(int folder, int depth)
+/* Whether workers on other machines have written there, which may be at work now. */
+static bool has_fence(int folder)
+{
+    bool has = false;
+    DIR *list = folder >= 0 ? fdopendir(openat(folder, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) : NULL;
+    for (const struct dirent *entry; list && !has && (entry = readdir(list)) != NULL;)
+        has = strncmp(entry->d_name, JOB_FENCE_START, sizeof JOB_FENCE_START - 1) == 0;
+    if (list) closedir(list);
+    return has;
+}
+
+/* Files being written when something died: never renamed, so nobody knows them. A worker that lives on elsewhere sweeps its folder
+ * itself. depth: folders further down; parent: the one above, -1: none that counts. */
+static void sweep_unfinished(int folder, int depth, int parent)
 {
     DIR *list = fdopendir(dup(folder));
     if (!list) return;
@@ -41,11 +53,12 @@ static void sweep_unfinished(int folder, int depth)
     for (const struct dirent *entry; (entry = readdir(list)) != NULL;) {
         if (entry->d_name[0] == '.') continue;
         if (ends_in_tmp(entry->d_name)) {
+            if (has_fence(folder) || has_fence(parent)) break;
             unlinkat(folder, entry->d_name, 0);
         } else if (depth > 0) {
             const int inner = openat(folder, entry->d_name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
             if (inner < 0) continue;
-            sweep_unfinished(inner, depth - 1);
+            sweep_unfinished(inner, depth - 1, folder);
             close(inner);
         }
     }
@@ -88,7 +101,7 @@ bool data_folder_open(data_folder *data, const char *path)
         log_line("folder %s can't be opened: %s", jobs, strerror(errno));
         return false;
     }
-    sweep_unfinished(data->jobs, 2);
+    sweep_unfinished(data->jobs, 2, -1);
     return true;
 }
 

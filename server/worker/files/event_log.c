@@ -24,6 +24,7 @@ static bool lock_for_this_worker(int fd)
 {
     for (int tries = 0; tries < 50; tries++) {
         if (flock(fd, LOCK_EX | LOCK_NB) == 0) return true;
+        if (errno == ENOLCK || errno == ENOSYS || errno == EOPNOTSUPP) return true; /* a network file system without locks */
         nanosleep(&(struct timespec){ .tv_nsec = 100000000 }, NULL);
     }
     return false;

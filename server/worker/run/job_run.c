@@ -7,6 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "attempt_fence.h"
 #include "drum_run.h"
 #include "failure_report.h"
 #include "file_seal.h"
@@ -83,6 +84,8 @@ void job_run_catch_signals(void)
 
 bool job_run_is_asked_to_stop(void) { return stop_requested; }
 
+void job_run_ask_to_stop(void) { stop_requested = 1; }
+
 enum worker_exit job_run_write_result(const job_spec *spec, event_log *events, json_t *document)
 {
     char *text = result_warnings_add(spec, document) ? json_text_write(document) : NULL;
@@ -140,9 +143,12 @@ enum worker_exit job_run(const job_spec *spec, const char *folder, const run_opt
     enum worker_exit exit = WORKER_MACHINE;
     if (!text || !brief) worker_warn("out of memory");
     else if (!runner) exit = WORKER_FAULT;
+    else if (!attempt_fence_take(folder, options->start_number)) exit = WORKER_SUPERSEDED;
     else if (run_folder_enter(folder, &events)) exit = run_in_folder(runner, &(job_context){ spec, options, brief, &events }, text);
     else exit = WORKER_DISK;
     event_log_close(&events);
+    if (exit != WORKER_SUPERSEDED || attempt_fence_look(options->start_number) == FENCE_IS_LOST)
+        attempt_fence_leave(options->start_number);
     free(text);
     free(brief);
     return exit;

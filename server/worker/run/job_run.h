@@ -15,6 +15,7 @@ typedef struct run_options {
     bool profile;              /* write what the time went into */
     bool save_bed;             /* for others that settle the same: shared_bed.h */
     const char *program;       /* its version, with the commit */
+    int start_number;          /* which start of the job it is, for its fence (attempt_fence.h); 0: it has none */
     const char *start;         /* the file that the spec starts from, absolute; NULL: none, or it is in the folder already */
 } run_options;
 
@@ -37,6 +38,7 @@ void job_run_summarize(const job_spec *spec, const json_t *result, const char *f
 void job_run_hold_signals(void);
 void job_run_catch_signals(void);
 bool job_run_is_asked_to_stop(void);
+void job_run_ask_to_stop(void);
 
 /* The last thing a runner does: adds the warnings. Takes over the reference; NULL: there was no memory for it. */
 enum worker_exit job_run_write_result(const job_spec *spec, event_log *events, json_t *document);

@@ -14,6 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "attempt_fence.h"
 #include "bed_lanes.h"
 #include "failure_report.h"
 #include "file_publish.h"
@@ -169,6 +170,9 @@ static enum worker_exit report_progress(scene_group *g)
     progress_report report;
     if (!progress_is_due(&g->progress, scene, g->beds, &report)) return WORKER_DONE;
     log_tenth(g, &report);
+    const fence_state fence = attempt_fence_look(g->job->options->start_number);
+    if (fence == FENCE_IS_LOST) return WORKER_SUPERSEDED;
+    if (fence == FENCE_STOPS) job_run_ask_to_stop();
     const char *phase = dem_scene_phase_name(first->scene);
     if (g->job->options->on_terminal) terminal_progress(&report, phase, dem_scene_time(first->scene));
     json_t *event = json_pack("{s:s, s:f, s:o, s:f}", "phase", phase, "progress", report.percent, "eta_seconds",
