@@ -159,6 +159,8 @@ $(BUILD)/server/plan/%.o: server/plan/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<
 	$(QUIET)$(CC) $(CFLAGS) $(PLAN_FLAGS) $(call sees,$<) -c $< -o $@
+# walks over arrays
+$(BUILD)/server/daemon/store/job_index_%.o: CFLAGS += -O3
 $(BUILD)/server/daemon/%.o: server/daemon/%.c Makefile
 	@mkdir -p $(@D)
 	$(SAY) compile $<

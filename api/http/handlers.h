@@ -70,7 +70,7 @@ bool leads_to_page(const http_request *request, http_response *response, const c
 /* The file name under which the answer may be kept, which begins with the id of the job or study; see http_response. */
 void name_file(http_response *response, const char *id, const char *end, bool is_attachment);
 /* The query of GET /jobs (job_filter.c); what is wrong with it goes into the list. */
-void read_job_filter(const http_request *request, job_filter *filter, problem_list *problems);
+void read_job_filter(api_service *service, const http_request *request, job_filter *filter, problem_list *problems);
 void respond_bad_parameters(http_response *response, const problem_list *problems);
 /* Shared between handlers that take a document. parse_body: NULL, and the response says why. */
 json_t *parse_body(const http_request *request, http_response *response);

@@ -86,7 +86,7 @@ static void read_and_change(api_service *service, const http_request *request, h
         respond_store_failure(response, STORE_FAILED, "read the filter");
         return;
     }
-    read_job_filter(request, &filter, &problems);
+    read_job_filter(service, request, &filter, &problems);
     const bool dry_run = read_dry_run(request, &problems);
     require_no_body(request, &problems);
     require_filter(&filter, &problems);

@@ -316,7 +316,7 @@ void list_jobs(api_service *service, const http_request *request, http_response 
         respond_store_failure(response, STORE_FAILED, "list the jobs");
         return;
     }
-    read_job_filter(request, &filter, &problems);
+    read_job_filter(service, request, &filter, &problems);
     if (!problem_list_is_empty(&problems)) respond_bad_parameters(response, &problems);
     else if (leads_to_list(request, response)) /* at once */
         ;

@@ -230,11 +230,9 @@ static void read_label(const filter_reading *reading, const http_parameter *one)
 
 /* --- columns --- */
 
-/* Gathered when the first parameter asks for them. */
-static bool find_column(const filter_reading *reading, field_columns *columns, const char *parameter, const char *name,
+static bool find_column(const filter_reading *reading, const field_columns *columns, const char *parameter, const char *name,
                         list_column *found)
 {
-    if (!columns->column && !field_columns_gather(columns)) return false;
     if (list_column_find(columns, name, found)) return true;
     const char *nearest = list_column_nearest(columns, name);
     problem_list_add(reading->problems, parameter, "parameter %s: no column is named \"%.60s\"%s%s; GET /query lists all columns",
@@ -274,7 +272,7 @@ static bool read_truth(const char *text, value_range *range)
 }
 
 /* value.angle_deg=30..40, value.shape=sphere,tetrahedron, value.steady=true */
-static void read_value(const filter_reading *reading, field_columns *columns, const http_parameter *one)
+static void read_value(const filter_reading *reading, const field_columns *columns, const http_parameter *one)
 {
     static const char *const kinds[] = { [LIST_NUMBER] =
                                              "a number, or two with .. between, the lower first, either of which may be missing",
@@ -304,7 +302,7 @@ static void read_value(const filter_reading *reading, field_columns *columns, co
 }
 
 /* sort=-angle_deg: the largest first. */
-static void read_sort(const filter_reading *reading, field_columns *columns)
+static void read_sort(const filter_reading *reading, const field_columns *columns)
 {
     const char *sort = http_request_parameter(reading->request, "sort");
     list_column column;
@@ -336,21 +334,20 @@ static void read_cursor(const filter_reading *reading)
                      cursor);
 }
 
-void read_job_filter(const http_request *request, job_filter *filter, problem_list *problems)
+void read_job_filter(api_service *service, const http_request *request, job_filter *filter, problem_list *problems)
 {
     filter_reading reading = { request, filter, problems };
-    field_columns columns = { .column = NULL };
+    const field_columns *columns = store_columns(service->store);
     char problem[160];
     *filter = (job_filter){ .study = http_request_parameter(request, "study") };
     read_text(&reading);
     read_times(&reading);
     for (size_t p = 0; p < request->parameter_count; p++) {
         read_label(&reading, &request->parameter[p]);
-        read_value(&reading, &columns, &request->parameter[p]);
+        read_value(&reading, columns, &request->parameter[p]);
     }
-    read_sort(&reading, &columns);
+    read_sort(&reading, columns);
     read_cursor(&reading);
-    field_columns_clear(&columns);
     http_request_values(request, "status", take_status, &reading);
     http_request_values(request, "processID", take_process, &reading);
     http_request_values(request, "type", take_type, &reading);

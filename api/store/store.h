@@ -58,6 +58,10 @@ typedef struct job_record {
 
 void job_record_clear(job_record *job);
 
+/* What there is of columns; it lives as long as the store. */
+struct field_columns;
+const struct field_columns *store_columns(const job_store *store);
+
 /* False stops the walk. The record, row or text is only lent. */
 typedef bool job_visitor(void *context, const job_record *job);
 

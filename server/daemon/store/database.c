@@ -180,7 +180,7 @@ sqlite3 *database_open_writer(const char *path)
 
 sqlite3 *database_open_reader(const char *path)
 {
-    return open_with(path, SQLITE_OPEN_READONLY, "PRAGMA busy_timeout=2000; PRAGMA query_only=ON; PRAGMA cache_size=-500;");
+    return open_with(path, SQLITE_OPEN_READONLY, "PRAGMA busy_timeout=2000; PRAGMA query_only=ON; PRAGMA cache_size=-1300;");
 }
 
 void database_close(sqlite3 *database)

@@ -150,6 +150,7 @@ static void drop_rows(job_index *index)
     free(rows->kind);
     *rows = (index_rows){ .count = 0 };
     text_pool_clear(&index->labels);
+    text_search_clear(&index->search);
     value_columns_drop(index);
 }
 

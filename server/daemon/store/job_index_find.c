@@ -121,13 +121,11 @@ static uint8_t *keep_fitting(job_index *index, const job_filter *filter, int64_t
 /* Counts what is kept, then keeps what has one of the statuses. */
 static void count_kinds(const index_rows *rows, const job_filter *filter, uint8_t *kept, int64_t counts[JOB_STATUSES])
 {
-    int64_t all[ROW_STATUS + 1] = { 0 };
-    for (size_t row = 0; row < rows->count; row++) {
-        const unsigned status = rows->kind[row] & ROW_STATUS;
-        all[status] += kept[row];
-        if (filter->statuses && !(filter->statuses & (1U << status))) kept[row] = 0;
-    }
-    memcpy(counts, all, JOB_STATUSES * sizeof *counts);
+    int64_t all[4][ROW_STATUS + 1] = { { 0 } }; /* jobs beside each other have one status, and would wait for one count */
+    for (size_t row = 0; row < rows->count; row++) all[row % 4][rows->kind[row] & ROW_STATUS] += kept[row];
+    for (int s = 0; s < JOB_STATUSES; s++) counts[s] = all[0][s] + all[1][s] + all[2][s] + all[3][s];
+    const unsigned wanted = filter->statuses ? filter->statuses : ~0U;
+    for (size_t row = 0; row < rows->count; row++) kept[row] &= (wanted >> (rows->kind[row] & ROW_STATUS)) & 1U;
 }
 
 store_status job_index_find(job_index *index, sqlite3 *reader, const job_filter *filter, int64_t study,

@@ -116,15 +116,30 @@ static void write_cursor(const sorting *order, size_t row, sort_key key, char cu
     else snprintf(cursor, JOB_CURSOR_SIZE, "%lld:%.17g", (long long)key.number, key.value);
 }
 
+/* Whether the oldest that is kept comes before the newest. Whoever begins where the page does, has it soon, and passes over the
+ * rest. */
+static bool oldest_is_first(const index_rows *rows, const sorting *order, const uint8_t *kept)
+{
+    size_t oldest = 0, newest = rows->count;
+    while (oldest < rows->count && !kept[oldest]) oldest++;
+    while (newest > oldest && !kept[newest - 1]) newest--;
+    return oldest < newest
+           && is_before(order, (sort_key){ value_at(order, oldest), rows->number[oldest] },
+                        (sort_key){ value_at(order, newest - 1), rows->number[newest - 1] });
+}
+
 static bool choose_page(const index_rows *rows, const sorting *order, const uint8_t *kept, size_t most, found_job *found,
                         size_t *count)
 {
     best_rows best = { malloc(most * sizeof *best.row), malloc(most * sizeof *best.key), 0, most };
     const bool good = best.row && best.key;
-    for (size_t row = rows->count; good && row-- > 0;) {
+    const bool from_oldest = good && order->column && oldest_is_first(rows, order, kept);
+    for (size_t k = 0; good && k < rows->count; k++) {
+        const size_t row = from_oldest ? k : rows->count - 1 - k;
         if (!kept[row]) continue;
         if (!order->column && best.count == most) break; /* the newest first, which is how they come */
-        offer(order, &best, row, (sort_key){ value_at(order, row), rows->number[row] });
+        const sort_key key = { value_at(order, row), rows->number[row] };
+        if (best.count < most || is_before(order, key, best.key[0])) offer(order, &best, row, key);
     }
     *count = best.count;
     for (size_t left = best.count; good && left > 0; left--) { /* the last of those that are left is on top */

@@ -21,6 +21,18 @@ void text_pool_leave(text_pool *pool, uint32_t index);
 const char *text_pool_text(const text_pool *pool, uint32_t index);
 void text_pool_clear(text_pool *pool);
 
+/* What was looked for last, since pages ask for the same again and again: only what the pool has got since is looked through. */
+enum { LONGEST_WANTED = 1024 };
+typedef struct text_search {
+    char text[LONGEST_WANTED]; /* in small letters */
+    uint8_t *marks;            /* (searched) owned */
+    size_t searched, room;
+} text_search;
+
+/* A mark for each text of the pool that holds this one, whatever the case; lent. NULL: no memory, or the text is empty or too long. */
+const uint8_t *text_search_marks(text_search *search, const text_pool *pool, const char *text);
+void text_search_clear(text_search *search); /* as the pool is cleared, too */
+
 /* Numbers of a column, which several tables may have; of texts the numbers in the pool. */
 typedef struct value_column {
     char name[64];
@@ -48,6 +60,7 @@ struct job_index {
     pthread_mutex_t lock; /* of the rows and columns */
     index_rows rows;
     text_pool labels;
+    text_search search; /* in the labels */
     value_column column[MOST_COLUMNS_KEPT];
     size_t columns;
     uint64_t looks;
@@ -87,7 +100,7 @@ bool filter_columns(const job_filter *filter, column_name_taker *take, void *con
 
 /* Of what is kept, a mark for each row; false: no memory. */
 /* job_index_texts.c: keeps what has the text in its id or label, or the member in its label. */
-bool keep_text(const job_index *index, const char *text, uint8_t *kept);
+bool keep_text(job_index *index, const char *text, uint8_t *kept);
 bool keep_label_member(const job_index *index, const job_filter *filter, uint8_t *kept);
 /* job_index_page.c: the page that the filter asks for. */
 bool keep_page(job_index *index, const job_filter *filter, const uint8_t *kept, found_job *found, size_t *count);

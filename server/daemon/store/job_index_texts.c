@@ -6,78 +6,7 @@
 
 #include "job_index_rows.h"
 
-enum { ID_LENGTH = 24, ID_BITS_AT = 16, PIECE = 65536, LONGEST_WANTED = 1024 };
-
-static void lower(char *to, const char *from, size_t length)
-{
-    const uint64_t ones = 0x0101010101010101U;
-    size_t i = 0;
-    for (; i + 8 <= length; i += 8) { /* eight letters at once: the high bit of each byte tells whether it is of A to Z */
-        uint64_t bytes, low;
-        memcpy(&bytes, from + i, 8);
-        low = bytes & (0x7f * ones);
-        const uint64_t is_capital = (low + (0x80 - 'A') * ones) & ~(low + (0x7f - 'Z') * ones) & ~bytes & (0x80 * ones);
-        bytes |= is_capital >> 2;
-        memcpy(to + i, &bytes, 8);
-    }
-    for (; i < length; i++) to[i] = (char)(from[i] + (from[i] >= 'A' && from[i] <= 'Z' ? 'a' - 'A' : 0));
-}
-
-/* A text longer than a piece; wanted is in small letters and shorter than half of that. */
-static bool holds(const char *text, size_t left, const char *wanted, size_t wanted_length, char *piece)
-{
-    while (left >= wanted_length) {
-        const size_t length = left < PIECE ? left : PIECE;
-        lower(piece, text, length);
-        if (memmem(piece, length, wanted, wanted_length)) return true;
-        if (length == left) return false;
-        text += length - wanted_length;
-        left -= length - wanted_length;
-    }
-    return false;
-}
-
-/* The labels from the first up to the last, which lie one behind the other, in one piece. */
-static void mark_in_piece(const text_pool *labels, size_t first, size_t last, const char *piece, size_t length, const char *wanted,
-                          uint8_t *marks)
-{
-    const size_t begin = labels->offset[first], wanted_length = strlen(wanted);
-    const char *at = piece;
-    for (size_t l = first; (at = memmem(at, length - (size_t)(at - piece), wanted, wanted_length)) != NULL;) {
-        while (l + 1 < last && piece + (labels->offset[l + 1] - begin) <= at) l++;
-        marks[l] = 1;
-        if (l + 1 == last) return;
-        at = piece + (labels->offset[l + 1] - begin);
-    }
-}
-
-/* Whatever the case, of ASCII; wanted is in small letters. Returns (count) marks; NULL: no memory. */
-static uint8_t *mark_labels_with(const text_pool *labels, const char *wanted)
-{
-    uint8_t *marks = calloc(labels->count + 1, 1);
-    char *piece = malloc(PIECE);
-    for (size_t first = 0, last; marks && piece && first < labels->count; first = last) {
-        const size_t begin = labels->offset[first];
-        size_t end = begin;
-        for (last = first; last < labels->count; last++) {
-            const size_t next = last + 1 < labels->count ? labels->offset[last + 1] : labels->used;
-            if (next - begin > PIECE && last > first) break;
-            end = next;
-        }
-        if (end - begin > PIECE) {
-            marks[first] = holds(labels->text + begin, end - begin - 1, wanted, strlen(wanted), piece);
-            continue;
-        }
-        lower(piece, labels->text + begin, end - begin);
-        mark_in_piece(labels, first, last, piece, end - begin, wanted, marks);
-    }
-    if (!piece) {
-        free(marks);
-        marks = NULL;
-    }
-    free(piece);
-    return marks;
-}
+enum { ID_LENGTH = 24, ID_BITS_AT = 16 };
 
 /* Which bits the end of an id may have for the text to begin at one of its places, given its date and time. */
 typedef struct bits_wanted {
@@ -139,24 +68,17 @@ static void mark_ids(const index_rows *rows, const char *text, uint8_t *marks)
     }
 }
 
-bool keep_text(const job_index *index, const char *text, uint8_t *kept)
+bool keep_text(job_index *index, const char *text, uint8_t *kept)
 {
     const index_rows *rows = &index->rows;
-    char small[LONGEST_WANTED];
-    const size_t length = strlen(text);
-    if (length == 0) return true;
-    if (length >= sizeof small) return false;
-    lower(small, text, length + 1);
-    uint8_t *of_labels = mark_labels_with(&index->labels, small), *of_ids = calloc(rows->count + 1, 1);
-    const bool good = of_labels && of_ids;
-    if (good) {
-        mark_ids(rows, text, of_ids);
-        for (size_t row = 0; row < rows->count; row++)
-            if (kept[row]) kept[row] = of_ids[row] | of_labels[rows->label[row]];
-    }
-    free(of_labels);
+    if (!*text) return true;
+    const uint8_t *of_labels = text_search_marks(&index->search, &index->labels, text);
+    uint8_t *of_ids = of_labels ? calloc(rows->count + 1, 1) : NULL;
+    if (!of_ids) return false;
+    mark_ids(rows, text, of_ids);
+    for (size_t row = 0; row < rows->count; row++) kept[row] &= of_ids[row] | of_labels[rows->label[row]];
     free(of_ids);
-    return good;
+    return true;
 }
 
 typedef struct label_member {

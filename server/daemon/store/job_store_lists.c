@@ -176,6 +176,8 @@ static bool is_plain(const job_filter *filter)
            && filter->range_count == 0 && !filter->sort;
 }
 
+const field_columns *store_columns(const job_store *store) { return &store->fields.columns; }
+
 bool store_lists_quickly(job_store *store, const job_filter *filter)
 {
     return is_plain(filter) || job_index_is_ready(store->index, filter);
@@ -217,7 +219,19 @@ static store_status list_plainly(job_store *store, const job_filter *filter, job
     return result;
 }
 
-/* One that has changed since it was found, and does not fit any more, is passed over. */
+/* One that has changed since it was found, and does not fit any more, is passed over. False ends the walk. */
+static bool visit_one(const job_store *store, sqlite3_stmt *row, const job_filter *filter, const found_job *found,
+                      job_visitor *visit, void *context)
+{
+    job_record job;
+    fill_record(&store->fields, row, &job);
+    memcpy(job.cursor, found->cursor, sizeof job.cursor);
+    const bool more = filter->statuses && !(filter->statuses & (1U << job.status)) ? true : visit(context, &job);
+    job_record_clear(&job);
+    return more;
+}
+
+/* In one transaction, since taking the locks of one a job takes longer than reading it. */
 static store_status visit_found(job_store *store, sqlite3 *reader, const job_filter *filter, const found_job *found, size_t count,
                                 job_visitor *visit, void *context)
 {
@@ -225,21 +239,21 @@ static store_status visit_found(job_store *store, sqlite3 *reader, const job_fil
     text_buffer_init(&sql, LONGEST_SELECT);
     write_select(&store->fields, &sql);
     text_buffer_print(&sql, " WHERE job.number=?");
-    store_status status = sql.failed ? STORE_FAILED : STORE_OK;
-    bool more = true;
-    for (size_t k = 0; status == STORE_OK && more && k < count; k++) {
-        sqlite3_stmt *statement = sql_prepare(reader, sql.text, "i", found[k].number);
-        const int code = statement ? sqlite3_step(statement) : SQLITE_ERROR;
-        if (code == SQLITE_ROW) {
-            job_record job;
-            fill_record(&store->fields, statement, &job);
-            memcpy(job.cursor, found[k].cursor, sizeof job.cursor);
-            if (!filter->statuses || (filter->statuses & (1U << job.status))) more = visit(context, &job);
-            job_record_clear(&job);
-        }
-        status = statement ? sql_finish(statement, code) : STORE_FAILED;
-    }
+    const store_status begun = sql_run(reader, NULL, "BEGIN", "");
+    sqlite3_stmt *row = sql.failed || begun != STORE_OK ? NULL : sql_prepare(reader, sql.text, "");
     text_buffer_clear(&sql);
+    int code = row ? SQLITE_DONE : SQLITE_ERROR;
+    bool more = true;
+    for (size_t k = 0; more && k < count && code == SQLITE_DONE; k++) {
+        sqlite3_reset(row);
+        sqlite3_bind_int64(row, 1, found[k].number);
+        code = sqlite3_step(row);
+        if (code != SQLITE_ROW) continue;
+        more = visit_one(store, row, filter, &found[k], visit, context);
+        code = SQLITE_DONE; /* a number is that of one job */
+    }
+    const store_status status = row ? sql_finish(row, code) : STORE_FAILED;
+    if (begun == STORE_OK) sql_run(reader, NULL, "COMMIT", "");
     return status;
 }
 
