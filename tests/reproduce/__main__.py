@@ -20,7 +20,8 @@ from service import ROOT, Refused, Service, processors
 
 # The paper's order, and what takes long last; a study that is not named here comes behind them.
 ORDER = ["figure8", "table1", "figure1", "figure2", "figure3", "figure4", "rotation-rate", "wall-friction", "figure5", "figure7",
-         "figure8-beds", "size-scaling", "force-models", "heap", "beverloo", "axial"]
+         "figure8-beds", "size-scaling", "force-models", "heap", "beverloo", "materials-cohesion",
+         "materials-cohesion-heap", "materials-sizes", "materials-rolling", "materials-map-drum", "materials-map-flow", "axial"]
 
 
 def say(text):
@@ -34,6 +35,11 @@ def study_files(folder):
     return {name: found[name] for name in names}
 
 
+def named(name, files):
+    """The study of that name; where there is none, all whose names begin with it: materials-cohesion and others by materials."""
+    return [name] if name in files else [study for study in files if study.startswith(f"{name}-")]
+
+
 def arguments():
     parser = argparse.ArgumentParser(prog="reproduce", description=__doc__.splitlines()[0])
     parser.add_argument("wanted", nargs="*", metavar="STUDY", help="names of files in the studies' folder; default: all")
@@ -45,10 +51,11 @@ def arguments():
     parser.add_argument("--only-report", action="store_true", help="write it from what was collected before, running nothing")
     given = parser.parse_args()
     files = study_files(given.studies)
-    unknown = [name for name in given.wanted if name not in files]
+    unknown = [name for name in given.wanted if not named(name, files)]
     if unknown:
         parser.error(f"no such study: {', '.join(unknown)}; there are {', '.join(files)}")
-    given.files = {name: path for name, path in files.items() if not given.wanted or name in given.wanted}
+    wanted = {study for name in given.wanted for study in named(name, files)}
+    given.files = {name: path for name, path in files.items() if not given.wanted or name in wanted}
     return given
 
 

@@ -1,6 +1,7 @@
 """Writes the report: wholly from the book, in the order of the studies' files."""
 import sections_fast
 import sections_flow
+import sections_materials
 import sections_slow
 import sections_standing
 from collecting import cases_of, runs_of
@@ -13,6 +14,9 @@ SECTIONS = {
     "rotation-rate": sections_slow.rotation_rate, "wall-friction": sections_slow.wall_friction,
     "force-models": sections_slow.force_models, "size-scaling": sections_slow.size_scaling, "figure5": sections_fast.figure5,
     "figure1": sections_standing.figure1, "figure2": sections_standing.figure2, "heap": sections_standing.heap, "beverloo": sections_flow.beverloo,
+    "materials-cohesion": sections_materials.cohesion, "materials-cohesion-heap": sections_materials.cohesion_heap,
+    "materials-sizes": sections_materials.sizes, "materials-rolling": sections_materials.rolling,
+    "materials-map-drum": sections_materials.drum_map, "materials-map-flow": sections_materials.flow_map,
     "figure7": sections_fast.figure7, "figure8": sections_fast.figure8, "figure8-beds": sections_fast.figure8_beds,
 }
 

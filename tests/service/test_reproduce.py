@@ -236,6 +236,25 @@ def test_the_report_has_every_row_with_its_z(tmp_path):
     assert "The paper's value lies between the study's and that of wall lined with glued spheres." in text
 
 
+def material_runs(file, results):
+    """results: of a friction, a rolling friction and a seed."""
+    pairs = [(mu, mu_r, seed) for mu in (0.2, 0.4, 0.6) for mu_r in (0.05, 0.1, 0.2) for seed in (1, 2)]
+    runs = [a_run("c", 0, seed=seed) | {"inputs": {"contact": {"friction": mu, "rolling_friction": mu_r}}, "results": results(mu, mu_r, seed)}
+            for mu, mu_r, seed in pairs]
+    return canned(file=file, document=STUDIES[file], runs=runs)
+
+
+def test_the_map_of_materials_says_what_the_flow_tells_where_the_drum_tells_nothing(tmp_path):
+    """Planes that are given: 20 degrees a unit of friction, 40 of rolling friction; 10 and 5 g/s less."""
+    drum = material_runs("materials-map-drum", lambda mu, mu_r, seed: {"repose": {"angle_deg": 10 + 20 * mu + 40 * mu_r + 0.1 * (-1) ** seed}})
+    flow = material_runs("materials-map-flow",
+                         lambda mu, mu_r, seed: {"flow": {"mass_rate": 0.05 - 0.01 * mu - 0.005 * mu_r + 1e-4 * (-1) ** seed * (1 if mu == 0.4 else 2)}})
+    text = report(Book({"materials-map-drum": drum, "materials-map-flow": flow}, {}, tmp_path / "pictures"), "a machine")
+    assert "+2.00 ± 0.00 degrees for 0.1 more of friction and by +4.00 ± 0.00" in text and "-1.00 ± 0.00 and -0.50 ± 0.00 g/s" in text
+    assert "0.1 more of friction goes with -0.050 of rolling friction, and the flow changes by -0.75 g/s" in text
+    assert rows_of(text, "0.4")[0][:3] == ["0.4", "0.05", "20.00 ± 0.10"]
+
+
 # --- the whole of it ---
 
 def tiny(folder, seconds=0.3, repeats=2):
