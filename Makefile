@@ -137,7 +137,7 @@ $(BUILD)/core/$(1)/libdem.a: $(patsubst core/%.c,$(BUILD)/core/$(1)/%.o,$(CORE_S
 	@rm -f $$@ && ar rcs $$@ $$^
 $(BUILD)/repose$(if $(filter-out single-plain,$(1)),-$(1)): $(WORKER) $(BUILD)/commit.o $(BUILD)/libapi.a $(BUILD)/core/$(1)/libdem.a $(RULES)
 	$(SAY) link $$@
-	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -lnettle -ljansson -lseccomp -lm
+	$(QUIET)$(CC) $(LDFLAGS) -fopenmp $$^ -o $$@ $$(HDF5_LIBS) -lz -lnettle -ljansson -lseccomp -lm
 endef
 $(foreach v,$(VARIANTS),$(eval $(call core,$(v))))
 # The rules, which the core and the daemon have in common, are compiled once, for any processor.
@@ -212,7 +212,7 @@ $(BUILD)/tests/unit/worker/%: tests/unit/worker/%.c $(BUILD)/libworker.a $(BUILD
 	@mkdir -p $(@D)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(CFLAGS) -D_GNU_SOURCE $(addprefix -I,$(server/worker_SEES)) -Itests/unit $< $(BUILD)/libworker.a $(BUILD)/libapi.a \
-	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -lnettle -ljansson -lseccomp -lm -o $@
+	  $(BUILD)/core/single-plain/libdem.a $(RULES) $(LDFLAGS) -fopenmp -lcmocka $(HDF5_LIBS) -lz -lnettle -ljansson -lseccomp -lm -o $@
 $(BUILD)/libplan.a: $(filter-out $(BUILD)/server/plan/main.o,$(PLAN))
 	@rm -f $@ && ar rcs $@ $^
 $(BUILD)/tests/unit/plan/%: tests/unit/plan/%.c $(BUILD)/libplan.a $(BUILD)/libapi.a $(RULES)
@@ -235,7 +235,7 @@ $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(BUILD)/libapi.a $(RULES)
 	$(call fuzz_link)
 $(BUILD)/fuzz_checkpoint $(BUILD)/fuzz_start: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(WORKER_FILES) $(BUILD)/libapi.a $(RULES) $(DEM)
 	$(SAY) link $@
-	$(call fuzz_link,$(HDF5_CFLAGS) $(addprefix -I,$(server/worker/files_SEES)),$(WORKER_FILES),$(DEM) -lgomp $(HDF5_LIBS) -lnettle)
+	$(call fuzz_link,$(HDF5_CFLAGS) $(addprefix -I,$(server/worker/files_SEES)),$(WORKER_FILES),$(DEM) -lgomp $(HDF5_LIBS) -lz -lnettle)
 $(BUILD)/fuzz_events $(BUILD)/fuzz_request $(BUILD)/fuzz_result: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(DAEMON_PARTS) $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
 	$(call fuzz_link,$(addprefix -I,$(server/daemon_SEES)),$(DAEMON_PARTS),-pthread -lmicrohttpd -lsqlite3 -lyaml -lz -lnettle)

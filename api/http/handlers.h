@@ -28,7 +28,9 @@ route_handler list_samples, list_snapshots;
 /* handlers_snapshots.c */
 route_handler send_snapshot, send_frames;
 /* handlers_files.c */
-route_handler send_fields, send_walls, send_snapshot_series, send_archive;
+route_handler send_fields, send_walls, send_snapshot_series, send_picture, send_archive;
+/* handlers_events.c */
+route_handler send_events;
 /* handlers_studies.c */
 route_handler create_study, list_studies, show_study, remove_study, retry_study, show_study_results, show_study_csv,
     show_study_spec;

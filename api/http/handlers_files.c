@@ -39,6 +39,26 @@ void send_walls(api_service *service, const http_request *request, http_response
     send_file(service, request, response, &walls);
 }
 
+void send_picture(api_service *service, const http_request *request, http_response *response)
+{
+    static const char when[] =
+        "it is there some seconds after the start, and when the run is over; a granule has none, nor has a job of "
+        "an earlier version";
+    static const job_file large = { JOB_PICTURE_FILE, "image/png", HTTP_FILE_CHANGING, when };
+    static const job_file small = { JOB_SMALL_PICTURE_FILE, "image/png", HTTP_FILE_CHANGING, when };
+    char problem[160];
+    int64_t width;
+    if (!http_request_integer(request, "width", 1, INT64_MAX, JOB_PICTURE_LARGE, &width, problem, sizeof problem)) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
+    } else if (width != JOB_PICTURE_LARGE && width != JOB_PICTURE_SMALL) {
+        http_respond_problem(response, 400, NULL, "Bad parameter", "parameter width is %lld; must be %d or %d pixels",
+                             (long long)width, JOB_PICTURE_SMALL, JOB_PICTURE_LARGE);
+    } else {
+        send_file(service, request, response, width == JOB_PICTURE_LARGE ? &large : &small);
+        response->is_attachment = false; /* it is to be seen */
+    }
+}
+
 void send_snapshot_series(api_service *service, const http_request *request, http_response *response)
 {
     static const job_file series = { JOB_SERIES_FILE, "application/json", HTTP_FILE_CHANGING,

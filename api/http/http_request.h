@@ -31,7 +31,7 @@ typedef struct http_request {
     const char *method, *path;
     /* headers; NULL where there is none */
     const char *host, *origin, *accept, *content_type, *authorization, *prefer, *range, *if_range, *if_none_match, *accept_encoding,
-        *idempotency_key;
+        *idempotency_key, *last_event_id;
     const char *cookie, *asked_method; /* Access-Control-Request-Method */
     const char *allowed_origin;        /* that of the page which asks, where it may read the answer; else NULL */
     const uint8_t *address;            /* of the client, 16 bytes; NULL: not known */
@@ -72,6 +72,7 @@ typedef struct http_response {
     bool is_preflight; /* tells a browser what pages of allowed_origin may ask */
     const char *cache_control, *authenticate, *accept_ranges;
     int retry_after;           /* s; 0: no such header */
+    bool is_stream;            /* the server sends every change of any job, until the client leaves */
     bool wants_lane;           /* nothing to say yet: it may take long; call the handler again with in_lane */
     double wait;               /* s, above 0: nothing to say yet; call the handler again after a change, or after that long */
     char made[HTTP_MADE_SIZE]; /* with wait: what that call is to find in the request */

@@ -31,6 +31,7 @@
  *   snapshots/000000.bin ...   what programs that show a run need of each, in few bytes (frame_format.h); there before it
  *   snapshots.hdf.series       opens them in ParaView as one time series
  *   walls.vtp                  the container's walls, where they are at the newest snapshot; rewritten with that
+ *   picture.png                the bed as it was a minute ago or less, and in the end: 640 pixels a side; picture-96.png: 96
  *   fields.hdf                 a drum's fields over the cross-section, or those at an orifice, averaged over the run; before
  *                              result.json
  *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
@@ -60,6 +61,9 @@
 #define JOB_FRAME_FILE_FORMAT "%06lld.bin"
 #define JOB_SERIES_FILE "snapshots.hdf.series"
 #define JOB_WALLS_FILE "walls.vtp"
+#define JOB_PICTURE_FILE "picture.png"
+#define JOB_SMALL_PICTURE_FILE "picture-96.png"
+enum { JOB_PICTURE_LARGE = 640, JOB_PICTURE_SMALL = 96 }; /* pixels a side */
 #define JOB_FIELDS_FILE "fields.hdf"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
 #define JOB_EARLIER_CHECKPOINT_FILE "checkpoint.before.hdf"

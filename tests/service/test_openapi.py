@@ -138,6 +138,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/session", f"{url}/session", 200, "POST", json={"token": "of a daemon that asks for none"})
     call("/session", f"{url}/session", 200, "DELETE")
     call("/healthz", f"{url}/healthz", 200)
+    call("/events", f"{url}/events", 200, stream=True).close()
     call("/readyz", f"{url}/readyz", 200)
     call("/metrics", f"{url}/metrics", 200)
     call("/processes", f"{url}/processes", 200)
@@ -177,7 +178,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 206, headers={"Range": "bytes=0-99"})
     call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 304, headers={"If-None-Match": fields.headers["ETag"]})
     assert any(link["href"].endswith("/fields.hdf") for link in requests.get(job).json()["links"])
-    for name in ("walls.vtp", "snapshots.hdf.series", "files.tar"):
+    for name in ("walls.vtp", "snapshots.hdf.series", "files.tar", "picture.png"):
         call(f"/jobs/{{id}}/{name}", f"{job}/{name}", 200)
     frame = call("/jobs/{id}/snapshots/{file}", snapshots[-1]["frame"], 200)
     assert len(frame.content) == snapshots[-1]["frame_bytes"]

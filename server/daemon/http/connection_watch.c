@@ -12,6 +12,8 @@
 #define SECONDS_TO_BEGIN 20.0         /* in which an answer may go out at any speed */
 #define LEAST_BYTES_PER_SECOND 1000.0 /* from then on, on the average */
 #define SECONDS_OF_A_STALL 3.0
+#define SECONDS_BETWEEN_LOOKS_AT_STREAMS 10.0
+#define SECONDS_OF_A_DEAD_STREAM 60.0 /* several beats (event_hub.c) */
 
 void connection_watch_init(connection_watch *watch, int enough, int most_of_address)
 {
@@ -70,7 +72,7 @@ static void make_room(connection_watch *watch)
     int most = 0;
     for (watched_connection *c = watch->first; c; c = c->next) {
         const bool asks_nothing = c->reading_since > 0.0;
-        if (!asks_nothing && c->stalled_since <= 0.0) continue;
+        if (c->is_stream || (!asks_nothing && c->stalled_since <= 0.0)) continue;
         const int count = victim && connection_is_from(c, victim) ? most : count_from(watch, c);
         const bool longer = victim && count == most
                             && (asks_nothing ? victim->reading_since <= 0.0 || c->reading_since < victim->reading_since
@@ -98,7 +100,8 @@ bool connection_watch_admits(connection_watch *watch, const struct sockaddr *add
     watched_connection asking;
     connection_address(asking.address, address);
     pthread_mutex_lock(&watch->lock);
-    const bool admitted = count_from(watch, &asking) < watch->most_of_address || drop_idle_of(watch, &asking);
+    const bool has_place = watch->most == 0 || watch->count < watch->most;
+    const bool admitted = has_place && (count_from(watch, &asking) < watch->most_of_address || drop_idle_of(watch, &asking));
     pthread_mutex_unlock(&watch->lock);
     return admitted;
 }
@@ -126,7 +129,7 @@ void connection_watch_remove(connection_watch *watch, watched_connection *connec
 {
     if (!connection) return;
     pthread_mutex_lock(&watch->lock);
-    watch->count--;
+    if (!connection->is_stream) watch->count--;
     if (connection->previous) connection->previous->next = connection->next;
     else watch->first = connection->next;
     if (connection->next) connection->next->previous = connection->previous;
@@ -161,14 +164,25 @@ void connection_watch_set_sending(connection_watch *watch, watched_connection *c
     pthread_mutex_unlock(&watch->lock);
 }
 
+void connection_watch_set_stream(connection_watch *watch, watched_connection *connection)
+{
+    if (!connection) return;
+    pthread_mutex_lock(&watch->lock);
+    if (!connection->is_stream) watch->count--;
+    connection->is_stream = true;
+    pthread_mutex_unlock(&watch->lock);
+}
+
 static bool takes_too_long(watched_connection *c, double now)
 {
     if (c->reading_since > 0.0) return now - c->reading_since > SECONDS_FOR_A_REQUEST;
-    if (c->sending_since <= 0.0) return false;
+    if (c->sending_since <= 0.0 || now < c->next_look) return false;
+    if (c->is_stream) c->next_look = now + SECONDS_BETWEEN_LOOKS_AT_STREAMS;
     const uint64_t taken = bytes_taken(c->socket);
     if (taken != c->taken) c->stalled_since = 0.0;
     else if (c->stalled_since <= 0.0) c->stalled_since = now;
     c->taken = taken;
+    if (c->is_stream) return c->stalled_since > 0.0 && now - c->stalled_since > SECONDS_OF_A_DEAD_STREAM;
     const double seconds = now - c->sending_since - SECONDS_TO_BEGIN;
     return seconds > 0.0 && (double)(taken - c->taken_before) < LEAST_BYTES_PER_SECOND * seconds;
 }
@@ -189,7 +203,7 @@ void connection_watch_drop_stalled(connection_watch *watch)
     const double now = monotonic_seconds();
     pthread_mutex_lock(&watch->lock);
     for (watched_connection *c = watch->first; c; c = c->next)
-        if (c->stalled_since > 0.0 && now - c->stalled_since >= SECONDS_OF_A_STALL) shutdown(c->socket, SHUT_RDWR);
+        if (!c->is_stream && c->stalled_since > 0.0 && now - c->stalled_since >= SECONDS_OF_A_STALL) shutdown(c->socket, SHUT_RDWR);
     pthread_mutex_unlock(&watch->lock);
 }
 

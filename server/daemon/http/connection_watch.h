@@ -16,6 +16,8 @@ enum { CONNECTION_ADDRESS_SIZE = 16 };
 
 typedef struct watched_connection {
     int socket;
+    bool is_stream;                           /* its answer goes on until the client leaves */
+    double next_look;                         /* monotonic s: at a stream */
     bool is_going;                            /* it was shut down, and its place counts as free */
     uint8_t address[CONNECTION_ADDRESS_SIZE]; /* of the client: connection_address */
     size_t held;                              /* bytes of bodies and answers in memory that count */
@@ -28,7 +30,8 @@ typedef struct watched_connection {
 typedef struct connection_watch {
     pthread_mutex_t lock;
     watched_connection *first;
-    int count, enough; /* from so many on, those that ask nothing make room for others */
+    int most;          /* connections but streams; 0: any number */
+    int count, enough; /* of those; from so many on, those that ask nothing make room for others */
     int most_of_address;
 } connection_watch;
 
@@ -45,6 +48,8 @@ watched_connection *connection_watch_add(connection_watch *watch, int socket, co
 void connection_watch_remove(connection_watch *watch, watched_connection *connection);
 void connection_watch_set_reading(connection_watch *watch, watched_connection *connection, int reading);
 void connection_watch_set_sending(connection_watch *watch, watched_connection *connection);
+/* What it is sent from now on has no end: it no longer counts but for its address, and goes when nothing is taken for a minute. */
+void connection_watch_set_stream(connection_watch *watch, watched_connection *connection);
 /* Shuts down what has been reading, or not taking its answer, for too long. */
 void connection_watch_sweep(connection_watch *watch);
 /* The same for every answer of which nothing has been taken for some seconds. */

@@ -77,6 +77,7 @@ void http_headers_take(http_headers *headers, http_request *request, const char 
         { "If-None-Match", &request->if_none_match, NULL },
         { "Accept-Encoding", &request->accept_encoding, NULL },
         { "Idempotency-Key", &request->idempotency_key, NULL },
+        { "Last-Event-ID", &request->last_event_id, NULL },
         { "Cookie", &request->cookie, NULL },
         { "Access-Control-Request-Method", &request->asked_method, NULL },
         { "X-Request-Id", &request->request_id, NULL },

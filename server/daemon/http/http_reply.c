@@ -134,6 +134,12 @@ static struct MHD_Response *reply_of(http_response *response)
     return reply;
 }
 
+void http_reply_add_headers(struct MHD_Response *reply, const http_request *request, const http_response *response)
+{
+    add_headers(reply, response);
+    if (request->allowed_origin) add_headers_for_pages(reply, request->allowed_origin, response);
+}
+
 struct MHD_Response *http_reply_make(const http_request *request, http_response *response)
 {
     const bool compressed = http_compress_is_wanted(request, response);
@@ -145,7 +151,6 @@ struct MHD_Response *http_reply_make(const http_request *request, http_response 
         add_header(reply, "Content-Encoding", "gzip");
     }
     if (response->status == 304 || http_compress_is_text(response)) add_header(reply, "Vary", "Accept-Encoding");
-    add_headers(reply, response);
-    if (request->allowed_origin) add_headers_for_pages(reply, request->allowed_origin, response);
+    http_reply_add_headers(reply, request, response);
     return reply;
 }

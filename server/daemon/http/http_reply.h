@@ -10,4 +10,7 @@
 /* Takes body, file and pieces out of the response. NULL: no memory. */
 struct MHD_Response *http_reply_make(const http_request *request, http_response *response);
 
+/* The headers of an answer whose body is made elsewhere. */
+void http_reply_add_headers(struct MHD_Response *reply, const http_request *request, const http_response *response);
+
 #endif

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
@@ -77,11 +78,31 @@ static void hold_answer(http_exchange *exchange)
 
 /* --- answering --- */
 
+/* NULL: too many follow the jobs already, and the response says so. */
+static struct MHD_Response *stream_of(http_exchange *exchange)
+{
+    http_response *response = &exchange->response;
+    struct MHD_Response *reply = event_hub_reply(&exchange->server->hub, exchange);
+    if (reply) {
+        http_reply_add_headers(reply, &exchange->request, response);
+        return reply;
+    }
+    http_respond_problem(
+        response, 503, NULL, "Too many follow the jobs",
+        "there are as many streams of events as may be, %d in all and %d of one address; ask for the list now and then",
+        EVENT_HUB_STREAMS, EVENT_HUB_STREAMS_PER_ADDRESS);
+    response->is_stream = false;
+    response->retry_after = 60;
+    return NULL;
+}
+
 static enum MHD_Result send_response(http_exchange *exchange)
 {
     http_response *response = &exchange->response;
     hold_answer(exchange);
-    struct MHD_Response *reply = http_reply_make(&exchange->request, response);
+    const bool streams = response->is_stream && strcmp(exchange->request.method, "HEAD") != 0;
+    struct MHD_Response *reply = streams ? stream_of(exchange) : NULL;
+    if (!reply) reply = http_reply_make(&exchange->request, response);
     if (!reply) return MHD_NO;
     metrics_count(&exchange->server->metrics, exchange->route, response->status, exchange->worked);
     MHD_add_response_header(reply, "X-Request-Id", exchange->id);
@@ -89,6 +110,7 @@ static enum MHD_Result send_response(http_exchange *exchange)
     log_request(exchange->request.method, exchange->request.path, response->status, exchange->worked);
     log_set_request("");
     connection_watch_set_sending(&exchange->server->watch, exchange->watched);
+    if (streams && response->is_stream) connection_watch_set_stream(&exchange->server->watch, exchange->watched);
     const enum MHD_Result result = MHD_queue_response(exchange->connection, (unsigned)response->status, reply);
     MHD_destroy_response(reply);
     return result;
@@ -352,21 +374,35 @@ bool http_server_open(http_server *server, const config *settings, api_service *
     if (server->listener < 0) return false;
     server->port = port_of(server->listener);
     connection_watch_init(&server->watch, ENOUGH_CONNECTIONS, ADDRESS_CONNECTIONS);
+    server->watch.most = MOST_CONNECTIONS;
     return true;
+}
+
+/* Each connection is a descriptor, and the limit of old for programs that select() is below what we have. */
+static void allow_descriptors(void)
+{
+    struct rlimit limit;
+    const rlim_t wanted = MOST_CONNECTIONS + EVENT_HUB_STREAMS + 1024;
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return;
+    limit.rlim_cur = limit.rlim_max < wanted ? limit.rlim_max : wanted;
+    setrlimit(RLIMIT_NOFILE, &limit);
 }
 
 bool http_server_start(http_server *server)
 {
+    allow_descriptors();
     if (!waiting_room_open(&server->room, server->service, &server->watch)) return false;
+    if (!event_hub_open(&server->hub, server->service->store)) return false;
     server->daemon = MHD_start_daemon(
         MHD_USE_EPOLL_INTERNAL_THREAD | MHD_ALLOW_SUSPEND_RESUME, 0, admit_connection, server, take_request, server,
         MHD_OPTION_LISTEN_SOCKET, server->listener, MHD_OPTION_THREAD_POOL_SIZE, (unsigned)HTTP_THREADS,
         MHD_OPTION_THREAD_STACK_SIZE, (size_t)THREAD_STACK, MHD_OPTION_STRICT_FOR_CLIENT, 1, MHD_OPTION_URI_LOG_CALLBACK,
         take_target, server, MHD_OPTION_NOTIFY_COMPLETED, end_request, server, MHD_OPTION_NOTIFY_CONNECTION, note_connection,
-        server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)MOST_CONNECTIONS, MHD_OPTION_CONNECTION_TIMEOUT, (unsigned)SILENCE_SECONDS,
-        MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY, MHD_OPTION_END);
+        server, MHD_OPTION_CONNECTION_LIMIT, (unsigned)(MOST_CONNECTIONS + EVENT_HUB_STREAMS), MHD_OPTION_CONNECTION_TIMEOUT,
+        (unsigned)SILENCE_SECONDS, MHD_OPTION_CONNECTION_MEMORY_LIMIT, (size_t)CONNECTION_MEMORY, MHD_OPTION_END);
     if (server->daemon) return true;
     log_line("the HTTP server can't be started");
+    event_hub_close(&server->hub);
     waiting_room_close(&server->room);
     return false;
 }
@@ -374,6 +410,7 @@ bool http_server_start(http_server *server)
 void http_server_leave(http_server *server)
 {
     waiting_room_close(&server->room);
+    event_hub_close(&server->hub);
     const MHD_socket listener = MHD_quiesce_daemon(server->daemon);
     if (listener != MHD_INVALID_SOCKET) close(listener);
 }
@@ -383,5 +420,6 @@ void http_server_stop(http_server *server)
     for (int ms = 0; ms < LAST_ANSWERS_MS && atomic_load(&server->under_way) > 0; ms += 10)
         nanosleep(&(struct timespec){ .tv_nsec = 10000000 }, NULL);
     MHD_stop_daemon(server->daemon);
+    event_hub_clear(&server->hub);
     connection_watch_clear(&server->watch);
 }

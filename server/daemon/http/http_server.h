@@ -5,6 +5,7 @@
 #include <stdatomic.h>
 
 #include "connection_watch.h"
+#include "event_hub.h"
 #include "http_guard.h"
 #include "metrics.h"
 #include "waiting_room.h"
@@ -17,6 +18,7 @@ typedef struct http_server {
     atomic_size_t bodies_held, answers_held; /* bytes of the large ones that are in memory */
     atomic_int under_way;                    /* requests that have begun and are not answered to the end */
     waiting_room room;
+    event_hub hub;
     struct MHD_Daemon *daemon;
     int listener, port; /* the port that was opened */
 } http_server;

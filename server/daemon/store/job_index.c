@@ -78,6 +78,13 @@ static void forget_changes(job_index *index)
     index->changes = index->changes_room = 0;
 }
 
+const int64_t *job_index_changing(const job_index *index, size_t *count, bool *are_more)
+{
+    *count = index->pendings;
+    *are_more = index->lost_track;
+    return index->pending;
+}
+
 void job_index_note_end(job_index *index, bool is_committed)
 {
     if (index->pendings > 0 || index->lost_track) {

@@ -18,6 +18,8 @@ typedef struct job_index job_index;
 job_index *job_index_create(const field_columns *columns, sqlite3 *writer);
 void job_index_free(job_index *index);
 
+/* The numbers of the jobs whose rows the writer's open transaction has changed; *are_more: these are not all. */
+const int64_t *job_index_changing(const job_index *index, size_t *count, bool *are_more);
 /* The writer's transaction has ended. */
 void job_index_note_end(job_index *index, bool is_committed);
 

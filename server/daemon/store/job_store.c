@@ -34,6 +34,7 @@ job_store *store_open(data_folder *data, int64_t queue_limit)
     if (!good) log_line("database: out of memory for the tables of fields");
     good = good && (store->writer = database_open_writer(path)) != NULL;
     if (good) good = (store->index = job_index_create(&store->fields.columns, store->writer)) != NULL;
+    if (good) good = (store->changes = job_changes_create()) != NULL;
     for (; good && store->readers_free < STORE_READERS; store->readers_free++)
         good = (store->reader[store->readers_free] = database_open_reader(path)) != NULL;
     if (good) good = (store->query = database_open_reader(path)) != NULL && query_connection_restrict(store);
@@ -57,6 +58,7 @@ void store_close(job_store *store)
     pthread_mutex_destroy(&store->group_lock);
     free(store->query_tables);
     job_index_free(store->index);
+    job_changes_free(store->changes);
     field_tables_clear(&store->fields);
     free(store);
 }

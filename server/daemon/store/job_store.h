@@ -10,6 +10,7 @@
 #include "data_folder.h"
 #include "event_tail.h"
 #include "field_tables.h"
+#include "job_changes.h"
 #include "job_index.h"
 #include "query_functions.h"
 #include "store.h"
@@ -23,6 +24,7 @@ struct job_store {
     data_folder *data;
     field_tables fields;
     job_index *index;
+    job_changes *changes;
     _Atomic int64_t queue_limit; /* jobs that may wait */
     int places;                  /* jobs that may run at once */
     pthread_mutex_t write_lock;  /* held by who writes, from begin to end */
@@ -43,6 +45,9 @@ struct job_store {
 
 job_store *store_open(data_folder *data, int64_t queue_limit);
 void store_close(job_store *store);
+
+/* STORE_NOT_FOUND: it is not there any more. */
+store_status store_find_numbered_job(job_store *store, int64_t number, job_record *job);
 
 sqlite3 *store_borrow_reader(job_store *store);
 void store_return_reader(job_store *store, sqlite3 *reader);

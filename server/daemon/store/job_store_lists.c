@@ -96,14 +96,17 @@ static void fill_record(const field_tables *fields, sqlite3_stmt *row, job_recor
     read_summary(fields, row, job);
 }
 
-store_status store_find_job(job_store *store, const char *id, job_record *job)
+/* column: of the table, which is this id, or this number where there is none. */
+static store_status find_by(job_store *store, const char *column, const char *id, int64_t number, job_record *job)
 {
     text_buffer sql;
     text_buffer_init(&sql, LONGEST_SELECT);
     write_select(&store->fields, &sql);
-    text_buffer_print(&sql, " WHERE job.id=?");
+    text_buffer_print(&sql, " WHERE job.%s=?", column);
     sqlite3 *reader = store_borrow_reader(store);
-    sqlite3_stmt *statement = sql.failed ? NULL : sql_prepare(reader, sql.text, "t", id);
+    sqlite3_stmt *statement = sql.failed ? NULL
+                              : id       ? sql_prepare(reader, sql.text, "t", id)
+                                         : sql_prepare(reader, sql.text, "i", number);
     text_buffer_clear(&sql);
     store_status status = STORE_FAILED;
     if (statement) {
@@ -114,6 +117,13 @@ store_status store_find_job(job_store *store, const char *id, job_record *job)
     }
     store_return_reader(store, reader);
     return status;
+}
+
+store_status store_find_job(job_store *store, const char *id, job_record *job) { return find_by(store, "id", id, 0, job); }
+
+store_status store_find_numbered_job(job_store *store, int64_t number, job_record *job)
+{
+    return find_by(store, "number", NULL, number, job);
 }
 
 /* One walk over the jobs before it, in their index alone; `and`: what else they are. `running`: of which jobs at work the

@@ -41,6 +41,10 @@ static void close_group(job_store *store, store_status status)
     if (status == STORE_OK) status = sql_run(store->writer, NULL, "COMMIT", "");
     /* A full disk may have rolled back by itself already. */
     if (!sqlite3_get_autocommit(store->writer)) sql_run(store->writer, NULL, "ROLLBACK", "");
+    size_t count;
+    bool are_more;
+    const int64_t *changed = job_index_changing(store->index, &count, &are_more);
+    if (status == STORE_OK && (count > 0 || are_more)) job_changes_note(store->changes, changed, count, are_more);
     job_index_note_end(store->index, status == STORE_OK);
     pthread_mutex_lock(&store->group_lock);
     group->status = status;

@@ -20,6 +20,7 @@
 #include "file_publish.h"
 #include "frame_file.h"
 #include "json_text.h"
+#include "picture_file.h"
 #include "process_type.h"
 #include "run_folder.h"
 #include "run_summary.h"
@@ -31,9 +32,11 @@
 #include "walls_file.h"
 #include "worker_log.h"
 
-#define SERIES_SECONDS 2.0       /* between rewrites of a long series */
-#define FIRST_CHECKPOINT 0.1     /* of the time between checkpoints, so that little is lost of a run that is short */
-#define SERIES_ALWAYS_BELOW 1000 /* snapshots: a short series is rewritten after each */
+#define PICTURE_SECONDS 60.0      /* between pictures; a short run has that of its end alone */
+#define FIRST_PICTURE_SECONDS 5.0 /* after the start of an attempt */
+#define SERIES_SECONDS 2.0        /* between rewrites of a long series */
+#define FIRST_CHECKPOINT 0.1      /* of the time between checkpoints, so that little is lost of a run that is short */
+#define SERIES_ALWAYS_BELOW 1000  /* snapshots: a short series is rewritten after each */
 
 /* Of several beds, their steps together. */
 static int64_t steps_of_all(const scene_group *g)
@@ -78,6 +81,14 @@ static bool write_series(scene_group *g, bool now)
     g->last_series = monotonic_seconds();
     return snapshot_series_write(&r->plan, r->spec.scene.time_step, r->next_snapshot)
            && walls_file_write(r->scene, &r->spec.scene, r->spec.is_mirrored);
+}
+
+/* For who looks at the run: nothing depends on it, and where it can't be written the log says so. */
+static void draw_picture(scene_group *g)
+{
+    const scene_run *r = g->bed;
+    g->next_picture = monotonic_seconds() + PICTURE_SECONDS;
+    picture_files_write(r->scene, &r->spec.scene, r->spec.is_mirrored);
 }
 
 static enum worker_exit take_snapshot(scene_group *g)
@@ -169,6 +180,7 @@ static enum worker_exit report_progress(scene_group *g)
     for (size_t k = 0; k < g->beds; k++) scene[k] = g->bed[k].scene;
     progress_report report;
     if (!progress_is_due(&g->progress, scene, g->beds, &report)) return WORKER_DONE;
+    if (monotonic_seconds() >= g->next_picture) draw_picture(g);
     log_tenth(g, &report);
     const fence_state fence = attempt_fence_look(g->job->options->start_number);
     if (fence == FENCE_IS_LOST) return WORKER_SUPERSEDED;
@@ -263,6 +275,7 @@ static enum worker_exit write_result(scene_group *g)
         json_decref(document);
         return fail_for_disk(g, JOB_SERIES_FILE);
     }
+    draw_picture(g);
     if (!write_files(g)) {
         json_decref(document);
         return fail_for_disk(g, JOB_FIELDS_FILE);
@@ -363,6 +376,7 @@ static enum worker_exit begin(scene_group *g)
     }
     find_next_look(g);
     progress_init(&g->progress, g->job->spec, &g->bed->plan, scene, earlier_seconds);
+    g->next_picture = monotonic_seconds() + FIRST_PICTURE_SECONDS;
     g->next_checkpoint = monotonic_seconds() + FIRST_CHECKPOINT * g->job->options->checkpoint_seconds;
     g->phase = dem_scene_phase(g->bed->scene);
     run_profile_begin(&g->bed->profile, g->bed->scene);

@@ -65,13 +65,13 @@ struct scene_group {
     const scene_test *test;
     scene_run *bed; /* (beds) */
     size_t beds;
-    int64_t look;                        /* frames of each bed at which the test looks next; INT64_MAX: never */
-    char start_trouble[300];             /* why it can't start from the bed that it was given; "": none */
-    bool has_saved_bed;                  /* of one bed alone */
-    const char *ended_by;                /* NULL: not yet, or by its time */
-    double next_checkpoint, last_series; /* s, monotonic */
-    dem_phase phase;                     /* the first bed's, the last one logged */
-    int tenth;                           /* of the run, likewise */
+    int64_t look;                                      /* frames of each bed at which the test looks next; INT64_MAX: never */
+    char start_trouble[300];                           /* why it can't start from the bed that it was given; "": none */
+    bool has_saved_bed;                                /* of one bed alone */
+    const char *ended_by;                              /* NULL: not yet, or by its time */
+    double next_checkpoint, last_series, next_picture; /* s, monotonic */
+    dem_phase phase;                                   /* the first bed's, the last one logged */
+    int tenth;                                         /* of the run, likewise */
     progress progress;
 };
 

@@ -76,11 +76,48 @@ static void an_address_has_its_share_of_connections_and_of_memory(void **state)
     connection_watch_clear(&watch);
 }
 
+/* With room for two that ask, and three of one address. */
+static void streams_take_no_place_but_that_of_their_address(void **state)
+{
+    (void)state;
+    connection_watch watch;
+    connection_watch_init(&watch, 100, 3);
+    watch.most = 2;
+    struct sockaddr_in mine = { .sin_family = AF_INET, .sin_addr.s_addr = htonl(0x7f000001) },
+                       other = { .sin_family = AF_INET, .sin_addr.s_addr = htonl(0x7f000002) };
+    const struct sockaddr *me = (const struct sockaddr *)&mine, *you = (const struct sockaddr *)&other;
+    watched_connection *stream[3];
+    for (int i = 0; i < 3; i++) {
+        assert_true(connection_watch_admits(&watch, me));
+        stream[i] = connection_watch_add(&watch, -1, me);
+        connection_watch_set_sending(&watch, stream[i]);
+        connection_watch_set_stream(&watch, stream[i]);
+        connection_watch_set_stream(&watch, stream[i]); /* it is one already */
+    }
+    assert_int_equal(watch.count, 0);
+    assert_false(connection_watch_admits(&watch, me));
+    watched_connection *ask[2];
+    for (int i = 0; i < 2; i++) {
+        assert_true(connection_watch_admits(&watch, you));
+        ask[i] = connection_watch_add(&watch, -1, you);
+        connection_watch_set_reading(&watch, ask[i], 0);
+    }
+    assert_false(connection_watch_admits(&watch, you));
+    connection_watch_remove(&watch, stream[0]);
+    assert_int_equal(watch.count, 2);
+    connection_watch_remove(&watch, ask[0]);
+    assert_true(connection_watch_admits(&watch, you) && connection_watch_admits(&watch, me));
+    connection_watch_remove(&watch, ask[1]);
+    for (int i = 1; i < 3; i++) connection_watch_remove(&watch, stream[i]);
+    connection_watch_clear(&watch);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(addresses_of_one_network_of_ipv6_are_one_client),
         cmocka_unit_test(an_address_has_its_share_of_connections_and_of_memory),
+        cmocka_unit_test(streams_take_no_place_but_that_of_their_address),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
