@@ -26,7 +26,8 @@ export const session = {
 // The daemon's tokens have no other characters.
 export const canBeToken = text => /^[\x21-\x7e]+$/.test(text);
 
-export async function request(path, { method = 'GET', accept = 'application/json', body } = {}) {
+// cache: 'default' for what never changes.
+export async function request(path, { method = 'GET', accept = 'application/json', body, cache = 'no-store' } = {}) {
   const headers = { Accept: accept };
   if (method !== 'GET') headers['Content-Type'] = 'application/json';
   const silence = new AbortController();
@@ -37,7 +38,7 @@ export async function request(path, { method = 'GET', accept = 'application/json
   };
   try {
     heard();
-    answer = await whole(await fetch(path, { method, headers, body, cache: 'no-store', signal: silence.signal }), heard);
+    answer = await whole(await fetch(path, { method, headers, body, cache, signal: silence.signal }), heard);
   } catch {
     throw new ApiError(0, silence.signal.aborted ? `no answer for ${SILENCE / 1000} s` : 'no connection');
   } finally {

@@ -91,6 +91,7 @@ function showLinks(box, job) {
   const fields = job.links?.find(link => link.rel === 'fields');
   replaceIfChanged(box, job.status, () => [
     h('ul', { class: 'links' },
+      h('li', null, h('a', { href: `${root}web/job.html?id=${encodeURIComponent(job.jobID)}` }, 'Page of this job')),
       job.status === 'successful' ? h('li', null, fileLink(`${path}/results`, 'Results')) : null,
       job.studyID ? h('li', null, h('a', { href: `${root}web/studies.html#${job.studyID}` }, 'Study')) : null,
       h('li', null, fileLink(`${path}/spec`, 'Spec')),

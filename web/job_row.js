@@ -4,15 +4,11 @@ import { h, replaceIfChanged } from './dom.js';
 import { answerInWords, clock, count, duration, regimeInWords, secondsBetween, significant, verdictInWords } from './format.js';
 import { drumPicture } from './drum_picture.js';
 import { createDetail } from './job_detail.js';
+import { nameOf } from './job_name.js';
 import { inputsInWords } from './words.js';
 
 const COLUMNS = ['job', 'state', 'inputs', 'angle', 'regime', 'times', 'actions'];
 const CAN_BE_STOPPED = ['accepted', 'running'];
-
-export function nameOf(job) {
-  const words = Object.values(job.label ?? {}).map(String).filter(Boolean);
-  return words.length ? words.join(' · ') : `${job.processID} test`;
-}
 
 const nothing = () => h('span', { class: 'quiet nothing' }, '–');
 

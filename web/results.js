@@ -59,7 +59,7 @@ export function answer(repose, regime, summary) {
 }
 
 // A row a stage of the drum's rotation.
-function stageTable(stages) {
+export function stageTable(stages) {
   return h('section', null, h('h3', null, 'Stages'),
     h('table', { class: 'methods' },
       h('thead', null, h('tr', null, ['rate', 'from', 'to', 'angle ± standard error', 'regime', 'verdict'].map(name => h('th', { scope: 'col' }, name)))),

@@ -31,6 +31,7 @@ async function describe(process) {
   if (!described.has(process)) {
     const { inputs, outputs } = await json(`${root}processes/${encodeURIComponent(process)}`);
     described.set(process, {
+      inputs,
       schemas: Object.fromEntries(Object.entries(outputs).map(([name, { schema }]) => [name, schema])),
       listed: listedIn(inputs).sort((a, b) => a.order - b.order),
     });
@@ -40,6 +41,9 @@ async function describe(process) {
 
 // {output: its JSON Schema}
 export const schemasOf = async process => (await describe(process)).schemas;
+
+// {input: {title, description, schema}}
+export const describedInputs = async process => (await describe(process)).inputs;
 
 // Of all schemas in a tree those that a list of jobs shows: {column, order, before, factor, after or unit, above, of, title}.
 function listedIn(node) {

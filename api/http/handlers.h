@@ -7,7 +7,7 @@
 enum { LONGEST_WAIT = 60 }; /* s that a request may wait for a job */
 
 /* handlers_service.c */
-route_handler show_landing, show_conformance, show_asset, show_health, show_readiness, show_metrics;
+route_handler show_landing, show_conformance, show_asset, show_vendor_asset, show_health, show_readiness, show_metrics;
 route_handler list_problems, show_problem;
 /* handlers_api.c */
 route_handler show_api;

@@ -84,7 +84,7 @@ void show_job(api_service *service, const http_request *request, http_response *
     }
     job_record job;
     if (!find_job(service, request, response, &job)) return;
-    if (leads_to_page(request, response, "/?open=%s", job.id)) /* at once */
+    if (leads_to_page(request, response, "/web/job.html?id=%s", job.id)) /* at once */
         ;
     else if (!has_ended(&job) && request->may_wait && request->waited < (double)wait)
         response->wait = (double)wait - request->waited;

@@ -2,6 +2,7 @@
  * metrics. */
 #include <ctype.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -115,12 +116,25 @@ static const char *asset_type(const char *name)
     return NULL;
 }
 
-void show_asset(api_service *service, const http_request *request, http_response *response)
+static void send_asset(api_service *service, const http_request *request, http_response *response, const char *folder)
 {
     const char *name = request->segment[0];
     const char *type = asset_type(name);
-    if (!type || !send_page_file(service, request, response, name, type))
+    char path[HTTP_SEGMENT_SIZE + 16];
+    snprintf(path, sizeof path, "%s%s", folder, name);
+    if (!type || !send_page_file(service, request, response, path, type))
         http_respond_problem(response, 404, NULL, "Not found", "the page has no file \"%s\"", name);
+}
+
+void show_asset(api_service *service, const http_request *request, http_response *response)
+{
+    send_asset(service, request, response, "");
+}
+
+/* Libraries of others that the page uses. */
+void show_vendor_asset(api_service *service, const http_request *request, http_response *response)
+{
+    send_asset(service, request, response, "vendor/");
 }
 
 void show_health(api_service *service, const http_request *request, http_response *response)

@@ -22,6 +22,7 @@ put 755 lib/reposed "$build/reposed" "$build"/repose "$build"/repose-single-avx5
 install -d -m 755 "$root/bin"
 for program in reposed repose; do ln -sfn "../lib/reposed/$program" "$root/bin/$program"; done
 put 644 share/reposed/web web/*.html web/*.js web/*.css web/*.svg web/*.png
+put 644 share/reposed/web/vendor web/vendor/*
 put 644 share/reposed/api api/openapi.yaml
 put 644 share/reposed/api/examples api/examples/*.json
 put 644 share/reposed/api/examples/instruments api/examples/instruments/*.json

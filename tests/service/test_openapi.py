@@ -120,6 +120,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/", f"{url}/?status=failed", 200, headers={"Accept": "text/html"})
     for name in ("style.css", "jobs.js", "icon.svg"):
         asset = call("/web/{name}", f"{url}/web/{name}", 200)
+    call("/web/vendor/{name}", f"{url}/web/vendor/uPlot.min.css", 200)
     call("/web/{name}", f"{url}/web/icon.svg", 304, headers={"If-None-Match": asset.headers["ETag"]})
     call("/conformance", f"{url}/conformance", 200)
     assert yaml.safe_load(call("/api", f"{url}/api", 200).text) == contract.document

@@ -81,7 +81,7 @@ def test_a_job_is_followed_to_its_angle(daemon, browser):
     methods = {cell.text.splitlines()[0] for cell in find_all(browser, ".methods tbody th")}
     assert methods == {repose["method"], *repose["other_methods"]}
     links = [link.get_attribute("href") for link in find_all(browser, ".links a")]
-    assert len(links) == 6 and all(requests.get(link).status_code == 200 for link in links)
+    assert len(links) == 7 and all(requests.get(link).status_code == 200 for link in links)
     fields, = (link for link in links if link.endswith("/fields.hdf"))
     assert requests.get(fields).content[:4] == b"\x89HDF"
     find(browser, ".snapshots summary").click()
@@ -144,7 +144,7 @@ def test_a_granule_shows_its_least_rate(daemon, browser):
     rounds = daemon.get(f"/jobs/{job}/results").json()["regime"]["evidence"]["revolutions"]
     assert f"revolutions followed\n{rounds}\n" in find(browser, f"#detail-{job} .results").text
     links = [link.get_attribute("href") for link in find_all(browser, ".links a")]
-    assert len(links) == 3 and all(requests.get(link).status_code == 200 for link in links)  # no samples, no snapshots
+    assert len(links) == 4 and all(requests.get(link).status_code == 200 for link in links)  # no samples, no snapshots
     assert find_all(browser, f"#detail-{job} .plot") == [] and find_all(browser, f"#detail-{job} .snapshots") == []
     assert not scrolls_sideways(browser)
 
