@@ -4,7 +4,7 @@ import { h } from './dom.js';
 import { palette } from './bed_view.js';
 import { degrees, significant } from './format.js';
 
-const COLORS = ['accent', 'run', 'ok', 'bad', 'shell', 'violet'];
+export const COLORS = ['accent', 'run', 'ok', 'bad', 'shell', 'violet'];
 const LEAST_HEIGHT = 150;
 const MARGIN = 0.12;
 

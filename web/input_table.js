@@ -31,7 +31,7 @@ export function valueInWords(value, schema) {
   return [`${written(value)}${unit ? ` ${unit}` : ''}`, beside];
 }
 
-const nameOf = path => path.map((part, k) => typeof part === 'number' ? `[${part}]` : k ? `.${part}` : part).join('').replace(/^\./, '');
+export const nameOfInput = path => path.map((part, k) => typeof part === 'number' ? `[${part}]` : k ? `.${part}` : part).join('').replace(/^\./, '');
 
 // inputs: of the job's spec. described: the inputs of its process, by name.
 export function inputLeaves(inputs, described) {
@@ -52,8 +52,8 @@ export function inputTables(inputs, described) {
 }
 
 function inputRow({ path, value, schema, isDefault }, described) {
-  const [text, beside] = valueInWords(value, schema), name = nameOf(path.length > 1 ? path.slice(1) : path);
-  return h('tr', { class: isDefault === true ? 'usual' : 'own', title: nameOf(path) }, h('th', { scope: 'row' }, h('code', null, name)),
+  const [text, beside] = valueInWords(value, schema), name = nameOfInput(path.length > 1 ? path.slice(1) : path);
+  return h('tr', { class: isDefault === true ? 'usual' : 'own', title: nameOfInput(path) }, h('th', { scope: 'row' }, h('code', null, name)),
     h('td', null, text, beside ? h('small', null, beside) : null,
       isDefault === false ? h('span', { class: 'set', title: `default: ${valueInWords(schema.default, schema)[0]}` }, 'not default') : null),
     h('td', { class: 'meaning' }, schema?.description ?? described[path[0]]?.description ?? ''));

@@ -1,14 +1,13 @@
 """The page of one job in a real browser: bed and curve on one clock, and everything that is known of the job."""
-import base64
 import functools
 import hashlib
 import json
+import math
 import re
 import shutil
 import subprocess
 
 import pytest
-import requests
 from conftest import BUILD, ROOT, SPEC
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
@@ -127,7 +126,6 @@ def test_the_page_of_a_job_shows_bed_curve_and_all_that_is_known(daemon, browser
     check_results_and_inputs(daemon, browser, job)
     command = find(browser, ".curl code").text
     again = json.loads(subprocess.run(command.replace("curl", "curl -sS", 1), shell=True, capture_output=True, check=True).stdout)["jobID"]
-    assert requests.delete(f"{daemon.url}/jobs/{again}?only=dismiss", timeout=30).status_code in (200, 409)
     assert daemon.get(f"/jobs/{again}/spec").json() == daemon.get(f"/jobs/{job}/spec").json()
     assert find(browser, ".job-actions a").get_attribute("href") == f"{daemon.url}/web/new.html?from={job}"
     assert violations(browser) == []
@@ -135,6 +133,39 @@ def test_the_page_of_a_job_shows_bed_curve_and_all_that_is_known(daemon, browser
     until(browser, lambda b: not scrolls_sideways(b))
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
     assert 2 <= printed_pages(browser) <= 5
+    daemon.ended(again)
+    check_beds_beside_each_other(daemon, browser, job, again)
+
+
+def check_beds_beside_each_other(daemon, browser, job, again):
+    """Two runs of one spec: two beds that are alike and move together, and no input that differs."""
+    browser.get(f"{daemon.url}/web/compare.html?ids={job},{again}")
+    beds = [f".beds section:nth-child({k}) .bed" for k in (1, 2)]
+    before = [drawn(browser, bed) for bed in beds]
+    assert "the same inputs" in until(browser, lambda b: find(b, "#inputs").text)
+    for _ in range(3):
+        find(browser, ".transport .time").send_keys(Keys.ARROW_LEFT)
+    until(browser, lambda b: (lambda now: now[0] == now[1] and now[0] not in before)([pixels(b, bed) for bed in beds]))
+    until(browser, lambda b: pixels(b, ".curve canvas")[0] > 3)
+    assert violations(browser) == []
+
+
+def test_comparing_tells_what_differs_and_by_how_many_standard_errors(fake, browser):
+    jobs = [fake.submit(SPEC | {"contact": {"friction": friction, "maximum_overlap": 0.05}, "seed": seed}, angle=20, project="alike")
+            for friction, seed in ((0.2, 5), (0.4, 12))]
+    angles = [fake.get(f"/jobs/{job}/results").json()["repose"]["angle_deg"] for job in jobs if fake.ended(job)["status"] == "successful"]
+    away = (angles[1] - angles[0]) / math.hypot(0.3, 0.3)  # each has this error
+    browser.get(f"{fake.url}/web/compare.html?ids={','.join(jobs)}")
+    rows = until(browser, lambda b: find_all(b, "#inputs tbody tr"))
+    assert {row.find_element(By.TAG_NAME, "th").text: [cell.text for cell in row.find_elements(By.TAG_NAME, "td")] for row in rows} == {
+        "contact.friction": ["0.2", "0.4"], "seed": ["5", "12"]}
+    cell = until(browser, lambda b: find(b, "#results tr[title='repose.angle_deg'] td:last-child")).text
+    assert cell.startswith(f"{angles[1]:.2f}") and float(re.search(r"[+−]([\d.]+) standard errors", cell)[1]) == pytest.approx(abs(away), rel=0.1)
+    heads = [head.text for head in find_all(browser, "#results thead th")]
+    assert all(job[-8:] in head for job, head in zip(jobs, heads[1:], strict=True))  # of one name, told apart
+    assert len(until(browser, lambda b: find_all(b, ".bed-panel .notice"))) == 2  # these workers keep no frames, and the page says so
+    browser.get(f"{fake.url}/web/compare.html?ids={jobs[0]}")
+    assert "2 to 6" in until(browser, lambda b: find(b, "#trouble").text)
 
 
 def test_the_library_for_curves_is_what_was_checked_in():
