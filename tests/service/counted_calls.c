@@ -1,5 +1,5 @@
-/* To be preloaded: counts calls of the program reposed in the file COUNTED_CALLS, two int64 that can be read while it runs:
- * statements that SQLite parses, and waits for the disk. */
+/* To be preloaded: counts calls of the program reposed in the file COUNTED_CALLS, int64 that can be read while it runs:
+ * statements that SQLite parses, waits for the disk, and bytes that SQLite writes. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -10,7 +10,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { PARSED, WAITED, KINDS };
+enum { PARSED, WAITED, WRITTEN, KINDS };
 static _Atomic int64_t nowhere[KINDS], *counts = nowhere;
 
 __attribute__((constructor)) static void open_counts(void)
@@ -41,3 +41,13 @@ COUNTED(PARSED, sqlite3_prepare_v3, (struct sqlite3 * d, const char *sql, int n,
         (d, sql, n, flags, s, tail))
 COUNTED(WAITED, fsync, (int file), (file))
 COUNTED(WAITED, fdatasync, (int file), (file))
+
+ssize_t pwrite64(int file, const void *bytes, size_t size, off64_t offset)
+{
+    static ssize_t (*next)(int, const void *, size_t, off64_t);
+    if (!next) next = (ssize_t(*)(int, const void *, size_t, off64_t))dlsym(RTLD_NEXT, "pwrite64");
+    counts[WRITTEN] += (int64_t)size;
+    return next(file, bytes, size, offset);
+}
+
+ssize_t pwrite(int file, const void *bytes, size_t size, off_t offset) { return pwrite64(file, bytes, size, offset); }

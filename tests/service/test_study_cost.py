@@ -73,24 +73,45 @@ def test_a_study_of_more_jobs_costs_as_much_more(many):
     assert cost[1] < 2 * cost[0]  # six times, where the row that counts the jobs also holds what was posted
 
 
-def test_a_post_waits_for_the_disk_once_and_parses_no_statement_that_it_knows(tmp_path, monkeypatch):
-    library, counts = compiled_shim("counted_calls", tmp_path), tmp_path / "counts"
-    monkeypatch.setenv("LD_PRELOAD", str(library))
-    monkeypatch.setenv("COUNTED_CALLS", str(counts))
-    daemon = Daemon(tmp_path, worker=FAKE_WORKER, options=["--workers", "1"]).start()
+@pytest.fixture(scope="module")
+def counted(tmp_path_factory):
+    """A daemon whose one worker is busy, and what it has parsed, waited for and written (counted_calls.c)."""
+    folder = tmp_path_factory.mktemp("counted")
+    counts = folder / "counts"
+    with pytest.MonkeyPatch.context() as environment:
+        environment.setenv("LD_PRELOAD", str(compiled_shim("counted_calls", folder)))
+        environment.setenv("COUNTED_CALLS", str(counts))
+        daemon = Daemon(folder, worker=FAKE_WORKER, options=["--workers", "1"]).start()
     try:
-        first = daemon.submit(fake="slow", seconds="100")
-        daemon.until(first, lambda info: info["status"] == "running")
-        for _ in range(5):
-            daemon.submit()
-        before = struct.unpack("2q", counts.read_bytes())
-        for _ in range(20):
-            daemon.submit()
-        parsed, waited = (after - start for after, start in zip(struct.unpack("2q", counts.read_bytes()), before, strict=True))
-        assert parsed <= 10  # the other threads have connections of their own; 20 POSTs have some 300 statements
-        assert 20 <= waited <= 30  # a commit each; what the running job reports is committed once a second
+        daemon.until(daemon.submit(fake="slow", seconds="100"), lambda info: info["status"] == "running")
+        yield daemon, lambda: struct.unpack("3q", counts.read_bytes())
     finally:
         daemon.stop()
+
+
+def test_a_post_waits_for_the_disk_once_and_parses_no_statement_that_it_knows(counted):
+    daemon, counts = counted
+    for _ in range(5):
+        daemon.submit()
+    before = counts()
+    for _ in range(20):
+        daemon.submit()
+    parsed, waited, _ = (after - start for after, start in zip(counts(), before, strict=True))
+    assert parsed <= 10  # the other threads have connections of their own; 20 POSTs have some 300 statements
+    assert 20 <= waited <= 30  # a commit each; what the running job reports is committed once a second
+
+
+def test_a_study_is_written_a_few_times_at_most(counted):
+    """To its own database, the log and the database; with what would undo each row by itself it would be thirty times."""
+    daemon, counts = counted
+    before, written = bytes_of_database(daemon), counts()[2]
+    post_study(daemon, base={"inputs": SPEC}, vary={"/inputs/contact/friction": [0.1 + 0.0001 * k for k in range(1000)]})
+    grown = bytes_of_database(daemon) - before
+    assert grown > 1e6
+    assert grown < counts()[2] - written < 5 * grown
+    listed = daemon.get("/jobs").json()["counts"]
+    assert listed["accepted"] == daemon.get("/query?sql=select+count(*)+from+job+where+status='accepted'").json()["rows"][0][0] >= 1000
+    assert daemon.get("/studies").json()["studies"][0]["counts"]["accepted"] == 1000
 
 
 def bed(particles, spacing=1.01e-3, radius=0.029):

@@ -31,6 +31,7 @@ static const char job_tables[] =
     "CREATE INDEX job_by_status ON job(status, number);"
     "CREATE TABLE job_count(status TEXT PRIMARY KEY, jobs INTEGER NOT NULL) STRICT, WITHOUT ROWID;"
     "INSERT INTO job_count VALUES('accepted',0),('running',0),('successful',0),('failed',0),('dismissed',0);"
+    /* What is done here after an INSERT, study_stage.c does once for all jobs of a study; so with study_job_counted. */
     "CREATE TRIGGER job_counted AFTER INSERT ON job BEGIN"
     "  UPDATE job_count SET jobs=jobs+1 WHERE status=new.status; END;"
     "CREATE TRIGGER job_moved AFTER UPDATE OF status ON job WHEN old.status<>new.status BEGIN"
