@@ -73,7 +73,7 @@ PROCESSES := $(wildcard api/process/*)
 api/process_SEES := $(api/spec_SEES) $(filter-out %.c,$(PROCESSES))
 api/study_SEES := $(api/spec_SEES) api/study
 api/plan_SEES := $(api/spec_SEES) api/plan
-api/store_SEES := $(api/study_SEES) api/store
+api/store_SEES := $(api/study_SEES) api/plan api/store
 api/http_SEES := $(api/store_SEES) api/http
 server/daemon/base_SEES := $(api/http_SEES) server/daemon/base
 server/daemon/store_SEES := $(server/daemon/base_SEES) server/daemon/store
@@ -86,7 +86,7 @@ server/worker/confine_SEES := server/worker/files server/worker/confine
 server/worker/run_SEES := $(sort $(api/process_SEES) $(api/study_SEES) $(api/plan_SEES)) server/worker/files server/worker/run
 server/worker_SEES := $(server/worker/run_SEES) server/worker/confine
 server/plan/numbers_SEES := server/plan/numbers
-server/plan_SEES := $(api/spec_SEES) api/plan server/plan/numbers server/plan server/plan/answer
+server/plan_SEES := $(api/spec_SEES) api/plan server/worker/confine server/plan/numbers server/plan server/plan/answer
 server/plan/answer_SEES := $(server/plan_SEES)
 # $(call sees,FILE): the -I list of a file, which is its folder's. Tests see everything that they are linked with.
 sees = $(addprefix -I,$($(patsubst %/,%,$(dir $(1)))_SEES))
@@ -172,9 +172,9 @@ $(BUILD)/reposed: $(DAEMON) $(BUILD)/commit.o $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
 	$(QUIET)$(CC) $(LDFLAGS) -pthread $^ -o $@ -lmicrohttpd -ljansson -lsqlite3 -lyaml -lz -lnettle -lm
 # What plans calibrations: the one program that links linear algebra.
-$(BUILD)/repose-plan: $(PLAN) $(BUILD)/commit.o $(BUILD)/libapi.a $(RULES)
+$(BUILD)/repose-plan: $(PLAN) $(patsubst %,$(BUILD)/server/worker/confine/confine_%.o,calls files) $(BUILD)/commit.o $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
-	$(QUIET)$(CC) $(LDFLAGS) $^ -o $@ $(LAPACK_LIBS) -lnettle -ljansson -lm
+	$(QUIET)$(CC) $(LDFLAGS) $^ -o $@ $(LAPACK_LIBS) -lnettle -ljansson -lseccomp -lm
 # The commit that programs were made from, for --version; COMMIT=... where the sources are no clone.
 COMMIT = $(shell [ ! -e .git ] || git describe --always --dirty --abbrev=12 --exclude '*' 2>/dev/null)
 $(BUILD)/commit.c: FORCE

@@ -2,6 +2,7 @@
 #ifndef HANDLERS_H
 #define HANDLERS_H
 
+#include "plan_store.h"
 #include "routes.h"
 
 enum { LONGEST_WAIT = 60 }; /* s that a request may wait for a job */
@@ -34,6 +35,10 @@ route_handler send_events;
 /* handlers_studies.c */
 route_handler create_study, list_studies, show_study, remove_study, retry_study, show_study_results, show_study_csv,
     show_study_spec;
+/* handlers_calibrations.c */
+route_handler create_calibration, list_calibrations, show_calibration, remove_calibration, retry_calibration, show_calibration_spec;
+/* handlers_calibration_results.c */
+route_handler show_calibration_results, show_calibration_csv;
 /* handlers_beds.c */
 route_handler create_bed, list_beds, show_bed, remove_bed;
 /* handlers_continue.c */
@@ -59,7 +64,8 @@ void respond_store_failure(http_response *response, store_status status, const c
 void respond_no_such_job(http_response *response, const char *id);
 /* The results of an ended job as its request and this one want them; failed: the status that tells of a failed job. */
 void respond_results(api_service *service, const http_request *request, http_response *response, const job_record *job, int failed);
-/* Finds the job named by the first segment; false: the response says why not. */
+/* Finds the job, or the calibration, named by the first segment; false: the response says why not. */
+bool find_plan(api_service *service, const http_request *request, http_response *response, plan_record *plan);
 bool find_job(api_service *service, const http_request *request, http_response *response, job_record *job);
 
 /* Shared between handlers of lists: the address of this list with the filters it was asked with; cursor NULL: as it was

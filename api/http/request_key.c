@@ -7,6 +7,7 @@
 
 #include "checksum.h"
 #include "handlers.h"
+#include "plan_info.h"
 #include "status_info.h"
 #include "study_info.h"
 
@@ -38,9 +39,11 @@ static uint64_t fingerprint_of(const http_request *request)
 static void respond_anew(const http_route *route, api_service *service, const http_request *request, http_response *response,
                          const char *made)
 {
-    const bool adds = strcmp(route->pattern, "/studies") == 0 || strstr(route->pattern, "/execution");
+    const bool adds = strcmp(route->pattern, "/studies") == 0 || strcmp(route->pattern, "/calibrations") == 0
+                      || strstr(route->pattern, "/execution");
     job_record job;
     study_record study;
+    plan_record plan;
     if (*made && strstr(route->pattern, "/execution") && request->prefer) { /* it may wait for the results */
         http_request again = *request;
         snprintf(again.made, sizeof again.made, "%s", made);
@@ -48,6 +51,10 @@ static void respond_anew(const http_route *route, api_service *service, const ht
     } else if (*made && strncmp(route->pattern, "/studies", 8) == 0 && store_find_study(service->store, made, &study) == STORE_OK) {
         http_respond_json(response, adds ? 201 : 200, study_info(&study));
         if (adds) snprintf(response->location, sizeof response->location, "%s/studies/%s", response->base, made);
+    } else if (*made && strncmp(route->pattern, "/calibrations", 13) == 0
+               && store_find_plan(service->store, made, &plan) == STORE_OK) {
+        http_respond_json(response, adds ? 201 : 200, plan_info(&plan));
+        if (adds) snprintf(response->location, sizeof response->location, "%s/calibrations/%s", response->base, made);
     } else if (*made && store_find_job(service->store, made, &job) == STORE_OK) {
         http_respond_json(response, adds ? 201 : 200, status_info(&job));
         if (adds) snprintf(response->location, sizeof response->location, "%s/jobs/%s", response->base, made);

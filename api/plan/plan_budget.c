@@ -3,7 +3,7 @@
 #include <assert.h>
 #include <math.h>
 
-#include "job_spec.h"
+#include "process_type.h"
 
 enum { POINTS_A_PARAMETER = 8, MOST_SETS = 9 };
 
@@ -38,24 +38,17 @@ plan_budget plan_budget_make(const plan_request *request)
     return budget;
 }
 
-/* A test's job in the middle of the ranges: of a logarithmic one, the middle of the logarithm. */
 static job_estimate estimate_of(const plan_request *request, size_t test, const calibration *machine)
 {
-    double values[PLAN_MOST_PARAMETERS];
-    for (size_t p = 0; p < request->parameters; p++) {
-        const plan_parameter *parameter = &request->parameter[p];
-        values[p] = parameter->is_log ? sqrt(parameter->low * parameter->high) : 0.5 * (parameter->low + parameter->high);
-    }
-    json_t *job = plan_test_request(request, test, values);
     job_estimate estimate = { .steps = 0.0 };
     problem_list problems;
     job_spec spec;
-    if (problem_list_init(&problems) && job && job_spec_parse(NULL, job, 1, &spec, &problems)) {
+    if (!problem_list_init(&problems)) return estimate;
+    if (plan_middle_spec(request, test, &spec, &problems)) {
         estimate = job_spec_estimate(&spec, machine);
         job_spec_clear(&spec);
     }
     problem_list_clear(&problems);
-    json_decref(job);
     return estimate;
 }
 
@@ -71,6 +64,17 @@ plan_estimate plan_estimate_make(const plan_request *request, const calibration 
         sum.jobs += jobs;
         sum.steps += jobs * fmax(one.steps, 0.0);
         sum.wall_seconds += jobs * fmax(one.wall_seconds, 0.0);
+        sum.snapshot_bytes += jobs * fmax(one.snapshot_bytes, 0.0);
+        sum.disk_bytes += jobs * job_estimate_disk_bytes(&one);
     }
     return sum;
+}
+
+json_t *plan_estimate_to_json(const plan_estimate *estimate)
+{
+    char words[TIME_IN_WORDS_SIZE];
+    time_in_words(estimate->wall_seconds, words);
+    return json_pack("{s:I, s:I, s:f, s:s, s:I}", "jobs", (json_int_t)(estimate->jobs + 0.5), "steps", (json_int_t)estimate->steps,
+                     "wall_seconds", estimate->wall_seconds, "wall_time", words, "snapshot_bytes",
+                     (json_int_t)estimate->snapshot_bytes);
 }

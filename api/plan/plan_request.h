@@ -16,6 +16,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "job_spec.h"
 #include "json_pointer.h"
 #include "problem.h"
 
@@ -73,6 +74,15 @@ void plan_request_clear(plan_request *request);
 /* The request of the job that runs the test with these values of the parameters: a number for each, or NULL for none of them.
  * A drum that is told nothing of its duration turns until its angle is known twice as well as the best of its targets. New reference; NULL: no memory. */
 json_t *plan_test_request(const plan_request *request, size_t test, const double *values);
+
+/* That job with the parameters in the middle of their ranges: of a logarithmic one, the middle of the logarithm. False: problems. */
+bool plan_middle_spec(const plan_request *request, size_t test, job_spec *spec, problem_list *problems);
+/* What was found of a test's job, said where it comes from, once: the range of a parameter, the target, or the base. */
+void plan_tell(const plan_request *request, size_t test, const problem_list *found, problem_list *problems);
+
+/* plan_reading.c: what the results of a run of its test say of the measure, and their standard error of that (NaN: they tell none).
+ * False: they say nothing. */
+bool plan_measure_read(const plan_measure *measure, const json_t *results, double *value, double *error);
 
 /* plan_tests.c, for plan_request.c alone: the test of a target with this process and these inputs, one there is or a new one.
  * False: problems say why there is none. */

@@ -177,8 +177,7 @@ json_t *plan_test_request(const plan_request *request, size_t test, const double
 
 /* --- checking --- */
 
-/* What is wrong with a job of the test, said where it comes from: the range of a parameter, the target, or the base. */
-static void tell(const plan_request *request, size_t test, const problem_list *found, problem_list *problems)
+void plan_tell(const plan_request *request, size_t test, const problem_list *found, problem_list *problems)
 {
     static const char *const lists[] = { "targets", "hold_out", "next_tests" };
     size_t i;
@@ -205,6 +204,19 @@ static void tell(const plan_request *request, size_t test, const problem_list *f
     }
 }
 
+bool plan_middle_spec(const plan_request *request, size_t test, job_spec *spec, problem_list *problems)
+{
+    double values[PLAN_MOST_PARAMETERS];
+    for (size_t p = 0; p < request->parameters; p++) {
+        const plan_parameter *parameter = &request->parameter[p];
+        values[p] = parameter->is_log ? sqrt(parameter->low * parameter->high) : 0.5 * (parameter->low + parameter->high);
+    }
+    json_t *job = plan_test_request(request, test, values);
+    const bool good = job && job_spec_parse(NULL, job, 1, spec, problems);
+    json_decref(job);
+    return good;
+}
+
 /* The job with all parameters at one end of their ranges. */
 static void check_end(const plan_request *request, size_t test, bool is_high, problem_list *problems)
 {
@@ -216,11 +228,15 @@ static void check_end(const plan_request *request, size_t test, bool is_high, pr
     if (!problem_list_init(&found)) return;
     if (!job) {
         problem_list_add(&found, "", "can't take the parameters: one of them leads through something that has no such member");
-        tell(request, test, &found, problems);
+        plan_tell(request, test, &found, problems);
     } else if (job_spec_parse(NULL, job, 1, &spec, &found)) {
+        const bool is_of_a_job = strcmp(spec.process, "drum") == 0 && *spec.inputs.start.job;
+        if (is_of_a_job)
+            problem_list_add(&found, "/inputs/start", "is another job's bed: the runs of a calibration make beds of their own");
+        plan_tell(request, test, &found, problems);
         job_spec_clear(&spec);
     } else {
-        tell(request, test, &found, problems);
+        plan_tell(request, test, &found, problems);
     }
     problem_list_clear(&found);
     json_decref(job);

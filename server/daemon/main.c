@@ -22,6 +22,7 @@
 #include "json_text.h"
 #include "log.h"
 #include "openapi_schemas.h"
+#include "planner.h"
 #include "readiness.h"
 
 #define SECONDS_TO_END 25.0 /* after the signal, whatever hangs */
@@ -39,7 +40,8 @@ typedef struct parts {
     readiness readiness;
     int signals; /* readable when the daemon is to end */
     folder_remover remover;
-    callback_sender *callbacks; /* NULL: nobody may be called back */
+    callback_sender *callbacks;   /* NULL: nobody may be called back */
+    run_planner *_Atomic planner; /* the last that is started */
 } parts;
 
 /* --- what the handlers ask of us --- */
@@ -49,12 +51,14 @@ static void jobs_changed_by_request(void *context)
     parts *all = context;
     dispatcher_wake(&all->dispatcher);
     waiting_room_jobs_changed(&all->server.room);
+    planner_wake(all->planner);
 }
 
 static void jobs_changed_by_worker(void *context)
 {
     parts *all = context;
     waiting_room_jobs_changed(&all->server.room);
+    planner_wake(all->planner);
 }
 
 static void jobs_deleted(void *context)
@@ -244,7 +248,9 @@ static bool open_parts(parts *all)
     const prune_rules rules = rules_of(&all->settings);
     if (!folder_remover_start(&all->remover, all->store, &rules)) return false;
     if (all->settings.callback_hosts > 0 && !(all->callbacks = callback_sender_start(&all->service))) return false;
-    return http_server_open(&all->server, &all->settings, &all->service) && http_server_start(&all->server);
+    if (!http_server_open(&all->server, &all->settings, &all->service) || !http_server_start(&all->server)) return false;
+    all->planner = planner_start(&all->service, all->settings.worker, all->settings.confine);
+    return all->planner != NULL;
 }
 
 /* What is not the service itself; the exit status. */
@@ -282,6 +288,7 @@ int main(int argc, char **argv)
     announce(&all);
     calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);
+    planner_stop(all.planner);
     http_server_stop(&all.server);
     folder_remover_stop(&all.remover);
     callback_sender_stop(all.callbacks);

@@ -4,15 +4,18 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "confine_calls.h"
+#include "confine_files.h"
 #include "json_text.h"
 #include "plan.h"
 #include "version.h"
 
-enum { PLAN_DONE = 0, PLAN_FAULT = 1, PLAN_REFUSED = 2, LONGEST_INPUT = 200000000 };
+enum { PLAN_DONE = 0, PLAN_FAULT = 1, PLAN_REFUSED = 2, PLAN_MACHINE = 6, LONGEST_INPUT = 200000000 };
 
 #define HELP                                                                                                                       \
     "repose plan FILE              read {\"request\", \"runs\", \"workers\"} of a calibration (\"-\": stdin) and print as JSON\n"  \
-    "                              which cases to run next, or the answer; or every problem of the request\n"
+    "                              which cases to run next, or the answer; or every problem of the request\n"                      \
+    "    --confine                 from stdin alone: open no file, start no program and use no network\n"
 
 /* The whole of it, to be freed; NULL: it can't be read, or is longer than 200 MB. */
 static char *read_all(FILE *file, size_t *length)
@@ -65,15 +68,28 @@ static void hold_to_one_thread(char **argv)
     fputs("repose-plan: can't start again with one thread; going on\n", stderr);
 }
 
+/* What it reads came from clients, and runs gave it numbers: a fault in what reads them must give nobody more than an answer. A kernel
+ * that lacks one of these confines by the other. */
+static bool confine(void)
+{
+    int version;
+    bool has_calls;
+    if (confine_files("", NULL, &version) && confine_calls(false, &has_calls)) return true;
+    perror("repose-plan: can't be confined");
+    return false;
+}
+
 int main(int argc, char **argv)
 {
     if (argc == 2 && strcmp(argv[1], "--version") == 0) return printf("repose-plan " REPOSED_VERSION "%s\n", reposed_commit) < 0;
     if (argc == 2 && (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0)) return fputs(HELP, stdout) < 0;
-    if (argc != 2) {
+    const bool is_confined = argc == 3 && strcmp(argv[1], "-") == 0 && strcmp(argv[2], "--confine") == 0;
+    if (argc != 2 && !is_confined) {
         fputs("repose: give one FILE\n" HELP, stderr);
         return PLAN_REFUSED;
     }
     hold_to_one_thread(argv);
+    if (is_confined && !confine()) return PLAN_MACHINE;
     problem_list problems;
     if (!problem_list_init(&problems)) return PLAN_FAULT;
     json_t *document = read_document(argv[1], &problems), *plan = document ? plan_next(document, &problems) : NULL;

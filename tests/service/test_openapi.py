@@ -238,6 +238,26 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/studies", older, 200)
     call("/studies/{id}", study, 200, "DELETE")
     call("/studies/{id}", study, 404)
+    calibration = {"base": {"process": "granule", "inputs": {"friction": 0.4}}, "parameters": {"/inputs/friction": {"range": [0.2, 0.6]}},
+                   "targets": [{"result": "/granule/minimum_rotation_rate", "value": 20.0, "standard_error": 0.5}], "stop": {"jobs": 12}}
+    created = call("/calibrations", f"{url}/calibrations", 201, "POST", json=calibration)
+    calibration = created.headers["Location"]
+    assert calibration == f"{url}/calibrations/{created.json()['calibrationID']}"
+    assert call("/calibrations/{id}", f"{calibration}?wait=60", 200).json()["status"] == "successful"
+    found = call("/calibrations/{id}/results", f"{calibration}/results", 200)
+    assert found.json()["answer"]["status"] == "identified"
+    call("/calibrations/{id}/results", f"{calibration}/results", 304, headers={"If-None-Match": found.headers["ETag"]})
+    call("/calibrations/{id}/results", f"{calibration}/results?format=csv", 200)
+    call("/calibrations/{id}/results.csv", f"{calibration}/results.csv", 200)
+    again = call("/calibrations/{id}/spec", f"{calibration}/spec", 200).json()
+    again = call("/calibrations", f"{url}/calibrations", 201, "POST", json=again).headers["Location"]
+    call("/calibrations/{id}", f"{again}?only=dismiss", 200, "DELETE")
+    call("/calibrations/{id}/results", f"{again}/results", 200)
+    call("/calibrations/{id}/retry", f"{again}/retry", 200, "POST")
+    call("/calibrations/{id}/retry", f"{calibration}/retry", 409, "POST")
+    call("/calibrations", call("/calibrations", f"{url}/calibrations?limit=1", 200).json()["links"][1]["href"], 200)
+    call("/calibrations/{id}", calibration, 200, "DELETE")
+    call("/calibrations/{id}", calibration, 404)
     call("/session", f"{url}/session", 200, "POST", json={"token": "none is asked for"})
     call("/session", f"{url}/session", 400, "POST", json={})
     call("/session", f"{url}/session", 200, "DELETE")
@@ -280,6 +300,9 @@ def test_every_error_is_a_documented_problem(daemon, contract):
         (404, "/studies/{id}/results", {"url": f"{url}/studies/{NO_JOB}/results"}),
         (404, "/studies/{id}/results.csv", {"url": f"{url}/studies/nothing/results.csv"}),
         (404, "/studies/{id}/spec", {"url": f"{url}/studies/{NO_JOB}/spec"}),
+        (400, "/calibrations", {"method": "POST", "url": f"{url}/calibrations", "json": {"base": {"inputs": {}}}}),
+        (404, "/calibrations/{id}", {"url": f"{url}/calibrations/{NO_JOB}"}),
+        (404, "/calibrations/{id}/results", {"url": f"{url}/calibrations/{NO_JOB}/results"}),
     ]
     for status, path, request in bad:
         answer = requests.request(**({"method": "GET"} | request))

@@ -210,19 +210,27 @@ static store_status bring_bed(job_store *store, const job_spec *spec, const char
     return reason;
 }
 
+store_status store_insert_next(job_store *store, const job_spec *spec, const char *id, const char *text, const calibration *machine,
+                               int64_t *number)
+{
+    job_place place = { .study = 0 };
+    int64_t last = 0, last_turn = 0;
+    store_status status = last_number(store, &last);
+    if (status == STORE_OK) status = store_last_turn(store, client_of(spec), spec->priority, &last_turn);
+    place.turn = last_turn + 1;
+    *number = last + 1;
+    return status == STORE_OK ? store_insert_job(&store->fields, store->writer, *number, spec, id, text, &place, machine) : status;
+}
+
 static store_status insert_alone(job_store *store, const job_spec *spec, const char *text, const char *id)
 {
     calibration machine;
-    job_place place = { .study = 0 };
-    int64_t last = 0, last_turn = 0;
+    int64_t number;
     store_read_calibration(store, &machine);
     store_status status = store_begin(store);
     if (status != STORE_OK) return status;
     status = store_check_queue(store, 1);
-    if (status == STORE_OK) status = last_number(store, &last);
-    if (status == STORE_OK) status = store_last_turn(store, client_of(spec), spec->priority, &last_turn);
-    place.turn = last_turn + 1;
-    if (status == STORE_OK) status = store_insert_job(&store->fields, store->writer, last + 1, spec, id, text, &place, &machine);
+    if (status == STORE_OK) status = store_insert_next(store, spec, id, text, &machine, &number);
     store_name_made(id);
     return store_end(store, status);
 }

@@ -92,6 +92,14 @@ const char *job_started_from(const job_spec *spec);
 /* Between begin and end: one job's rows. text: its canonical specification. number: 0 takes the next. */
 store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,
                               const char *text, const job_place *place, const calibration *machine);
+/* Between begin and end: a job of no study, as the last in the queue; *number: its own. */
+store_status store_insert_next(job_store *store, const job_spec *spec, const char *id, const char *text, const calibration *machine,
+                               int64_t *number);
+/* Jobs into the queue as their next attempt, of which the earlier ones do not count; what a dying worker of one of these still writes
+ * is fenced off by the new number. ?: now; the rest says which jobs. */
+#define STORE_TRY_AGAIN                                                                                                            \
+    "UPDATE job SET status='accepted', message='waiting for a free worker: to be tried again', attempts_before=attempt,"           \
+    " attempt=attempt+1, setbacks=0, not_before=0, failure=NULL, finished=NULL, eta_seconds=NULL, updated=? "
 /* study_parts.c: a text of the table with the long parts of its study in it; NULL: no memory, or a part is missing. */
 char *study_parts_expand(sqlite3 *database, int64_t study, const char *text);
 /* machine_speed.c, between begin and end: what its steps have to do, for when it has run. */

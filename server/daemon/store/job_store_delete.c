@@ -17,12 +17,6 @@ static store_status read_number(job_store *store, const char *sql, const char *i
     return status == STORE_OK && code != SQLITE_ROW ? STORE_NOT_FOUND : status;
 }
 
-/* The attempts that were made do not count any more. What a dying worker of an earlier one still writes is fenced off by the
- * new number. */
-#define TRY_AGAIN                                                                                                                  \
-    "UPDATE job SET status='accepted', message='waiting for a free worker: to be tried again', attempts_before=attempt,"           \
-    " attempt=attempt+1, setbacks=0, not_before=0, failure=NULL, finished=NULL, eta_seconds=NULL, updated=? "
-
 static store_status put_into_queue(job_store *store, const char *id)
 {
     int64_t may_be;
@@ -33,7 +27,7 @@ static store_status put_into_queue(job_store *store, const char *id)
     if (status == STORE_OK) status = store_check_queue(store, 1);
     if (status != STORE_OK) return status;
     store_name_made(id);
-    return sql_run(store->writer, NULL, TRY_AGAIN "WHERE id=?", "tt", now, id);
+    return sql_run(store->writer, NULL, STORE_TRY_AGAIN "WHERE id=?", "tt", now, id);
 }
 
 store_status store_retry_job(job_store *store, const char *id)
@@ -66,7 +60,7 @@ static store_status put_failed_into_queue(job_store *store, const char *id)
     if (status == STORE_OK) status = read_number(store, "SELECT number FROM study WHERE id=?", id, &number);
     if (status != STORE_OK) return status;
     store_name_made(id);
-    return sql_run(store->writer, NULL, TRY_AGAIN "WHERE study=? AND +status='failed'", "ti", now, number);
+    return sql_run(store->writer, NULL, STORE_TRY_AGAIN "WHERE study=? AND +status='failed'", "ti", now, number);
 }
 
 store_status store_retry_study(job_store *store, const char *id)

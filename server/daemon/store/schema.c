@@ -235,6 +235,41 @@ static const char workers_of_jobs[] = "ALTER TABLE job ADD COLUMN starts INTEGER
                                       "ALTER TABLE job ADD COLUMN more_time INTEGER NOT NULL DEFAULT 0;"
                                       "ALTER TABLE job ADD COLUMN more_memory INTEGER NOT NULL DEFAULT 0;";
 
+/* A calibration, what was posted and what the planner said last, and the runs that it asked for. A run has a job as long as that is
+ * there; when it is deleted, what became of it is kept, because the planner reads all of them each time. workers: how many runs a
+ * batch has, whatever the daemon is started with later. */
+static const char calibrations[] =
+    "CREATE TABLE calibration("
+    "  number INTEGER PRIMARY KEY," /* order of submission */
+    "  id TEXT NOT NULL UNIQUE,"
+    "  name TEXT NOT NULL,"
+    "  status TEXT NOT NULL CHECK(status IN ('accepted','running','successful','failed','dismissed')),"
+    "  message TEXT NOT NULL,"
+    "  stage TEXT NOT NULL DEFAULT 'start',"
+    "  priority INTEGER NOT NULL, workers INTEGER NOT NULL, most_jobs INTEGER NOT NULL,"
+    "  estimated_seconds REAL NOT NULL,"
+    "  created TEXT NOT NULL, started TEXT, finished TEXT, updated TEXT NOT NULL,"
+    "  setbacks INTEGER NOT NULL DEFAULT 0," /* how often in a row it could not be planned */
+    "  not_before REAL NOT NULL DEFAULT 0"   /* unix seconds */
+    ") STRICT;"
+    "CREATE INDEX calibration_at_work ON calibration(number) WHERE status IN ('accepted','running');"
+    "CREATE TABLE calibration_document("
+    "  calibration INTEGER PRIMARY KEY REFERENCES calibration(number) ON DELETE CASCADE,"
+    "  request TEXT NOT NULL, plan TEXT) STRICT;" /* JSON */
+    "CREATE TABLE calibration_run("
+    "  calibration INTEGER NOT NULL REFERENCES calibration(number) ON DELETE CASCADE,"
+    "  number INTEGER NOT NULL,"
+    "  stage TEXT NOT NULL, test INTEGER NOT NULL, of_set INTEGER NOT NULL,"
+    "  parameters TEXT NOT NULL," /* JSON object */
+    "  job INTEGER,"
+    "  status TEXT, results TEXT," /* of a job that is gone; failed: of a case that could be none */
+    "  PRIMARY KEY(calibration, number)) STRICT, WITHOUT ROWID;"
+    "CREATE INDEX calibration_run_of_job ON calibration_run(job) WHERE job IS NOT NULL;"
+    "CREATE TRIGGER calibration_job_kept BEFORE DELETE ON job"
+    "  WHEN EXISTS(SELECT 1 FROM calibration_run WHERE job=old.number) BEGIN"
+    "  UPDATE calibration_run SET status=old.status, job=NULL,"
+    "   results=(SELECT document FROM result WHERE result.job=old.number) WHERE job=old.number; END;";
+
 /* Tables of inputs and results were once made by migrations, which therefore have gaps now. A program from then can't fill
  * tables in that have more columns, and is kept out by the last number. */
 #define NO_TABLES_OF_ITS_OWN                                                                                                       \
@@ -279,5 +314,6 @@ const schema_migration schema_migrations[] = {
     { { sent_beds } },
     { { interfaces } },
     { { workers_of_jobs } },
+    { { calibrations } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

@@ -1,5 +1,7 @@
 #include "plan_report.h"
 
+#include <math.h>
+
 #include "plan_budget.h"
 #include "process_type.h"
 
@@ -27,16 +29,16 @@ static json_t *tests_of(const plan_request *request)
 json_t *plan_report(const json_t *document, const calibration *machine, problem_list *problems)
 {
     plan_request request;
+    problem_list warnings;
     json_t *report = NULL;
-    if (plan_request_parse(document, &request, problems)) {
+    if (plan_request_parse(document, &request, problems) && problem_list_init(&warnings)) {
         const plan_estimate estimate = plan_estimate_make(&request, machine);
         const json_t *name = json_object_get(document, "name");
-        char words[TIME_IN_WORDS_SIZE];
-        time_in_words(estimate.wall_seconds, words);
-        report = json_pack("{s:s, s:O, s:o, s:{s:I, s:I, s:f, s:s}}", "name", name ? json_string_value(name) : "calibration",
-                           "parameters", json_object_get(document, "parameters"), "tests", tests_of(&request), "estimate", "jobs",
-                           (json_int_t)(estimate.jobs + 0.5), "steps", (json_int_t)estimate.steps, "wall_seconds",
-                           estimate.wall_seconds, "wall_time", words);
+        plan_check(&request, machine, NULL, NAN, problems, &warnings);
+        report = json_pack("{s:s, s:O, s:o, s:o, s:o}", "name", name ? json_string_value(name) : "calibration", "parameters",
+                           json_object_get(document, "parameters"), "tests", tests_of(&request), "estimate",
+                           plan_estimate_to_json(&estimate), "warnings", job_warnings_to_json(&warnings));
+        problem_list_clear(&warnings);
     }
     plan_request_clear(&request);
     return report;
