@@ -390,7 +390,8 @@ def test_examples_are_valid(contract):
     examples = list((ROOT / "api/examples").glob("*.json"))
     assert examples
     for example in examples:
-        contract.validate(json.loads(example.read_text()), execute)
+        is_calibration = example.stem == "calibration"
+        contract.validate(json.loads(example.read_text()), {"$ref": "#/components/schemas/Calibration"} if is_calibration else execute)
     study = {"$ref": "#/components/schemas/Study"}
     contract.validate(contract.operations["POST", "/studies"]["requestBody"]["content"]["application/json"]["example"], study)
     studies = list((ROOT / "api/studies").glob("*.json"))

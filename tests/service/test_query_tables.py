@@ -140,7 +140,8 @@ def test_jobs_from_before_get_their_words_from_the_specification(tmp_path):
         for table in ("drum_input", "fill_input", "heap_input"):
             for column in ("law", "precision"):
                 database.execute(f"ALTER TABLE {table} DROP COLUMN {column}")
-        database.executescript("DROP VIEW interface; DROP TABLE sent_bed_text; DROP TABLE sent_bed; DROP INDEX job_waiting_short; ALTER TABLE result DROP COLUMN checksum;"
+        database.executescript("DROP TRIGGER calibration_job_kept; DROP TABLE calibration_run; DROP TABLE calibration_document;"
+                               "DROP TABLE calibration; DROP VIEW interface; DROP TABLE sent_bed_text; DROP TABLE sent_bed; DROP INDEX job_waiting_short; ALTER TABLE result DROP COLUMN checksum;"
                                "DROP INDEX job_of_bed; DROP TABLE bed;"
                                "ALTER TABLE job DROP COLUMN bed; ALTER TABLE job DROP COLUMN starts; ALTER TABLE job DROP COLUMN worker;"
                                "ALTER TABLE job DROP COLUMN more_time; ALTER TABLE job DROP COLUMN more_memory; PRAGMA user_version=20")

@@ -117,9 +117,12 @@ def test_members_of_inputs_in_the_prose_are_accepted(service, tmp_path, code):
 
 
 def test_commands_do_what_they_say(service, tmp_path):
-    """Each on the daemon here, with a job and a study that there are. Of make, the targets are there."""
+    """Each on the daemon here, with a job, a study and a calibration that there are. Of make, the targets are there."""
     study = requests.post(f"{service.url}/studies", timeout=30, json={
         "name": "two", "base": {"inputs": SPEC}, "cases": [{"name": "one", "inputs": {}}]}).json()["studyID"]
+    calibration = requests.post(f"{service.url}/calibrations", timeout=30, json={
+        "base": {"process": "granule", "inputs": {"friction": 0.4}}, "parameters": {"/inputs/friction": {"range": [0.2, 0.6]}},
+        "targets": [{"result": "/granule/minimum_rotation_rate", "value": 20.0, "standard_error": 0.5}]}).json()["calibrationID"]
     targets = re.findall(r"^([a-z-]+):", (ROOT / "Makefile").read_text(), re.MULTILINE)
     seen = 0
     for command in commands():
@@ -128,6 +131,7 @@ def test_commands_do_what_they_say(service, tmp_path):
             assert command.split()[1] in targets, command
             continue
         command = command.replace("http://127.0.0.1:8080", service.url).replace("build/repose", str(BUILD / "repose"))
+        command = command.replace("/calibrations/ID", f"/calibrations/{calibration}")
         command = command.replace("/studies/ID", f"/studies/{study}").replace("/jobs/ID", f"/jobs/{service.first}")
         command = command.replace("wait=60", "wait=0").replace("--out first", f"--out {tmp_path}/first")
         if " run " in command:  # the demo's drum takes half a minute: that it can be read is seen above

@@ -201,16 +201,17 @@ static bool has_ended(const char *status) { return strcmp(status, "accepted") !=
 
 /* --- the commands --- */
 
-/* Where a document goes: a study has a base, a job says its process. */
+/* Where a document goes: a study has a base, a calibration targets beside it; a job says its process. */
 static bool address_of(const json_t *document, char *path, size_t size)
 {
     const char *process = text_at(document, "process");
-    if (json_object_get(document, "base")) snprintf(path, size, "/studies");
+    if (json_object_get(document, "targets")) snprintf(path, size, "/calibrations");
+    else if (json_object_get(document, "base")) snprintf(path, size, "/studies");
     else snprintf(path, size, "/processes/%.40s/execution", *process ? process : "drum");
     return path[strcspn(path, " \r\n\t?#")] == '\0';
 }
 
-/* Until the job, or all of the study, has ended. */
+/* Until the job, the calibration, or all of the study, has ended. */
 static int wait_for(const config *settings, const char *kind, const char *id)
 {
     char path[120], status[24] = "";
@@ -245,11 +246,11 @@ int client_submit(const config *settings)
     else if (!ask(settings, "POST", path, text, &a)) exit = 1;
     else if (a.status != 201) exit = refused(&a);
     else {
-        const bool is_study = json_object_get(document, "base") != NULL;
-        const char *id = text_at(a.document, is_study ? "studyID" : "jobID");
+        const char *kind = strcmp(path, "/calibrations") == 0 ? "calibrations" : strcmp(path, "/studies") == 0 ? "studies" : "jobs";
+        const char *id = text_at(a.document, *kind == 'c' ? "calibrationID" : *kind == 's' ? "studyID" : "jobID");
         puts(id);
         fflush(stdout);
-        exit = settings->wait ? wait_for(settings, is_study ? "studies" : "jobs", id) : 0;
+        exit = settings->wait ? wait_for(settings, kind, id) : 0;
     }
     clear(&a);
     json_decref(document);

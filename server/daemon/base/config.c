@@ -24,7 +24,7 @@ static const struct command {
     const char *name, *argument, *meaning;
 } commands[] = {
     { "serve", NULL, "run the service until SIGTERM, SIGINT or the like" },
-    { "submit", "FILE", "post a job or a study to the service, print its id; with --wait, what becomes of it" },
+    { "submit", "FILE", "post a job, a study or a calibration to the service, print its id; with --wait, what becomes of it" },
     { "jobs", NULL, "list the newest jobs" },
     { "show", "ID", "show a job, and its results when there are any" },
     { "backup", "DIR", "copy the data folder of a service, also of one at work" },

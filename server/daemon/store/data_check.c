@@ -88,6 +88,13 @@ static void check_database(look *l)
         tell(l,
              run(l, "UPDATE job_count SET jobs=(SELECT count(*) FROM job WHERE job.status=job_count.status)", NULL, "counted anew"),
              "the counts of jobs by status are wrong");
+    /* Where such a run stayed, its calibration would never know what became of it. */
+    static const char lost[] = "SELECT count(*) FROM calibration_run WHERE job IS NOT NULL AND job NOT IN (SELECT number FROM job)";
+    if (is_true(l, lost, NULL))
+        tell(l,
+             run(l, "UPDATE calibration_run SET job=NULL, status='failed' WHERE job NOT IN (SELECT number FROM job)", NULL,
+                 "they count as failed"),
+             "runs of calibrations have jobs that are not there");
 }
 
 /* --- files --- */

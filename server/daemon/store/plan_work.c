@@ -6,6 +6,7 @@
 
 #include "database.h"
 #include "log.h"
+#include "process_type.h"
 
 #define LONGEST_DELAY 60.0 /* s */
 #define FENCE                                                                                                                      \
@@ -75,7 +76,9 @@ static bool read_case(const plan_claim *claim, const json_t *one, int default_th
     if (!json_is_object(label) || !problem_list_init(&problems)) return false;
     json_object_set_new(label, "calibrationID", json_string(claim->id));
     json_t *inputs = json_object_get(request, "inputs");
-    if (!json_object_get(inputs, "threads")) json_object_set_new(inputs, "threads", json_integer(default_threads));
+    const process_type *type = process_type_find(json_string_value(json_object_get(request, "process")));
+    if (type && spec_field_find(type->inputs, SPEC_INPUTS, "threads") && !json_object_get(inputs, "threads"))
+        json_object_set_new(inputs, "threads", json_integer(default_threads));
     job->parameters = json_dumps(json_object_get(one, "parameters"), JSON_COMPACT | JSON_REAL_PRECISION(17));
     job->is_job = job_spec_parse(NULL, request, 0, &job->spec, &problems);
     if (job->is_job) {

@@ -12,11 +12,13 @@
 #include "database.h"
 #include "job_folder.h"
 #include "log.h"
+#include "plan_store.h"
 
 enum { DEEPEST = 2, MOST_ROUNDS = 1000000 };
 
 #define HAS_ENDED "job.status IN ('successful','failed','dismissed')"
 #define IS_PINNED "job.number IN (SELECT job FROM pinned)"
+#define NO_JOB_LEFT "NOT EXISTS(SELECT 1 FROM calibration_run WHERE calibration=calibration.number AND job IS NOT NULL)"
 #define ALL_ENDED "study.accepted+study.running=0 AND NOT EXISTS(SELECT 1 FROM job WHERE job.study=study.number AND " IS_PINNED ")"
 
 typedef struct pruning {
@@ -170,6 +172,16 @@ static store_status go_through(pruning *p, const char *sql, const char *before, 
     return status;
 }
 
+/* Its jobs went as others do, with what they told kept in its runs; those that are left, pinned ones say, keep it. */
+static store_status delete_calibration(pruning *p, const char *id)
+{
+    store_status status = STORE_OK;
+    if (!p->rules->only_tell) status = store_delete_plan(p->store, id);
+    if (status == STORE_CONFLICT || status == STORE_NOT_FOUND) return STORE_OK;
+    if (status == STORE_OK) log_line("calibration %s: %sdeleted", id, p->rules->only_tell ? "would be " : "");
+    return status;
+}
+
 static store_status delete_job(pruning *p, const char *id) { return let_go(p, id, false); }
 static store_status delete_study(pruning *p, const char *id) { return let_go(p, id, true); }
 
@@ -187,6 +199,10 @@ static store_status prune_by_age(pruning *p, char before[JOB_TIME_SIZE])
         status =
             go_through(p, "SELECT id, number FROM study WHERE updated<?1 AND number>?2 AND " ALL_ENDED " ORDER BY number LIMIT 1",
                        before, -INFINITY, delete_study);
+    if (status == STORE_OK)
+        status = go_through(
+            p, "SELECT id, number FROM calibration WHERE finished<?1 AND number>?2 AND " NO_JOB_LEFT " ORDER BY number LIMIT 1",
+            before, -INFINITY, delete_calibration);
     return status;
 }
 
