@@ -1,4 +1,4 @@
-/* Ready documents to begin with: tests and studies, the paper's cases among them. They lie in folders beside the OpenAPI
+/* Ready documents to begin with: tests, studies and calibrations, the paper's cases among them. They lie in folders beside the OpenAPI
  * document. */
 #include <ctype.h>
 #include <dirent.h>
@@ -64,9 +64,10 @@ static json_t *entry_of(const json_t *document, const char *name)
     snprintf(href, sizeof href, "/examples/%s", name);
     const json_t *base = json_object_get(document, "base"), *test = base ? base : document;
     const char *process = json_string_value(json_object_get(test, "process"));
+    const char *kind = json_object_get(document, "targets") ? "calibration" : base ? "study" : "test";
     json_t *entry =
-        json_pack("{s:s, s:s, s:s, s:o, s:o}", "name", name, "kind", base ? "study" : "test", "process", process ? process : "drum",
-                  "title", title_of(document, name), "links", json_pack("[o]", link_to("item", "application/json", href)));
+        json_pack("{s:s, s:s, s:s, s:o, s:o}", "name", name, "kind", kind, "process", process ? process : "drum", "title",
+                  title_of(document, name), "links", json_pack("[o]", link_to("item", "application/json", href)));
     const char *description = json_string_value(json_object_get(document, "description"));
     if (description) json_object_set_new(entry, "description", json_string(description));
     return entry;

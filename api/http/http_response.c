@@ -43,7 +43,8 @@ static void make_absolute(const char *base, json_t *links)
 /* What a user gave, as labels and inputs, is left as it is. */
 static void make_links_absolute(const char *base, const json_t *document)
 {
-    static const char *const lists[] = { "jobs", "examples", "studies", "processes" }; /* whose entries have links of their own */
+    static const char *const lists[] = { "jobs", "examples", "studies", "calibrations",
+                                         "processes" }; /* whose entries have links of their own */
     make_absolute(base, json_object_get(document, "links"));
     make_absolute(base, json_object_get(document, "snapshots"));
     for (size_t l = 0; l < sizeof lists / sizeof lists[0]; l++) {
