@@ -13,6 +13,7 @@ static const struct {
 } curves[] = {
     { "heap", "profile", "/surface/profile", "radius", "height" },
     { "fill", "profile", "/surface/profile", "radius", "height" },
+    { "drum", "interface", "/repose/interface", "x", "height" },
 };
 
 /* "/repose/angle_deg", "/repose/slumps/period" or "/repose/other_methods/chord". */
@@ -127,7 +128,9 @@ static void add_curve(plan_request *request, const json_t *target, const char *p
     while (c < count && !(name && strcmp(curves[c].name, name) == 0 && strcmp(curves[c].process, type->name) == 0)) c++;
     pointer_to_member(at, place, "curve");
     if (c == count)
-        problem_list_add(problems, at, "is %s; the process \"%s\" has no such curve. Heap and fill have \"profile\"",
+        problem_list_add(problems, at,
+                         "is %s; the process \"%s\" has no such curve. Heap and fill have \"profile\", a drum has "
+                         "\"interface\"",
                          name ? name : "no text", type->name);
     pointer_to_member(at, place, "points");
     if (points == 0) problem_list_add(problems, at, "must be a list of at least one point [place, value, standard error]");

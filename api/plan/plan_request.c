@@ -213,6 +213,8 @@ bool plan_request_parse(const json_t *document, plan_request *request, problem_l
         problem_list_add(problems, "", "must be an object with \"base\", \"parameters\" and \"targets\"");
     else read_all(request, document, problems);
     if (problem_list_is_empty(problems)) plan_tests_check(request, problems);
+    if (problem_list_is_empty(problems) && !json_object_get(document, "next_tests"))
+        plan_propose(request, json_object_get(document, "base"));
     return problem_list_is_empty(problems);
 }
 

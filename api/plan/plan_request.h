@@ -5,7 +5,8 @@
  *    "targets":    [{"process"?, "inputs"?, "result": "/repose/angle_deg", "value", "standard_error", "name"?},
  *                   {..., "curve": "profile", "points": [[x, value, error], ...]}],     what was measured
  *    "hold_out":   [targets that are predicted and not fitted],
- *    "next_tests": [{"process"?, "inputs"?, "result", "standard_error", "name"?}],      tests that might be done next
+ *    "next_tests": [{"process"?, "inputs"?, "result", "standard_error", "name"?}],      tests that might be done next; without, an
+ *                                                                                      orifice where that may tell more
  *    "stop":       {"jobs", "seconds", "standard_error": {pointer: value}}, "repeats", "seed", "name", "label"}
  *
  * Targets of the same process and inputs share a test, one run of which answers for all of them. */
@@ -54,6 +55,7 @@ typedef struct plan_test {
     json_t *request; /* owned: {"process", "inputs", "label"} without the parameters */
     size_t target;   /* the place of the first of its targets in the list it comes from */
     plan_use use;    /* fitted, when any of its measures is */
+    bool is_own;     /* nobody asked for it: plan_propose did */
 } plan_test;
 
 typedef struct plan_request {
@@ -90,6 +92,10 @@ bool plan_test_add(plan_request *request, const json_t *base, const json_t *targ
                    size_t *test, problem_list *problems);
 /* Refuses parameters that no test takes, and values at the ends of the ranges that a job would be refused for. */
 void plan_tests_check(const plan_request *request, problem_list *problems);
+/* One test alone. */
+void plan_test_check(const plan_request *request, size_t test, problem_list *problems);
+/* plan_proposal.c, for plan_request.c alone: where friction and rolling friction are sought and no test is an orifice, one is proposed. */
+void plan_propose(plan_request *request, const json_t *base);
 /* plan_measures.c, likewise: the measures of one target, once its test is known. */
 void plan_measures_add(plan_request *request, const json_t *target, const char *place, plan_use use, size_t test,
                        problem_list *problems);

@@ -136,13 +136,19 @@ bool plan_test_add(plan_request *request, const json_t *base, const json_t *targ
     return true;
 }
 
+/* Of the bed: the angle or one of its other definitions. */
+static bool is_angle(const char *pointer)
+{
+    return strcmp(pointer, "/repose/angle_deg") == 0 || strncmp(pointer, "/repose/other_methods/", 22) == 0;
+}
+
 /* Until its angle is known twice as well as the best of its targets, where the process can do so and the test doesn't say how long
  * it takes. */
 static void shorten(const plan_request *request, size_t test, const process_type *type, json_t *inputs)
 {
     double least = INFINITY;
     for (size_t m = 0; m < request->measures; m++)
-        if (request->measure[m].test == test && strncmp(request->measure[m].pointer, "/repose/", 8) == 0)
+        if (request->measure[m].test == test && is_angle(request->measure[m].pointer))
             least = fmin(least, 0.5 * request->measure[m].error);
     if (!isfinite(least) || json_object_get(inputs, "duration")) return;
     const spec_field *until = spec_field_find(type->inputs, SPEC_DURATION, "until_standard_error_deg");
@@ -256,11 +262,14 @@ static void check_parameter(const plan_request *request, const plan_parameter *p
     else if (!is_taken) problem_list_add(problems, place, "names no input: no target's process has a number of that name");
 }
 
+void plan_test_check(const plan_request *request, size_t test, problem_list *problems)
+{
+    check_end(request, test, false, problems);
+    check_end(request, test, true, problems);
+}
+
 void plan_tests_check(const plan_request *request, problem_list *problems)
 {
     for (size_t p = 0; p < request->parameters; p++) check_parameter(request, &request->parameter[p], problems);
-    for (size_t t = 0; t < request->tests; t++) {
-        check_end(request, t, false, problems);
-        check_end(request, t, true, problems);
-    }
+    for (size_t t = 0; t < request->tests; t++) plan_test_check(request, t, problems);
 }

@@ -7,6 +7,7 @@
 #include "family.h"
 #include "json_text.h"
 #include "plan_cases.h"
+#include "shape.h"
 #include "spec_text.h"
 
 enum { DRAWS_TO_PLAN = 600, DRAWS_TO_ANSWER = 2000, MOST_WORKERS = 256 };
@@ -54,12 +55,21 @@ static json_t *refine(const planning *p, const plan_fit *fit)
 {
     const size_t used = p->table.count;
     if (plan_table_count(&p->table, STAGE_VERIFY) > 0 || used >= p->budget.explore || is_out_of_time(p)) return NULL;
-    if (plan_fit_is_enough(fit) || fit->values == 0) return NULL;
+    if (plan_fit_is_enough(fit, 1.0) || fit->values == 0) return NULL;
     const size_t left = p->budget.explore - used, count = left < p->workers ? left : p->workers;
     json_t *cases = plan_cases_refine(fit, p->document, count);
     if (json_array_size(cases) > 0) return plan_of(p, "runs", "refine", cases, fit);
     json_decref(cases);
     return NULL;
+}
+
+/* A test that nobody asked for is worth its runs where something is left to be settled. */
+static json_t *verify(const planning *p, const plan_fit *fit, const double *sets, size_t count)
+{
+    shape found;
+    if (!shape_measure(fit, &found)) return NULL;
+    const bool with_own = !shape_is_identified(&found, p->request.parameters);
+    return plan_of(p, "runs", "verify", plan_cases_verify(fit, p->document, sets, count, with_own), fit);
 }
 
 /* The answer, or the runs that verify it. */
@@ -72,7 +82,7 @@ static json_t *conclude(const planning *p)
         const size_t count = family_choose(&fit, p->budget.sets, sets);
         const bool is_verified = plan_table_count(&p->table, STAGE_VERIFY) > 0;
         if (count > 0 && fit.values > 0 && !is_verified) {
-            plan = plan_of(p, "runs", "verify", plan_cases_verify(&fit, p->document, sets, count), &fit);
+            plan = verify(p, &fit, sets, count);
         } else {
             plan = plan_of(p, "done", "verify", json_array(), &fit);
             json_t *answer = plan ? answer_make(&fit, sets, is_verified ? count : 0) : NULL;

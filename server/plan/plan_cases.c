@@ -86,7 +86,7 @@ json_t *plan_cases_refine(const plan_fit *fit, const json_t *document, size_t co
     return whole_or_null(cases, good);
 }
 
-json_t *plan_cases_verify(const plan_fit *fit, const json_t *document, const double *sets, size_t count)
+json_t *plan_cases_verify(const plan_fit *fit, const json_t *document, const double *sets, size_t count, bool with_own)
 {
     const plan_request *request = fit->request;
     json_t *cases = json_array();
@@ -94,6 +94,7 @@ json_t *plan_cases_verify(const plan_fit *fit, const json_t *document, const dou
     bool good = cases != NULL;
     for (run.set = 0; run.set < count; run.set++)
         for (run.test = 0; good && run.test < request->tests; run.test++)
-            good = add_case(cases, request, document, &sets[run.set * request->parameters], &run);
+            if (with_own || !request->test[run.test].is_own)
+                good = add_case(cases, request, document, &sets[run.set * request->parameters], &run);
     return whole_or_null(cases, good);
 }

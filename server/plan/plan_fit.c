@@ -114,9 +114,9 @@ static bool is_known_to(const plan_fit *fit)
     return is_asked;
 }
 
-bool plan_fit_is_enough(const plan_fit *fit)
+bool plan_fit_is_enough(const plan_fit *fit, double factor)
 {
-    const double share = is_known_to(fit) ? 1.0 : PLAN_ENOUGH;
+    const double share = factor * (is_known_to(fit) ? 1.0 : PLAN_ENOUGH);
     for (size_t v = 0; v < fit->values; v++)
         if (!(fit->error_in[fit->measure_of[v]] <= share * fit->measured[v].error)) return false;
     return fit->is_complete;

@@ -8,6 +8,8 @@
 
 /* Of the emulator's error within the posterior and the target's: below it more runs would tell nothing. */
 #define PLAN_ENOUGH (1.0 / 3.0)
+/* The answer draws the posterior anew, and more often, than the plan that found it enough: what is above it by a tenth then still is. */
+#define PLAN_ENOUGH_SLACK 1.1
 
 typedef struct plan_fit {
     const plan_request *request;
@@ -27,8 +29,8 @@ typedef struct plan_fit {
 bool plan_fit_make(plan_fit *fit, const plan_request *request, const plan_table *table, size_t draws);
 void plan_fit_clear(plan_fit *fit);
 
-/* The emulators' errors are small beside those of the targets. */
-bool plan_fit_is_enough(const plan_fit *fit);
+/* The emulators' errors are small beside those of the targets, or so by this factor. */
+bool plan_fit_is_enough(const plan_fit *fit, double factor);
 /* How far a run may be off the mean over beds: by its own error, or the usual one where it tells none (NaN), and by the scatter. */
 double plan_fit_run_deviation(const plan_fit *fit, size_t measure, double error);
 /* The standard deviation of a parameter over the draws, in its own units. */

@@ -41,12 +41,13 @@ def calibrate(request, model, workers=2, most_rounds=400, at_once=1):
 
 
 def request_of(values, error=0.6, **more):
-    """Two frictions of a drum, whose angle was measured at a rate for each value."""
+    """Two frictions of a drum, whose angle was measured at a rate for each value; no test is proposed."""
     targets = [{"name": f"drum {i}", "inputs": {"drum": {"rotation_rate": 1.0 + i}}, "result": "/repose/angle_deg", "value": value,
                 "standard_error": error} for i, value in enumerate(values)]
     return {"base": {"process": "drum", "inputs": {"drum": {"diameter": 0.05, "length": 0.012, "rotation_rate": 1.0},
                                                    "particles": [{"diameter": 0.004}]}},
-            "parameters": {FRICTION: {"range": [0.05, 1.0]}, ROLLING: {"range": [0.0, 0.5]}}, "targets": targets, "seed": 1} | more
+            "parameters": {FRICTION: {"range": [0.05, 1.0]}, ROLLING: {"range": [0.0, 0.5]}}, "targets": targets, "next_tests": [],
+            "seed": 1} | more
 
 
 def made_up(functions, scatter=0.3, own=0.2):

@@ -334,6 +334,52 @@ def test_of_two_tests_that_might_be_next_the_one_that_tells_more_is_first():
     assert answer["status"] == "identified"
 
 
+def test_a_flow_is_proposed_where_two_frictions_can_be_traded_and_settles_it():
+    """And not run where they can't."""
+    flow = lambda m, r: {"flow": {"mass_rate": 0.25 - 0.25 * m, "mass_rate_standard_error": 0.002}}  # noqa: E731
+
+    def model(angles):
+        return lambda case: made_up(angles)(case) if case["request"]["process"] == "drum" else \
+            made_up([lambda m, r: 0] * 3)(case) | flow(case["parameters"][FRICTION], case["parameters"][ROLLING])
+    request = request_of([20 + 60 * 0.09])
+    del request["next_tests"]
+    ridge = [lambda m, r: 20 + 60 * m * r]
+    answer, runs, _ = calibrate(request, model(ridge))
+    proposed = answer["next_test"][0]
+    assert answer["status"] == "ridge" and proposed["process"] == "orifice" and proposed["would_shrink"] > 0.5
+    # Beverloo's law for a slot of 18 mm and spheres of 4 mm and 2500 kg/m3, by hand: 1.03 * 1500 * 3.13 * 0.024 * 0.0124^1.5 = 0.16 kg/s.
+    assert proposed["standard_error"] == pytest.approx(0.03 * 0.16, rel=0.05)
+    assert [run["stage"] for run in runs if run["test"] == 1] == ["verify"] * 5
+    measured = {key: proposed[key] for key in ("process", "inputs", "result", "standard_error")} | {"value": 0.175}
+    answer, _, _ = calibrate(request | {"targets": [*request["targets"], measured]}, model(ridge))
+    assert answer["status"] == "identified" and answer["credible"][FRICTION]["median"] == pytest.approx(0.3, abs=0.04)
+    request = request_of([30, 35])
+    del request["next_tests"]
+    answer, runs, _ = calibrate(request, model(LINEAR))
+    assert answer["status"] == "identified" and answer["next_test"] == [] and {run["test"] for run in runs} == {0, 1}
+
+
+def test_the_interface_of_a_drum_is_fitted_point_by_point():
+    """Its heights follow friction at one end and rolling friction at the other."""
+    def model(case):
+        m, r = case["parameters"][FRICTION], case["parameters"][ROLLING]
+        dice = random.Random(case["request"]["inputs"]["seed"])
+        assert case["request"]["inputs"].get("duration") is None  # no angle is a target
+        x = [-0.02 + 0.004 * k for k in range(11)]
+        height = [0.01 * m * (at - 0.02) / 0.04 + 0.02 * r * (at + 0.02) / 0.04 + dice.gauss(0, 2e-5) for at in x]
+        return {"repose": {"interface": {"x": x, "height": height, "standard_error": [2e-5] * len(x)}}}
+    request = request_of([])
+    points = [[at, 0.01 * 0.4 * (at - 0.02) / 0.04 + 0.02 * 0.2 * (at + 0.02) / 0.04, 1e-4] for at in (-0.019, -0.01, 0.0, 0.01, 0.019)]
+    request["targets"] = [{"curve": "interface", "points": points}]
+    answer, _, _ = calibrate(request, model)
+    assert answer["status"] == "identified" and len(answer["best"]["targets"]) == 5
+    slopes = np.array([[0.01 * (at - 0.02) / 0.04, 0.02 * (at + 0.02) / 0.04] for at, _, _ in points])
+    errors = 1e-4 * np.sqrt(np.diag(np.linalg.inv(slopes.T @ slopes)))
+    for name, value, error in zip((FRICTION, ROLLING), (0.4, 0.2), errors):
+        assert 0.85 * error < answer["credible"][name]["standard_deviation"] < 1.3 * error
+        assert abs(answer["credible"][name]["median"] - value) < error
+
+
 def refused(request):
     """Pointers, and the sentences at them."""
     code, text = plan({"request": request})

@@ -13,11 +13,9 @@ enum { MOST_SAMPLES = 1000 };
 
 static const char *status_of(const findings *f)
 {
-    bool is_identified = f->shape.islands < 2;
-    for (size_t d = 0; d < f->fit->request->parameters; d++) is_identified = is_identified && f->shape.direction[d].is_identified;
     if (f->agreement.is_out || f->agreement.is_contradicted) return "unreachable";
-    if (!plan_fit_is_enough(f->fit) || f->check.is_refuted) return "unfinished";
-    return is_identified ? "identified" : "ridge";
+    if (!plan_fit_is_enough(f->fit, PLAN_ENOUGH_SLACK) || f->check.is_refuted) return "unfinished";
+    return shape_is_identified(&f->shape, f->fit->request->parameters) ? "identified" : "ridge";
 }
 
 static json_t *best_of(const findings *f)

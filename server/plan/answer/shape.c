@@ -151,3 +151,10 @@ bool shape_measure(const plan_fit *fit, shape *s)
     find_islands(&fit->posterior, s);
     return measure_directions(fit, s);
 }
+
+bool shape_is_identified(const shape *s, size_t parameters)
+{
+    bool is_identified = s->islands < 2;
+    for (size_t d = 0; d < parameters; d++) is_identified = is_identified && s->direction[d].is_identified;
+    return is_identified;
+}

@@ -22,6 +22,8 @@ typedef struct shape {
 
 /* False: no memory. */
 bool shape_measure(const plan_fit *fit, shape *shape);
+/* Every direction is, and it is in one piece. */
+bool shape_is_identified(const shape *shape, size_t parameters);
 
 /* The value below which this share of the draws of a parameter lie, in the unit cube; sorted (draws). */
 double sorted_quantile(const double *sorted, size_t count, double share);

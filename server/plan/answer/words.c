@@ -113,7 +113,7 @@ static void say_unfinished(const findings *f, json_t *words)
     for (size_t v = 0; v < fit->values; v++) {
         const plan_measure *measure = &fit->request->measure[fit->measure_of[v]];
         const double error = fit->error_in[fit->measure_of[v]];
-        if (error > PLAN_ENOUGH * measure->error)
+        if (error > PLAN_ENOUGH_SLACK * PLAN_ENOUGH * measure->error)
             say(words, json_sprintf(
                            "The target \"%s\" is foretold to %.2g where the posterior is, beside its own error of %.2g: more runs "
                            "would tell more.",
