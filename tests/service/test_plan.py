@@ -2,6 +2,7 @@
 import json
 import math
 import random
+import re
 import subprocess
 
 import numpy as np
@@ -378,6 +379,34 @@ def test_the_interface_of_a_drum_is_fitted_point_by_point():
     for name, value, error in zip((FRICTION, ROLLING), (0.4, 0.2), errors):
         assert 0.85 * error < answer["credible"][name]["standard_deviation"] < 1.3 * error
         assert abs(answer["credible"][name]["median"] - value) < error
+
+
+def test_the_material_is_written_for_people_and_for_other_programs():
+    request = request_of([30, 35])
+    request["base"]["inputs"]["contact"] = {"law": "spring-dashpot", "stiffness": 1000.0, "restitution": 0.8, "tangential_stiffness_ratio": 0.5}
+    request["parameters"] = {ROLLING: {"range": [0.0, 0.5]}}
+    request["base"]["inputs"]["contact"]["friction"] = 0.4
+    model = made_up(LINEAR)
+    answer, _, _ = calibrate(request, lambda case: model(case | {"parameters": case["parameters"] | {FRICTION: 0.4}}))
+    rolling, card, snippets = answer["best"]["parameters"][ROLLING], answer["card"], answer["snippets"]
+    assert card["contact"]["friction"] == 0.4 and card["contact"]["rolling_friction"] == rolling == card["found"][ROLLING]["value"]
+    assert card["found"][ROLLING]["68"] == answer["credible"][ROLLING]["68"] and card["stiffness"] == 1000.0 and "drum" not in card
+    assert [one["target"] for one in card["told_by"]] == ["drum 0", "drum 1"]
+
+    def numbers_after(program, words):
+        return [float(number) for number in re.findall(r"-?\d[\d.]*(?:e[-+]?\d+)?", snippets[program]["text"].split(words, 1)[1])]
+    # k_n, e; k_t, damping as here half the normal one's, mu; then k_roll, no dashpot, mu_r.
+    assert numbers_after("lammps", "hooke")[:5] == pytest.approx([1000, 0.8, 500, 0.5, 0.4])
+    assert numbers_after("lammps", "rolling sds")[:3] == pytest.approx([500, 0, rolling])
+    # A dashpot of m_eff gamma that leaves 0.8 of the velocity after half a period (any textbook's damped oscillator).
+    mass, loss = 2500 * math.pi * 0.004 ** 3 / 6, -math.log(0.8)
+    gamma = 2 * loss / math.sqrt(math.pi ** 2 + loss ** 2) * math.sqrt(1000 / (mass / 2))
+    assert numbers_after("liggghts", "gamman peratomtypepair 1")[0] == pytest.approx(gamma, rel=1e-6)
+    assert "rolling_friction epsd2" in snippets["liggghts"]["text"]
+    assert numbers_after("mercurydpm", "setRollingFrictionCoefficient")[0] == pytest.approx(rolling / 2)
+    assert numbers_after("yade", "young=")[0] == pytest.approx(1000 / 0.002) and numbers_after("yade", "etaRoll=")[0] == pytest.approx(rolling / 2)
+    assert all(one["does_not_carry_over"] for one in snippets.values())
+    assert any("no dashpot" in loss for loss in snippets["yade"]["does_not_carry_over"])
 
 
 def refused(request):

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "card.h"
 #include "family.h"
 #include "json_text.h"
 #include "next_test.h"
@@ -197,6 +198,9 @@ static void add_posterior(json_t *answer, const findings *f, const double *sets,
     json_object_set_new(answer, "next_test", next_test_to_json(f->fit, &f->shape, sets, count));
     json_object_set_new(answer, "validation", validation_to_json(f->fit, count));
     json_object_set_new(answer, "emulators", emulators_of(f->fit));
+    json_t *card = card_to_json(f->fit, json_object_get(answer, "credible")), *snippets = snippets_to_json(f->fit);
+    if (card) json_object_set_new(answer, "card", card);
+    if (snippets) json_object_set_new(answer, "snippets", snippets);
 }
 
 json_t *answer_make(const plan_fit *fit, const double *sets, size_t count)
