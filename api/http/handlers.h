@@ -26,10 +26,12 @@ route_handler list_examples, show_example;
 route_handler show_results, show_output, show_spec, show_log;
 /* handlers_series.c */
 route_handler list_samples, list_snapshots;
+/* handlers_samples.c */
+route_handler respond_thinned_samples;
 /* handlers_snapshots.c */
 route_handler send_snapshot, send_frames;
 /* handlers_files.c */
-route_handler send_fields, send_walls, send_snapshot_series, send_picture, send_archive;
+route_handler send_fields, send_fields_text, send_walls, send_snapshot_series, send_picture, send_archive;
 /* handlers_events.c */
 route_handler send_events;
 /* handlers_studies.c */

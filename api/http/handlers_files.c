@@ -32,6 +32,16 @@ void send_fields(api_service *service, const http_request *request, http_respons
     send_file(service, request, response, &fields);
 }
 
+void send_fields_text(api_service *service, const http_request *request, http_response *response)
+{
+    static const job_file fields = {
+        JOB_FIELDS_TEXT_FILE, "application/json", HTTP_FILE_CHANGING,
+        "a drum and a flow have it when their run is over, other tests and jobs of earlier versions never"
+    };
+    send_file(service, request, response, &fields);
+    response->is_attachment = false;
+}
+
 void send_walls(api_service *service, const http_request *request, http_response *response)
 {
     static const job_file walls = { JOB_WALLS_FILE, "application/xml", HTTP_FILE_CHANGING,

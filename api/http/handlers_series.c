@@ -177,6 +177,10 @@ void list_samples(api_service *service, const http_request *request, http_respon
     series_page series = { 0 };
     int64_t after;
     const bool csv = wants_csv(request);
+    if (http_request_parameter(request, "points") || http_request_parameter(request, "columns")) {
+        respond_thinned_samples(service, request, response);
+        return;
+    }
     if (!open_series(service, request, response, &series, &after, csv ? "-samples.csv" : "-samples.json", csv)) return;
     if (csv && !http_request_parameter(request, "limit")) {
         stream_samples(service, request, response, after);

@@ -2,7 +2,10 @@
 
 #include <assert.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
+
+#include "checksum.h"
 
 static bool path_fits(const char *pattern, const char *path, http_request *request)
 {
@@ -111,10 +114,28 @@ void route_strip_prefix(const api_service *service, http_request *request)
     else if (request->path[length] == '\0') request->path = "/";
 }
 
+/* What is answered from memory is named by its content, so that who has it already is not sent it again. */
+static void name_content(const http_request *request, http_response *response)
+{
+    static const char json[] = "application/json", csv[] = "text/csv";
+    const bool reads = strcmp(request->method, "GET") == 0 || strcmp(request->method, "HEAD") == 0;
+    if (!reads || response->status != 200 || !response->body || response->pieces.context || response->etag[0]) return;
+    if (strncmp(response->content_type, json, strlen(json)) != 0 && strncmp(response->content_type, csv, strlen(csv)) != 0) return;
+    char version[20];
+    snprintf(version, sizeof version, "%016llx", (unsigned long long)checksum_of(response->body, response->length));
+    const bool has_it = http_respond_unchanged(request, response, version);
+    response->cache_control = "private, no-cache";
+    if (!has_it) return;
+    free(response->body);
+    response->body = NULL;
+    response->length = 0;
+}
+
 void route_respond(const http_route *route, api_service *service, const http_request *request, http_response *response)
 {
     route_set_base(service, request, response);
     if (parameters_are_good(route, request, response)) route->handler(service, request, response);
+    name_content(request, response);
     if (response->location[0] != '/') return;
     const size_t length = strlen(response->location), before = strlen(response->base);
     if (length + before >= sizeof response->location) return;

@@ -33,6 +33,7 @@
  *   walls.vtp                  the container's walls, where they are at the newest snapshot; rewritten with that
  *   picture.png                the bed as it was a minute ago or less, and in the end: 640 pixels a side; picture-96.png: 96
  *   fields.hdf                 a drum's fields over the cross-section, or those at an orifice, averaged over the run; before
+ *   fields.json                the same as a short document, just before it
  *                              result.json
  *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
  *   beds/001.hdf ...           of a run of several beds the checkpoint of each but the first, and 001.before.hdf; gone once
@@ -65,6 +66,7 @@
 #define JOB_SMALL_PICTURE_FILE "picture-96.png"
 enum { JOB_PICTURE_LARGE = 640, JOB_PICTURE_SMALL = 96 }; /* pixels a side */
 #define JOB_FIELDS_FILE "fields.hdf"
+#define JOB_FIELDS_TEXT_FILE "fields.json"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
 #define JOB_EARLIER_CHECKPOINT_FILE "checkpoint.before.hdf"
 #define JOB_BEDS_FOLDER "beds"

@@ -179,7 +179,8 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 206, headers={"Range": "bytes=0-99"})
     call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 304, headers={"If-None-Match": fields.headers["ETag"]})
     assert any(link["href"].endswith("/fields.hdf") for link in requests.get(job).json()["links"])
-    for name in ("walls.vtp", "snapshots.hdf.series", "files.tar", "picture.png"):
+    call("/jobs/{id}/samples", f"{job}/samples?points=4&columns=angle_deg", 200)
+    for name in ("walls.vtp", "snapshots.hdf.series", "files.tar", "picture.png", "fields.json"):
         call(f"/jobs/{{id}}/{name}", f"{job}/{name}", 200)
     frame = call("/jobs/{id}/snapshots/{file}", snapshots[-1]["frame"], 200)
     assert len(frame.content) == snapshots[-1]["frame_bytes"]

@@ -15,19 +15,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "fields_text.h"
 #include "hdf_file.h"
 #include "job_folder.h"
 #include "mirror.h"
 #include "worker_log.h"
-
-/* What all fields of a file share. */
-typedef struct field_grid {
-    size_t rows, columns;
-    double size;      /* m: side of a cell */
-    double corner[2]; /* m: middle of the first cell */
-    double thickness; /* m: of what is seen from the side */
-    double frames;    /* that the means are over */
-} field_grid;
 
 /* data: (rows, columns, components), with room for as much again behind it. */
 static void add_field(hdf_file *file, const char *name, const field_grid *grid, double *data, size_t components, const char *unit)
@@ -113,8 +105,13 @@ bool fields_file_write(const dem_scene *scene, bool is_mirrored, const double *s
     add_field(&file, "velocity", &grid, fields.velocity, 3, "m/s");
     add_field(&file, "granular_temperature", &grid, fields.temperature, 1, "m2/s2");
     add_field(&file, "samples", &grid, fields.samples, 1, NULL);
+    const field_text texts[] = { { "solid_fraction", "", fields.solid_fraction, 1 },
+                                 { "velocity", "m/s", fields.velocity, 3 },
+                                 { "granular_temperature", "m2/s2", fields.temperature, 1 },
+                                 { "samples", "", fields.samples, 1 } };
+    const bool has_text = fields_text_write(&grid, texts, sizeof texts / sizeof texts[0]);
     free(all);
-    return hdf_publish(&file);
+    return hdf_publish(&file) && has_text;
 }
 
 bool fields_file_write_outlet(const dem_scene *scene, const double *sums, const dem_orifice *orifice, const char *params)
@@ -132,6 +129,8 @@ bool fields_file_write_outlet(const dem_scene *scene, const double *sums, const 
     add_groups(&file, &grid, params);
     add_field(&file, "solid_fraction", &grid, solid, 1, NULL);
     add_field(&file, "velocity", &grid, velocity, 3, "m/s");
+    const field_text texts[] = { { "solid_fraction", "", solid, 1 }, { "velocity", "m/s", velocity, 3 } };
+    const bool has_text = fields_text_write(&grid, texts, sizeof texts / sizeof texts[0]);
     free(solid);
-    return hdf_publish(&file);
+    return hdf_publish(&file) && has_text;
 }

@@ -37,9 +37,9 @@ static bool is_plain(const char *name, mode_t kind)
 static bool all_is_plain(void)
 {
     static const char *const files[] = {
-        JOB_SPEC_FILE,   JOB_START_FILE,      JOB_EVENTS_FILE,       JOB_SERIES_FILE,  JOB_WALLS_FILE,
-        JOB_FIELDS_FILE, JOB_CHECKPOINT_FILE, JOB_RESULT_FILE,       JOB_PROFILE_FILE, JOB_EARLIER_CHECKPOINT_FILE,
-        JOB_BED_FILE,    JOB_PICTURE_FILE,    JOB_SMALL_PICTURE_FILE
+        JOB_SPEC_FILE,   JOB_START_FILE,      JOB_EVENTS_FILE,        JOB_SERIES_FILE,     JOB_WALLS_FILE,
+        JOB_FIELDS_FILE, JOB_CHECKPOINT_FILE, JOB_RESULT_FILE,        JOB_PROFILE_FILE,    JOB_EARLIER_CHECKPOINT_FILE,
+        JOB_BED_FILE,    JOB_PICTURE_FILE,    JOB_SMALL_PICTURE_FILE, JOB_FIELDS_TEXT_FILE
     };
     bool plain = is_plain(JOB_SNAPSHOT_FOLDER, S_IFDIR);
     plain = is_plain(JOB_BEDS_FOLDER, S_IFDIR) && plain;
@@ -122,9 +122,9 @@ folder_owner run_folder_owner(const char *params, const char *brief)
 
 bool run_folder_claim(folder_owner owner, const char *params, event_log *events)
 {
-    static const char *const leftovers[] = { JOB_RESULT_FILE,  JOB_CHECKPOINT_FILE,   JOB_EARLIER_CHECKPOINT_FILE,
-                                             JOB_START_FILE,   JOB_SERIES_FILE,       JOB_BED_FILE,
-                                             JOB_PICTURE_FILE, JOB_SMALL_PICTURE_FILE };
+    static const char *const leftovers[] = { JOB_RESULT_FILE,  JOB_CHECKPOINT_FILE,    JOB_EARLIER_CHECKPOINT_FILE,
+                                             JOB_START_FILE,   JOB_SERIES_FILE,        JOB_BED_FILE,
+                                             JOB_PICTURE_FILE, JOB_SMALL_PICTURE_FILE, JOB_FIELDS_TEXT_FILE };
     if (owner == FOLDER_OURS) return true;
     if (owner == FOLDER_UNREADABLE) return false;
     if (owner == FOLDER_OF_ANOTHER) {
