@@ -1,4 +1,6 @@
 """Jobs of a study that would settle the same bed settle it once, and come to the same bits as if each had done so itself."""
+import os
+import signal
 import sqlite3
 from pathlib import Path
 
@@ -120,3 +122,33 @@ def test_a_bed_outlives_a_crash_and_one_that_is_harmed_is_settled_again(four_wor
     assert [result["run"]["settled_by"] for result in found] == [first[0], None, None, None]
     for n in (0, 1):
         assert timeless(found[n]) == alone(four_workers, second[n], tmp_path)
+
+
+def is_of(worker, job):
+    try:
+        return job.encode() in Path(f"/proc/{worker}/cmdline").read_bytes()
+    except OSError:
+        return False
+
+
+@pytest.mark.torture
+def test_whoever_is_held_up_while_settling_holds_up_nobody_and_ends_right(two_workers, tmp_path):
+    """The first is stopped, the second, which waits for its bed, is deleted; the others settle one of their own and share it."""
+    rates = [{"drum": {"rotation_rate": rate}} for rate in (3.0, 2.0, 1.0, 0.5)]
+    first, second, third, fourth = submit(two_workers, SLOW, rates)
+    wait_until(lambda: any(is_of(worker, first) for worker in two_workers.workers()))
+    held_up, = [worker for worker in two_workers.workers() if is_of(worker, first)]
+    os.kill(held_up, signal.SIGSTOP)
+    try:
+        cancel(two_workers, second)
+        cancel(two_workers, second)
+        assert two_workers.get(f"/jobs/{second}").status_code == 404
+        assert [results(two_workers, job)["run"]["settled_by"] for job in (third, fourth)] == [None, third]
+        assert two_workers.job(first)["status"] == "running"
+    finally:
+        os.kill(held_up, signal.SIGCONT)
+    found = {job: results(two_workers, job) for job in (first, third, fourth)}
+    assert found[first]["run"]["settled_by"] is None
+    for job in (first, fourth):
+        assert timeless(found[job]) == alone(two_workers, job, tmp_path)
+    assert beds(two_workers) == {} and not list(Path(two_workers.data).glob("jobs/*/bed.hdf*"))

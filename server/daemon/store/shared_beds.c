@@ -15,11 +15,17 @@
 
 enum { LONGEST_LINE = 2 * JOB_ID_SIZE + 80 };
 
+/* Where one was held up so long that another settled, too, the bed of whoever was first is kept; the other's file is needed by
+ * nobody. */
 store_status store_record_bed(job_store *store, const job_claim *claim, const char *sha256)
 {
-    return sql_run(store->writer, NULL,
-                   "INSERT OR REPLACE INTO bed SELECT bed, number, ? FROM job WHERE number=? AND bed IS NOT NULL", "ti", sha256,
-                   claim->number);
+    int64_t kept = 0;
+    const store_status status = sql_run(store->writer, &kept,
+                                        "INSERT INTO bed SELECT bed, number, ? FROM job WHERE number=? AND bed IS NOT NULL"
+                                        " ON CONFLICT(key) DO UPDATE SET sha256=excluded.sha256 WHERE job=excluded.job",
+                                        "ti", sha256, claim->number);
+    if (status == STORE_OK && kept == 0) job_bed_remove(store->data, claim->id);
+    return status;
 }
 
 /* Whose bed it is, and the line that says so to the worker. False: nobody's yet. */
