@@ -15,10 +15,7 @@ const AHEAD = 4; // frames fetched before they are needed, while the clock goes
 export function createBedPanel(job, scene, clock, { angleAt = () => null, liftAt = () => 0, chosen = {}, told = () => {}, isSmall = false } = {}) {
   const store = createFrameStore(job.jobID);
   const element = h('div', { class: 'bed-panel' });
-  if (!sharedRenderer()) {
-    showInstead(element, job, 'This browser has no WebGL2, which the moving bed is drawn with.');
-    return { element, store, update: async () => store.update(), isReady: () => true, view: null, choose: () => {} };
-  }
+  if (!sharedRenderer()) return withoutWebGl(element, store, job);
   const view = createBedView(scene, { label: `The bed of ${job.processID} ${job.jobID}: drag or use the arrow keys to turn it` });
   const legend = h('div', { class: 'legend-box' });
   const colorBy = h('select', { class: 'color-by', onchange: () => choose({ colorBy: colorBy.value }, true) });
@@ -66,7 +63,7 @@ export function createBedPanel(job, scene, clock, { angleAt = () => null, liftAt
     if (!(error instanceof ApiError)) console.error(error);
     if (failed) return;
     failed = error.message;
-    if (error.status === 404) showInstead(element, job, 'This job was run before beds were kept for the page.');
+    if (error.status === 404) showInstead(element, job, 'This job was run before beds were kept for the page.', false);
     else legend.replaceChildren(h('p', { class: 'quiet' }, `The bed was not loaded: ${error.message}.`));
     if (error.status !== 404) failed = '';
   }
@@ -81,16 +78,18 @@ export function createBedPanel(job, scene, clock, { angleAt = () => null, liftAt
       if (view.isDrum || scene.process !== 'heap') wallHeight = 0;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
-      wallsOf = null; // a drum that has just begun has none yet
+      wallsOf = null;
     }
   }
 
-  // Learns of new frames, and shows the one of now.
+  // Learns of new frames, and shows the one of the clock.
   async function update() {
-    await Promise.all([store.update(), loadWalls()]);
+    await store.update();
     if (store.list.length === 0 || failed) return;
     try {
-      view.set({ start: await store.load(0) });
+      const start = await store.load(0);
+      view.set({ start });
+      if (start.count > 0) await loadWalls();
     } catch (error) {
       explain(error);
     }
@@ -101,11 +100,21 @@ export function createBedPanel(job, scene, clock, { angleAt = () => null, liftAt
   return { element, store, update, view, choose, isReady: () => Boolean(failed) || store.nearest(clock.time) < 0 || Boolean(store.has(store.nearest(clock.time))) };
 }
 
+function withoutWebGl(element, store, job) {
+  let known = null; // whether there is a picture
+  const update = async () => {
+    const hasPicture = (await store.update()).some(({ hasFrame }) => hasFrame);
+    if (hasPicture !== known) showInstead(element, job, 'This browser has no WebGL2, which the moving bed is drawn with.', hasPicture);
+    known = hasPicture;
+  };
+  return { element, store, update, isReady: () => true, view: null, choose: () => {} };
+}
+
 // The picture that the worker drew, or, of an older job, a drawing of the angle.
-function showInstead(element, job, why) {
-  const picture = h('img', { class: 'still', alt: `The bed of ${job.jobID}`, src: `${jobPath(job.jobID)}/picture.png` });
-  picture.addEventListener('error', () => picture.replaceWith(job.processID === 'drum' ? drumPicture(job.summary ?? {}, 320, 'The drum with its measured angle') : ''));
-  element.replaceChildren(h('p', { class: 'notice', role: 'note' }, why), picture);
+function showInstead(element, job, why, hasPicture) {
+  element.replaceChildren(h('p', { class: 'notice', role: 'note' }, why),
+    hasPicture ? h('img', { class: 'still', alt: `The bed of ${job.jobID}`, src: `${jobPath(job.jobID)}/picture.png` })
+      : job.processID === 'drum' ? drumPicture(job.summary ?? {}, 240, 'The drum with its measured angle') : '');
 }
 
 function savePicture(view, name) {

@@ -10,7 +10,7 @@ import { isOfAddress, showConnected, showFailure, showTrouble, takeToken } from 
 import { COLORS, createCurve } from './curve.js';
 import { nameOf } from './job_name.js';
 import { prepareForPaper } from './job_print.js';
-import { startPolling } from './polling.js';
+import { SETTLED, startPolling } from './polling.js';
 import { createSeries } from './sample_series.js';
 import { describedInputs, schemasOf } from './words.js';
 
@@ -38,7 +38,7 @@ async function ask() {
   byId('sheet').hidden = false;
   const open = await Promise.all(sides.map(follow));
   show();
-  return open.some(Boolean);
+  return open.some(Boolean) || SETTLED;
 }
 
 async function begin(id) {

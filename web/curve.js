@@ -81,8 +81,9 @@ function overlay(plot, events, colors) {
   ctx.restore();
 }
 
-// box: an element that it fills. clock: of its line. facts(): {window, mean, error, events}, asked for at each drawing.
-export function createCurve(box, clock, facts = () => ({})) {
+// box: an element that it fills. clock: of its line. facts(): {window, mean, error, events}, asked for at each drawing. onPaper: its
+// size there, in CSS pixels, which the sheet gives it only once it is laid out.
+export function createCurve(box, clock, facts = () => ({}), onPaper = { width: 672, height: 250 }) {
   let plot = null, made = '', given = { data: [[]], series: [], unit: '' };
   const line = h('div', { class: 'time-line' });
 
@@ -130,7 +131,7 @@ export function createCurve(box, clock, facts = () => ({})) {
     clock.set(u.posToVal(left, 'x'));
   }
 
-  const size = () => ({ width: Math.max(box.clientWidth, 240), height: Math.max(box.clientHeight, LEAST_HEIGHT) });
+  const size = () => document.documentElement.classList.contains('printing') ? onPaper : ({ width: Math.max(box.clientWidth, 240), height: Math.max(box.clientHeight, LEAST_HEIGHT) });
   const hand = is => () => { if (plot) plot.isOfHand = is; };
   box.addEventListener('pointermove', hand(true), { capture: true });
   box.addEventListener('pointerleave', hand(false));

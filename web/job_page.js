@@ -10,7 +10,7 @@ import { nameOf } from './job_name.js';
 import { showCurve, showCurveTools } from './job_curve.js';
 import { showAgain, showAnswers, showFiles, showHead, showInputs, showLog, showReason, showResults } from './job_parts.js';
 import { prepareForPaper } from './job_print.js';
-import { startPolling } from './polling.js';
+import { SETTLED, startPolling } from './polling.js';
 import { viewOf } from './process_views.js';
 import { createSeries } from './sample_series.js';
 import { describedInputs, schemasOf } from './words.js';
@@ -49,7 +49,7 @@ async function ask() {
     showFiles(byId('files'), job, view.bed?.store.list ?? []);
     if (!isOpen) finalShown = job.status;
   }
-  return isOpen;
+  return isOpen || SETTLED;
 }
 
 // What does not change while the job is there.
@@ -69,7 +69,7 @@ async function begin(job) {
   });
   byId('bed').append(view.bed.element);
   byId('transport').append(transport(clock));
-  view.curve = createCurve(byId('curve'), clock, () => factsOf(view));
+  view.curve = createCurve(byId('curve'), clock, () => factsOf(view), { width: 386, height: 250 });
   clock.listen(() => rememberSoon());
   prepareForPaper(view);
 }

@@ -3,6 +3,7 @@ import { h, replaceIfChanged } from './dom.js';
 import { ApiError, jobPath, request, root, session } from './api.js';
 import { bytes, clock, count, duration, regimeInWords, secondsBetween, significant } from './format.js';
 import { fileLink } from './file_link.js';
+import { heatMaps } from './heat_maps.js';
 import { inputTables, shortInputs } from './input_table.js';
 import { nameOf } from './job_name.js';
 import { profilePlot, profilesIn } from './profile_plot.js';
@@ -49,6 +50,7 @@ export function showAnswers(box, profiles, results, schemas, job) {
     words.length ? h('section', { class: 'card regime-card' }, h('h2', null, 'Regime'), ...words,
       hasPlace ? regimeMap([{ angle_deg: repose.angle_deg, omega2, name: 'this run' }]) : '') : '', ...interfaceCards(results));
   if (results.stages?.length) profiles.append(h('div', { class: 'card' }, stageTable(results.stages)));
+  profiles.after(heatMaps(job) ?? '');
 }
 
 function interfaceCards(results) {

@@ -5,7 +5,9 @@ import { isOfAddress } from './connection.js';
 
 const BUSY = 2_000, IDLE = 5_000, HIDDEN = 60_000, LONGEST = 60_000; // ms
 
-// ask(): a promise that resolves to true when something is going on. Told of every failure: failed(error, ms).
+// ask(): a promise that resolves to true when something is going on, to SETTLED when nothing will change by itself. Told of every
+// failure: failed(error, ms).
+export const SETTLED = 'settled';
 export function startPolling(ask, failed) {
   let timer = 0, failures = 0, turn = 0;
 
@@ -14,7 +16,8 @@ export function startPolling(ask, failed) {
     const mine = ++turn; // a later now() overtakes: an older answer then arms no timer of its own
     let pause;
     try {
-      pause = await ask() ? BUSY : IDLE;
+      const found = await ask();
+      pause = found === SETTLED ? LONGEST : found ? BUSY : IDLE;
       failures = 0;
     } catch (error) {
       if (mine !== turn) return;

@@ -163,7 +163,7 @@ def test_comparing_tells_what_differs_and_by_how_many_standard_errors(fake, brow
     assert cell.startswith(f"{angles[1]:.2f}") and float(re.search(r"[+−]([\d.]+) standard errors", cell)[1]) == pytest.approx(abs(away), rel=0.1)
     heads = [head.text for head in find_all(browser, "#results thead th")]
     assert all(job[-8:] in head for job, head in zip(jobs, heads[1:], strict=True))  # of one name, told apart
-    assert len(until(browser, lambda b: find_all(b, ".bed-panel .notice"))) == 2  # these workers keep no frames, and the page says so
+    assert len(find_all(browser, ".beds .bed")) == 2
     browser.get(f"{fake.url}/web/compare.html?ids={jobs[0]}")
     assert "2 to 6" in until(browser, lambda b: find(b, "#trouble").text)
 
