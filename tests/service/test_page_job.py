@@ -124,6 +124,8 @@ def test_the_page_of_a_job_shows_bed_curve_and_all_that_is_known(daemon, browser
     find(browser, ".definitions input[value=chord_deg]").click()
     until(browser, lambda b: pixels(b, ".curve canvas") != before)
     check_results_and_inputs(daemon, browser, job)
+    find(browser, ".fields summary").click()
+    until(browser, lambda b: pixels(b, ".heat canvas")[0] > 3)
     command = find(browser, ".curl code").text
     again = json.loads(subprocess.run(command.replace("curl", "curl -sS", 1), shell=True, capture_output=True, check=True).stdout)["jobID"]
     assert daemon.get(f"/jobs/{again}/spec").json() == daemon.get(f"/jobs/{job}/spec").json()
