@@ -36,7 +36,7 @@ static bool find_grain(const plan_request *request, double *diameter, double *de
 {
     problem_list problems;
     job_spec spec;
-    *diameter = 0.0;
+    *diameter = *density = *gravity = 0.0;
     if (!problem_list_init(&problems)) return false;
     if (plan_middle_spec(request, 0, &spec, &problems)) {
         for (size_t s = 0; strcmp(spec.process, "granule") != 0 && s < spec.scene.species_count; s++) {

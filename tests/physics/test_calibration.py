@@ -77,3 +77,15 @@ def test_frictions_of_own_runs_are_found_again(record, tmp_path):
     z = [abs(result["z"]) for one in answer["family"] for result in one["results"]]
     record.between("verified sets: median of what the runs differ from the emulators by, in errors", statistics.median(z), 0.2, 1.2,
                    "0.67 of normal errors, of 15 give or take 0.5; the median, since a heap of 300 stands much steeper now and then")
+
+
+@pytest.mark.minutes
+def test_the_example_finds_its_frictions_again(record, tmp_path):
+    """Its values are means over three beds of friction 0.4 and rolling friction 0.1."""
+    request = json.loads((Path(__file__).parents[2] / "api/examples/calibration.json").read_text())
+    answer, runs, _ = calibrate(request, run_for_real(tmp_path))
+    for name, value in ((FRICTION, 0.4), (ROLLING, 0.1)):
+        low, high = answer["credible"][name]["95"]
+        record.between(f"the example's {name[8:]}, {len(runs)} jobs, status {answer['status']}", value, low, high,
+                       "the middle 95 % of the posterior hold the truth")
+    record.between("the example's runs: processor time in s", answer["cost"]["processor_seconds"], 1, 600, "5 minutes on 2 cores")

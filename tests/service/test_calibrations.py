@@ -5,6 +5,8 @@ import io
 import json
 import os
 import signal
+import sqlite3
+import subprocess
 import time
 
 import pytest
@@ -169,6 +171,17 @@ def test_daemons_and_planners_that_are_killed_change_no_bit_of_the_answer(undist
         assert planners_killed > 0 and daemons_killed == 2
         text = json.dumps(results(daemon, calibration)["answer"])
         assert text == json.dumps(undisturbed[2]["answer"])
+        # Nothing of it is found amiss (files of the worker here have no checksums), and a rule that removes what is old removes it
+        # once its jobs are gone.
+        daemon.stop()
+        checked = subprocess.run([daemon.program, "check", "--data", daemon.data], capture_output=True, text=True)
+        assert f"{undisturbed[1]['jobs']} jobs that have ended" in checked.stdout and "calibration" not in checked.stdout
+        with sqlite3.connect(daemon.data / "reposed.sqlite") as database:
+            for table in ("job", "calibration"):
+                database.execute(f"UPDATE {table} SET finished='2020-01-01T00:00:00.000Z'")
+        assert subprocess.run([daemon.program, "prune", "--keep-days", "1", "--data", daemon.data]).returncode == 0
+        daemon.start()
+        assert daemon.get("/jobs").json()["jobs"] == [] and daemon.get("/calibrations").json()["calibrations"] == []
     finally:
         if daemon.is_running():
             daemon.stop(signal.SIGKILL)

@@ -58,7 +58,7 @@ static void limit(int resource, double value)
 }
 
 /* Only async-signal-safe calls: other threads may have held any lock at the fork. */
-static void become_planner(const planning *p, const char *program, char *const *arguments, pid_t parent)
+static void become_planner(const planning *p, const char *program, char *const *arguments, char *const *environment, pid_t parent)
 {
     sigset_t none;
     sigemptyset(&none);
@@ -74,8 +74,25 @@ static void become_planner(const planning *p, const char *program, char *const *
     limit(RLIMIT_FSIZE, LONGEST_PLAN);
     limit(RLIMIT_CORE, 0.0);
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    execv(program, arguments);
+    execve(program, arguments, environment);
     _exit(EXIT_MACHINE);
+}
+
+/* Ours, but for the threads of linear algebra, without which the program would start once more to have it so. To be freed; NULL: no
+ * memory. */
+static char **environment_of_planner(void)
+{
+    static char one_for_blas[] = "OPENBLAS_NUM_THREADS=1", one_for_all[] = "OMP_NUM_THREADS=1";
+    size_t count = 0, kept = 2;
+    while (environ[count]) count++;
+    char **environment = calloc(count + 3, sizeof *environment);
+    if (!environment) return NULL;
+    environment[0] = one_for_blas;
+    environment[1] = one_for_all;
+    for (size_t i = 0; i < count; i++)
+        if (strncmp(environ[i], "OPENBLAS_NUM_THREADS=", 21) != 0 && strncmp(environ[i], "OMP_NUM_THREADS=", 16) != 0)
+            environment[kept++] = environ[i];
+    return environment;
 }
 
 /* True when it has ended; false: the daemon leaves, and it was killed. */
@@ -103,9 +120,11 @@ static bool await(run_planner *planner, planning *p)
 static bool run_program(run_planner *planner, planning *p)
 {
     char *const arguments[] = { (char *)planner->program, "plan", "-", planner->confine ? "--confine" : NULL, NULL };
+    char **environment = environment_of_planner();
     const pid_t parent = getpid();
-    p->process = fork();
-    if (p->process == 0) become_planner(p, planner->program, arguments, parent);
+    p->process = environment ? fork() : -1;
+    if (p->process == 0) become_planner(p, planner->program, arguments, environment, parent);
+    free(environment);
     if (p->process < 0) return false;
     setpgid(p->process, p->process); /* also here: whoever comes first */
     return await(planner, p);
