@@ -1,5 +1,7 @@
 // Talking with the daemon: JSON in, JSON out, and every failure an error that says what happened.
 
+import { filterOf } from './filter.js';
+
 // Where the service is: a proxy may put it below a path of its own.
 export const root = new URL('..', import.meta.url).pathname;
 
@@ -71,11 +73,11 @@ async function errorOf(answer) {
   }
 }
 
-export function listJobs({ status, q, study, cursor, limit }) {
-  const query = new URLSearchParams({ limit });
-  if (status) query.set('status', status);
-  if (q) query.set('q', q);
-  if (study) query.set('study', study);
+// view: of view.js; status: several with commas between them.
+export function listJobs({ cursor, limit, sort, ...filter }) {
+  const query = filterOf(filter);
+  query.set('limit', limit);
+  if (sort) query.set('sort', sort);
   if (cursor) query.set('cursor', cursor);
   return json(`${root}jobs?${query}`);
 }

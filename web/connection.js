@@ -57,9 +57,13 @@ export function takeToken(refresh) {
   });
 }
 
-// Resolves to true when the user wants it cancelled.
-export async function confirmed(what) {
-  const dialog = byId('confirm');
+// Resolves to true when the user wants it. question, yes: in the place of the dialog's own title and of its button's text.
+export async function confirmed(what, yes = '') {
+  const dialog = byId('confirm'), title = byId('confirm-title'), button = dialog.querySelector('[value=cancel]');
+  title.dataset.own ??= title.textContent;
+  button.dataset.own ??= button.textContent;
+  title.textContent = yes ? 'Are you sure?' : title.dataset.own;
+  button.textContent = yes || button.dataset.own;
   byId('confirm-what').textContent = what;
   dialog.returnValue = 'keep';
   dialog.showModal();

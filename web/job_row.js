@@ -6,22 +6,34 @@ import { drumPicture } from './drum_picture.js';
 import { createDetail } from './job_detail.js';
 import { nameOf } from './job_name.js';
 import { inputsInWords } from './words.js';
+import { cellOf, headingOf } from './columns.js';
+import { root } from './api.js';
 
-const COLUMNS = ['job', 'state', 'inputs', 'angle', 'regime', 'times', 'actions'];
+const COLUMNS = ['pick', 'job', 'state', 'inputs', 'angle', 'regime', 'times', 'actions'];
 const CAN_BE_STOPPED = ['accepted', 'running'];
+
+const pageOf = job => `${root}web/job.html?id=${encodeURIComponent(job.jobID)}`;
 
 const nothing = () => h('span', { class: 'quiet nothing' }, '–');
 
-// actions: {toggle(id), stop(job)}
+// actions: {toggle(id), stop(job), pick(job, on)}
 export function createRow(id, actions) {
   const cells = Object.fromEntries(COLUMNS.map(name => [name, h('td', { class: name, role: 'cell' })]));
   const main = h('tr', { class: 'job', role: 'row', id: `job-${id}` }, Object.values(cells));
   const room = h('td', { role: 'cell', colspan: COLUMNS.length });
   const below = h('tr', { class: 'detail', role: 'row', id: `detail-${id}`, hidden: true }, room);
   const row = { id, main, below, job: null, detail: null };
+  const box = h('input', { type: 'checkbox', onchange: event => actions.pick(row.job, event.target.checked) });
+  cells.pick.append(h('label', null, box));
+  let others = [];
 
-  row.update = (job, open) => {
+  // columns: those beside the usual ones, as {cells of columns.js}.
+  row.update = (job, open, { columns = [], picked = false } = {}) => {
     row.job = job;
+    box.checked = picked;
+    box.setAttribute('aria-label', `Select ${nameOf(job)}, ${job.jobID}`);
+    others = showOthers(main, cells.actions, others, columns, job);
+    room.colSpan = COLUMNS.length + columns.length;
     main.dataset.status = job.status;
     showName(cells.job, job, open, actions);
     showState(cells.state, job);
@@ -39,11 +51,26 @@ export function createRow(id, actions) {
   return row;
 }
 
+// Columns that were chosen: their cells stand before the last one.
+function showOthers(main, last, before, columns, job) {
+  const cells = columns.map((column, i) => before[i] ?? h('td', { class: 'other', role: 'cell' }));
+  for (const cell of before.slice(columns.length)) cell.remove();
+  columns.forEach((column, i) => {
+    cells[i].textContent = cellOf(column, job);
+    cells[i].classList.toggle('number', column.isNumber);
+    cells[i].dataset.title = headingOf(column);
+    if (cells[i].nextSibling !== (cells[i + 1] ?? last)) main.insertBefore(cells[i], last);
+  });
+  return cells;
+}
+
 function showName(cell, job, open, actions) {
-  replaceIfChanged(cell, [job.label, job.processID], () => [
+  const picture = job.links?.find(link => link.type === 'image/png')?.href;
+  replaceIfChanged(cell, [job.label, job.processID, picture, picture && job.status], () => [
+    picture ? h('a', { class: 'thumb', href: pageOf(job), tabindex: '-1', 'aria-hidden': 'true' }, h('img', { src: `${picture}?width=96`, alt: '', width: 48, height: 48, loading: 'lazy' })) : null,
     h('button', { class: 'opener', 'aria-controls': `detail-${job.jobID}`, 'aria-expanded': 'false',
-      onclick: () => actions.toggle(job.jobID) }, nameOf(job)),
-    h('small', null, job.jobID)]);
+      onclick: () => actions.toggle(job.jobID) }, h('bdi', null, nameOf(job))),
+    h('small', null, h('a', { href: pageOf(job) }, job.jobID))]);
   cell.querySelector('.opener').setAttribute('aria-expanded', String(open));
 }
 
@@ -52,11 +79,12 @@ const USUAL = ['', 'waiting for a free worker', 'starting', 'growing', 'settling
 const isNews = job => CAN_BE_STOPPED.includes(job.status) && !USUAL.includes(job.message ?? '');
 
 function showState(cell, job) {
-  replaceIfChanged(cell, [job.status, job.attempt, job.message], () => [
+  replaceIfChanged(cell, [job.status, job.attempt, job.message, job.position, job.expected_start], () => [
     h('span', { class: `badge ${job.status}` }, job.status),
     job.attempt > 1 ? h('small', { class: 'attempt' }, `attempt ${job.attempt}`) : null,
     job.status === 'running' ? h('progress', { max: 100, 'aria-label': 'progress' }) : null,
     job.status === 'running' ? h('small', { class: 'left' }) : null,
+    job.position ? h('small', { class: 'place' }, `${count(job.position)}. in line${job.expected_start ? `, expected ${clock(job.expected_start)}` : ''}`) : null,
     isNews(job) ? h('small', { class: 'news', title: job.message }, job.message) : null,
     job.status === 'failed' && job.message ? h('small', { class: 'why', title: job.message }, job.message) : null]);
   const bar = cell.querySelector('progress');
@@ -77,7 +105,8 @@ function showAnswer(cell, job) {
   replaceIfChanged(cell, [words, fill_fraction, steady, verdict, warnings, job.status], () => {
     if (words === null) return nothing();
     const isRate = minimum_omega2 !== undefined;
-    return [angle_deg !== undefined && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
+    const hasPicture = job.links?.some(link => link.type === 'image/png');
+    return [!hasPicture && angle_deg !== undefined && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
       h('span', { class: 'value', title: isRate ? 'least rate that keeps the particle on the wall' : 'angle of repose' }, words,
         isRate ? h('small', { class: 'quiet' }, `ω²R/g ${significant(minimum_omega2, 4)}`) : null,
         steady !== true && verdictInWords({ verdict, steady }) ? h('small', null, verdictInWords({ verdict, steady })) : null,

@@ -27,11 +27,11 @@ const MEANINGS = {
 
 // A process is asked once. What can't be described is shown under its own name.
 const described = new Map();
-async function describe(process) {
+export async function describe(process) {
   if (!described.has(process)) {
     const { inputs, outputs } = await json(`${root}processes/${encodeURIComponent(process)}`);
     described.set(process, {
-      inputs,
+      inputs, outputs,
       schemas: Object.fromEntries(Object.entries(outputs).map(([name, { schema }]) => [name, schema])),
       listed: listedIn(inputs).sort((a, b) => a.order - b.order),
     });

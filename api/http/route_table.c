@@ -1,8 +1,8 @@
 #include "handlers.h"
 
 const http_route route_table[] = {
-    { "GET", "/", " status q study cursor open f ", show_landing, .formats = " json html ",
-      .open = true },                                                                /* read by the page: what it shows */
+    { "GET", "/", " status q study cursor open f processID sort datetime at columns label. value. ", show_landing,
+      .formats = " json html ", .open = true },                                      /* read by the page: what it shows */
     { "GET", "/web/{}", " id ids from process example ", show_asset, .open = true }, /* likewise */
     { "GET", "/web/vendor/{}", "", show_vendor_asset, .open = true },
     { "GET", "/conformance", " f ", show_conformance, .open = false },

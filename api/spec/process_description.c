@@ -109,6 +109,7 @@ static json_t *field_schema(const spec_table *table, const spec_field *field)
     default: schema = group_schema(table, field->child);
     }
     json_object_set_new(schema, "description", json_string(field->meaning));
+    if (field->is_listed && field->column) json_object_set_new(schema, "x-column", json_string(field->column));
     if (field->form_order) json_object_set_new(schema, "x-form", form_schema(field));
     if (field->list_order) json_object_set_new(schema, "x-listed", listed_schema(table, field));
     return schema;

@@ -43,6 +43,11 @@ static json_t *field_schema(const result_field *field, bool has_beds)
             json_pack("{s:f, s:i, s:s}", "factor", field->factor, "digits", field->digits, "suffix", field->suffix));
     if (has_beds) json_object_set_new(schema, "x-over-beds", over_beds_to_json(field));
     if (field->is_main) json_object_set_new(schema, "x-study-order", json_integer(field->in_study));
+    if (field->is_listed)
+        json_object_set_new(schema, "x-column",
+                            field->view_name
+                                ? json_string(field->view_name)
+                                : json_sprintf("%s%s%s", field->group ? field->group : "", field->group ? "_" : "", field->name));
     if (field->choices) json_object_set_new(schema, "enum", words_or_null(field->choices));
     return schema;
 }

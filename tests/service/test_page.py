@@ -180,7 +180,7 @@ def test_filters_are_kept_in_the_url(fake, browser):
     kept, gone = (fake.submit(project=name, seconds=60) for name in ("kept", "gone"))
     requests.delete(f"{fake.url}/jobs/{gone}")
     browser.get(fake.url)
-    until(browser, lambda b: jobs_shown(b) == [gone, kept])
+    until(browser, lambda b: jobs_shown(b) == [kept, gone])  # what runs stands first
     find(browser, ".filter.dismissed").click()
     until(browser, lambda b: jobs_shown(b) == [gone])
     assert browser.current_url == f"{fake.url}/?status=dismissed"
@@ -188,7 +188,7 @@ def test_filters_are_kept_in_the_url(fake, browser):
     until(browser, lambda b: jobs_shown(b) == [gone])
     assert find(browser, ".filter.dismissed").get_attribute("aria-current") == "true"
     browser.back()
-    until(browser, lambda b: jobs_shown(b) == [gone, kept])
+    until(browser, lambda b: jobs_shown(b) == [kept, gone])
     find(browser, "#q").send_keys("kept")
     until(browser, lambda b: jobs_shown(b) == [kept])
     assert browser.current_url == f"{fake.url}/?q=kept"
@@ -240,18 +240,28 @@ def multiply_the_only_job(database, copies):
 
 
 def test_ten_thousand_jobs_are_shown_a_page_at_a_time(fake, browser):
-    fake.ended(fake.submit())
+    jobs = [fake.ended(fake.submit())["jobID"]]
     fake.stop()
     multiply_the_only_job(fake.data / "reposed.sqlite", 10_000)
     fake.start()
     browser.get(fake.url)
     until(browser, lambda b: find(b, ".filter.all .count").text == "10,001")
     assert jobs_shown(browser) == [f"20200101-{n:06}-00000000" for n in range(10_000, 9_950, -1)]
-    find(browser, "#pages a").click()
-    second = [f"20200101-{n:06}-00000000" for n in range(9_950, 9_900, -1)]
-    until(browser, lambda b: jobs_shown(b) == second)
-    browser.refresh()
-    until(browser, lambda b: jobs_shown(b) == second)
+    ids = [f"20200101-{n:06}-00000000" for n in range(10_000, 0, -1)] + [jobs[0]]
+
+    def turn(to, first, count):
+        until(browser, lambda b: [button for button in find_all(b, "#pages button") if to in button.text][0].click() or True)
+        until(browser, lambda b: jobs_shown(b) == ids[first:first + count])
+        assert find(browser, ".range").text == f"{first + 1:,}–{first + count:,} of 10,001"
+
+    turn("Next", 50, 50)
+    turn("Next", 100, 50)
+    browser.refresh()  # a shared address knows the way back
+    until(browser, lambda b: jobs_shown(b) == ids[100:150])
+    turn("Previous", 50, 50)
+    turn("Newest", 0, 50)
+    [button for button in find_all(browser, "#pages button") if "Oldest" in button.text][0].click()
+    until(browser, lambda b: "sort=created" in b.current_url and "cursor" not in b.current_url)
     find(browser, "#q").send_keys("copy 7777")
     until(browser, lambda b: jobs_shown(b) == ["20200101-007777-00000000"])
 
@@ -264,7 +274,7 @@ def test_a_phone_shows_cards_that_fit(daemon, browser):
     until(browser, lambda b: find(b, f"#detail-{job} .plot"))
     assert not scrolls_sideways(browser)
     assert not find(browser, "#jobs thead").is_displayed()
-    left = {find(row_of(browser, job), cell).rect["x"] for cell in ("td.job", "td.state", "td.times")}
+    left = {find(row_of(browser, job), cell).rect["x"] for cell in ("td.pick", "td.state", "td.inputs", "td.times")}
     assert len(left) == 1  # under each other
     find(browser, ".snapshots summary").click()
     until(browser, lambda b: find(b, ".snapshots li a"))
