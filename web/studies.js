@@ -4,15 +4,15 @@ import { dismissStudy, json, root, studyPath, session } from './api.js';
 import { confirmed, isOfAddress, showConnected, showFailure, showTrouble, takeToken } from './connection.js';
 import { clock, count, duration, secondsBetween } from './format.js';
 import { startPolling } from './polling.js';
-import { caseTable, ROWS_SHOWN } from './study_table.js';
-import { schemasOf } from './words.js';
+import { createStudyData } from './study_data.js';
+import { createStudyView } from './study_view.js';
+import { describe } from './words.js';
 import { fileLink } from './file_link.js';
 
 const PAGE = 50; // studies a page
-const PAUSE_A_CASE = 40; // ms, between two looks at a table for each case that it shows: 20 s for 500
 
 let cursor = ''; // where the list begins; '': at the newest
-let shown = null; // {id, updated} of the study whose table is on the page
+let shown = null; // {id, status, data, view} of the study that is on the page
 const refresh = startPolling(ask, (error, pause) => {
   showFailure(error, pause, refresh);
   if (isOfAddress(error)) for (const part of ['list', 'study']) byId(part).hidden = true;
@@ -20,12 +20,13 @@ const refresh = startPolling(ask, (error, pause) => {
 takeToken(refresh);
 window.addEventListener('hashchange', refresh);
 
-// What is no encoding of anything is no study's id either.
+// The address names the study, and behind & what is drawn. What is no encoding of anything is no study's id either.
 function wanted() {
+  const [id] = location.hash.slice(1).split('&');
   try {
-    return decodeURIComponent(location.hash.slice(1));
+    return decodeURIComponent(id);
   } catch {
-    return location.hash.slice(1);
+    return id;
   }
 }
 
@@ -94,25 +95,25 @@ function firstStudy() {
 
 async function askForStudy(id) {
   const study = await json(studyPath(id));
-  // The table changes only when a job has changed its state. Of a large one no more is asked for than is shown, and not at
-  // every change, but for the last.
-  const isNew = shown?.id !== id || shown.updated !== study.updated;
-  const isDue = shown?.id !== id || hasEnded(study) || Date.now() - shown.asked >= PAUSE_A_CASE * Math.min(study.cases, ROWS_SHOWN);
-  const results = isNew && isDue ? await json(`${studyPath(id)}/results?limit=${ROWS_SHOWN}`) : null;
-  const schemas = results ? await schemasOf(study.processID) : null;
+  const description = await describe(study.processID);
+  const data = shown?.id === id ? shown.data : createStudyData(id);
+  const isNew = await data.follow(study, Object.keys(data.cases.find(Boolean)?.results ?? {}));
   if (wanted() !== id) return true;
   showConnected();
   announceChange(study);
   document.title = `${study.name}: ${study.status}`;
   byId('list').hidden = true;
   byId('study').hidden = false;
-  if (shown?.id !== id) byId('study').replaceChildren(h('div', { id: 'head' }), h('div', { id: 'links' }), h('div', { id: 'cases', class: 'wide', tabindex: '0' }));
+  if (shown?.id !== id) {
+    const view = createStudyView(data, description);
+    byId('study').replaceChildren(h('div', { id: 'head' }), view.plots, h('div', { id: 'links' }), view.table);
+    shown = { id, data, view };
+  }
   replaceIfChanged(byId('head'), study, () => head(study));
   replaceIfChanged(byId('links'), id, () => links(id));
-  if (results) byId('cases').replaceChildren(...caseTable(results.cases, study.cases, schemas));
-  const { updated, asked } = results || !shown || shown.id !== id ? { updated: study.updated, asked: Date.now() } : shown;
-  shown = { id, updated, asked, status: study.status };
-  return !hasEnded(study);
+  if (isNew) shown.view.show(study);
+  shown.status = study.status;
+  return !hasEnded(study) || !data.isWhole(study);
 }
 
 function announceChange(study) {

@@ -2,7 +2,7 @@
 import { h } from './dom.js';
 import { count, degrees, percent, regimeInWords, significant, superscript, verdictsInWords } from './format.js';
 
-export const ROWS_SHOWN = 500;
+const ROWS_SHOWN = 100; // a page
 
 // What is thought of the runs: name in the table, which is the heading, too, and how it is written.
 const WORDS = [
@@ -37,24 +37,57 @@ function measuresOf(schemas) {
     [[name, schema], ...Object.entries(schema.properties ?? {}).map(([inner, its]) => [`${name}_${inner}`, its])]));
   return members.filter(([, schema]) => schema['x-study-order'])
     .sort(([, a], [, b]) => a['x-study-order'] - b['x-study-order'])
-    .map(([name, schema]) => [name, headingOf(schema), schema['x-unit'] === 'degrees' ? angle : schema['x-shown']?.factor === 100 ? share : plain]);
+    .map(([name, schema]) => [name, headingOf(schema), schema['x-unit'] === 'degrees' ? angle : schema['x-shown']?.factor === 100 ? share : plain, schema['x-unit'] === 'degrees' ? '°' : '']);
 }
 
 const headingOf = schema => !schema['x-unit'] || schema['x-unit'] === 'degrees' ? schema.title : `${schema.title}, ${schema['x-unit']}`;
 
-// cases: the first of the study's, of which there are `all`; schemas: of the process's results.
-export function caseTable(cases, all, schemas) {
-  const named = member => [...new Set(cases.flatMap(one => Object.keys(one[member])))];
-  const inputs = named('inputs'), labels = named('label');
-  const measures = measuresOf(schemas).filter(([name], i) => cases.some(one => one.results[name] || (i === 0 && one.verdict)));
+// The measures that any of the cases has.
+export const measuresIn = (cases, schemas) => measuresOf(schemas).filter(([name], i) => cases.some(one => one.results[name] || (i === 0 && one.verdict)));
+
+export const named = (cases, member) => [...new Set(cases.flatMap(one => Object.keys(one[member])))];
+
+// What a row is sorted by under each head.
+function valueUnder(one, head) {
+  const [kind, name] = head;
+  if (kind === 'case') return one.case;
+  if (kind === 'runs') return one.finished;
+  const value = kind === 'measure' ? one.results[name]?.mean : kind === 'word' ? one[name] : one[kind][name];
+  return value === '' || value === undefined || value === null ? null : value;
+}
+
+function sorted(cases, { head, falls }) {
+  if (!head) return cases;
+  const compare = (a, b) => typeof a === 'number' && typeof b === 'number' ? a - b : String(a).localeCompare(String(b), 'en', { numeric: true });
+  return [...cases].sort((one, other) => {
+    const a = valueUnder(one, head), b = valueUnder(other, head);
+    return a === null || b === null ? (a === null) - (b === null) : falls ? compare(b, a) : compare(a, b);
+  });
+}
+
+// cases: those of the study that are known, of which there are `all`; schemas: of the process's results; order: {head, falls,
+// page}; go(order): shows it otherwise; units: of inputs by their names.
+export function caseTable(cases, all, schemas, { order, go, units }) {
+  const inputs = named(cases, 'inputs'), labels = named(cases, 'label');
+  const measures = measuresIn(cases, schemas);
   const words = WORDS.filter(([name]) => cases.some(one => one[name]));
+  const head = (text, key, kind) => {
+    const isIt = JSON.stringify(order.head) === JSON.stringify(key);
+    return h('th', { scope: 'col', class: kind, 'aria-sort': isIt ? order.falls ? 'descending' : 'ascending' : null },
+      h('button', { type: 'button', class: 'sorter', onclick: () => go({ head: isIt && order.falls ? null : key, falls: isIt && !order.falls, page: 0 }) }, text));
+  };
+  const pages = Math.ceil(cases.length / ROWS_SHOWN), page = Math.min(order.page, pages - 1), first = page * ROWS_SHOWN;
   const table = h('table', { class: 'grid cases' },
     h('caption', { class: 'unseen' }, 'Cases, with means over their repeats and standard errors'),
-    h('thead', null, h('tr', null, ['case', ...inputs, ...labels, 'runs', ...words.map(([name]) => name)].map(name => h('th', { scope: 'col' }, name)),
-      measures.map(([, heading]) => h('th', { scope: 'col', class: 'measure' }, heading)))),
-    h('tbody', null, cases.slice(0, ROWS_SHOWN).map(one => row(one, inputs, labels, measures, words))));
-  const left = all - Math.min(cases.length, ROWS_SHOWN);
-  return left > 0 ? [table, h('p', { class: 'quiet' }, `The first ${ROWS_SHOWN} cases; the CSV has all ${count(all)}.`)] : [table];
+    h('thead', null, h('tr', null, head('case', ['case']), inputs.map(name => head(units[name] ? `${name}, ${units[name]}` : name, ['inputs', name])),
+      labels.map(name => head(name, ['label', name])), head('runs', ['runs']), words.map(([name]) => head(name, ['word', name])),
+      measures.map(([name, heading]) => head(heading, ['measure', name], 'measure')))),
+    h('tbody', null, sorted(cases, order).slice(first, first + ROWS_SHOWN).map(one => row(one, inputs, labels, measures, words))));
+  const button = (text, to) => h('button', { type: 'button', onclick: () => go({ ...order, page: to }) }, text);
+  const ways = pages <= 1 && cases.length === all ? null : h('nav', { class: 'pages', 'aria-label': 'Pages of the table' },
+    h('span', { class: 'range' }, `${count(first + 1)}–${count(Math.min(first + ROWS_SHOWN, cases.length))} of ${count(all)}${cases.length < all ? `; ${count(cases.length)} read so far` : ''}`),
+    page > 0 ? button('‹ Previous', page - 1) : null, page < pages - 1 ? button('Next ›', page + 1) : null);
+  return [table, ways].filter(Boolean);
 }
 
 function row(one, inputs, labels, measures, words) {

@@ -305,18 +305,30 @@ static void respond_csv(http_response *response, const study_table *table)
     http_respond_text(response, 200, "text/csv; charset=utf-8", out.text, out.length);
 }
 
-/* limit: cases at most. */
-static void show_table(api_service *service, const http_request *request, http_response *response, bool csv, int64_t limit)
+/* Only `limit` cases are left, from the one on that has `after` before it. */
+static void keep_part(json_t *cases, int64_t after, int64_t limit)
+{
+    const size_t count = json_array_size(cases), first = after < (int64_t)count ? (size_t)after : count;
+    json_t *part = json_array();
+    for (size_t i = first; i < count && (int64_t)(i - first) < limit; i++) json_array_append(part, json_array_get(cases, i));
+    json_array_clear(cases);
+    json_array_extend(cases, part);
+    json_decref(part);
+}
+
+/* after: cases that are left out at the beginning; limit: cases at most. */
+static void show_table(api_service *service, const http_request *request, http_response *response, bool csv, int64_t after,
+                       int64_t limit)
 {
     study_record study;
     study_table table;
-    char version[72];
+    char version[96];
     if (!find_study(service, request, response, &study)) return;
     /* Nothing in it changes but with a job's state. */
     name_file(response, study.id, csv ? "-results.csv" : "-results.json", csv);
-    snprintf(version, sizeof version, "%s-%s-%lld", csv ? "csv" : "json", study.updated, (long long)limit);
+    snprintf(version, sizeof version, "%s-%s-%lld-%lld", csv ? "csv" : "json", study.updated, (long long)after, (long long)limit);
     if (http_respond_unchanged(request, response, version) || !tabulate(service, study.id, response, &table)) return;
-    while ((int64_t)json_array_size(table.cases) > limit) json_array_remove(table.cases, json_array_size(table.cases) - 1);
+    keep_part(table.cases, after, limit);
     if (csv) {
         respond_csv(response, &table);
     } else {
@@ -333,14 +345,15 @@ static void show_table(api_service *service, const http_request *request, http_r
 void show_study_results(api_service *service, const http_request *request, http_response *response)
 {
     const bool csv = wants_csv(request);
-    int64_t limit;
+    int64_t after, limit;
     char problem[160];
-    if (!http_request_integer(request, "limit", 1, INT64_MAX, INT64_MAX, &limit, problem, sizeof problem))
+    if (!http_request_integer(request, "limit", 1, INT64_MAX, INT64_MAX, &limit, problem, sizeof problem)
+        || !http_request_integer(request, "after", 0, INT64_MAX, 0, &after, problem, sizeof problem))
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
-    else show_table(service, request, response, csv, csv ? INT64_MAX : limit);
+    else show_table(service, request, response, csv, csv ? 0 : after, csv ? INT64_MAX : limit);
 }
 
 void show_study_csv(api_service *service, const http_request *request, http_response *response)
 {
-    show_table(service, request, response, true, INT64_MAX);
+    show_table(service, request, response, true, 0, INT64_MAX);
 }

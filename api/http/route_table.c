@@ -45,7 +45,7 @@ const http_route route_table[] = {
     { "GET", "/studies/{}", " wait f ", show_study, .formats = " json html " },
     { "DELETE", "/studies/{}", " only f ", remove_study, .slow = true },
     { "POST", "/studies/{}/retry", " f ", retry_study, .slow = true, .bodiless = true },
-    { "GET", "/studies/{}/results", " format limit f ", show_study_results, .formats = " json csv " },
+    { "GET", "/studies/{}/results", " format after limit f ", show_study_results, .formats = " json csv " },
     { "GET", "/studies/{}/results.csv", "", show_study_csv, .open = false },
     { "GET", "/studies/{}/spec", " f ", show_study_spec, .open = false },
     { "GET", "/calibrations", " limit cursor f ", list_calibrations, .open = false },
