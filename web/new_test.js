@@ -265,7 +265,7 @@ byId('form').addEventListener('submit', async event => {
   byId('submit').disabled = true;
   try {
     const made = await (await request(`${root}${path}`, { method: 'POST', body: JSON.stringify(body) })).json();
-    location.assign(isStudy(test) ? `${root}web/studies.html#${made.studyID}` : `${root}?open=${made.jobID}`);
+    location.assign(isStudy(test) ? `${root}web/studies.html#${made.studyID}` : `${root}web/job.html?id=${made.jobID}`);
   } catch (error) {
     byId('submit').disabled = false;
     if (error.problem?.errors) showProblems(error.problem.errors);
