@@ -24,7 +24,7 @@ export function warningsOf(results) {
 }
 
 export function section(title, object, schema, ...extra) {
-  const plain = Object.fromEntries(Object.entries(object ?? {}).filter(([name, value]) => !isRecord(value) && name !== 'warnings'));
+  const plain = Object.fromEntries(Object.entries(object ?? {}).filter(([name, value]) => !isRecord(value) && !Array.isArray(value)));
   return h('section', null, h('h3', null, title), ...extra, facts(plain, schema));
 }
 

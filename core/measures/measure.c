@@ -111,15 +111,18 @@ dem_status dem_frame_measure(dem_scene *scene, double *frame)
 
 bool measure_comes_in_falls(dem_regime regime) { return regime == DEM_SLUMPING || regime == DEM_AVALANCHING; }
 
-/* Falls in all frames, those before any window included: the climb from rest shows where the first begins. */
-static dem_status find_falls(const dem_scene *scene, const frame_window *all, dem_slumps *falls)
+/* Falls in all frames, those before any window included: the climb from rest shows where the first begins. falls, or those one by
+ * one: either may be NULL. */
+static dem_status find_falls(const dem_scene *scene, const frame_window *all, dem_slumps *falls, dem_slump *slump, size_t room,
+                             size_t *found)
 {
     double *time = frame_window_column(all, FRAME_TIME), *angle = frame_window_column(all, FRAME_CENTER_OF_MASS);
     dem_status status = DEM_NO_MEMORY;
     if (time && angle) {
         if (scene->definition.rotation_rate < 0)
             for (size_t k = 0; k < all->count; k++) angle[k] = -angle[k];
-        status = measure_slumps(time, angle, all->count, falls);
+        status = falls ? measure_slumps(time, angle, all->count, falls)
+                       : measure_slumps_list(time, angle, all->count, slump, room, found);
     }
     free(time);
     free(angle);
@@ -181,7 +184,7 @@ dem_status measure_results(const dem_scene *scene, const double *frames, size_t 
     memset(results, 0, sizeof *results);
     const frame_window all = { frames, count, dem_frame_width(scene) };
     dem_slumps falls;
-    const dem_status status = find_falls(scene, &all, &falls);
+    const dem_status status = find_falls(scene, &all, &falls, NULL, 0, NULL);
     if (status != DEM_OK) return status;
     const frame_window window = measure_window(scene, &all, &falls, results);
     /* A bed that flows all the time has no slumps, however its angle may wander. */
@@ -203,4 +206,13 @@ dem_status dem_drum_results_measure(const dem_scene *scene, const double *frames
     double since;
     if (scene->definition.stage_count == 0) return measure_results(scene, frames, count, results);
     return dem_drum_stage_measure(scene, dem_last_turning_stage(&scene->definition, &since), frames, count, results);
+}
+
+dem_status dem_drum_slumps_list(const dem_scene *scene, const double *frames, size_t count, dem_slump *slump, size_t room,
+                                size_t *found)
+{
+    const frame_window all = { frames, count, dem_frame_width(scene) };
+    *found = 0;
+    arrays_begin();
+    return arrays_end(find_falls(scene, &all, NULL, slump, room, found));
 }

@@ -2,6 +2,7 @@
 #ifndef MEASURE_H
 #define MEASURE_H
 
+#include "dem_slumps.h"
 #include "scene.h"
 
 typedef enum frame_column {
@@ -91,6 +92,8 @@ double measure_tension_share(const dem_scene *scene);
  * drum. NaN where there are too few of them. Errors: DEM_NO_MEMORY. */
 dem_slumps measure_no_slumps(void); /* all NaN */
 dem_status measure_slumps(const double *time, const double *angle, size_t count, dem_slumps *slumps);
+/* The same one by one, as dem_drum_slumps_list. */
+dem_status measure_slumps_list(const double *time, const double *angle, size_t count, dem_slump *slump, size_t room, size_t *found);
 
 double measure_radial_index(const dem_scene *scene);
 dem_status measure_segregation_results(const dem_scene *scene, dem_segregation_result *result);

@@ -22,11 +22,12 @@ static double noise_of(const double *angle, size_t count, double *room)
     return 1.4826 * (count > 4 ? fmin(second, statistics_median(room, count - 4) / sqrt(70)) : second);
 }
 
-/* Slumps as they are found: their beginnings' times, and angles before and after. */
+/* Slumps as they are found: the times of their beginnings and ends, and the angles then. */
 typedef struct slump_list {
-    double *start_time, *start, *stop;
+    double *start_time, *stop_time, *start, *stop;
     size_t count;
-    double first_end;
+    double first_start; /* s, of the first fall after a rise, be its end seen or not; NaN: there is none */
+    double *room;       /* that all of these are in; owned */
 } slump_list;
 
 /* Walks from one extreme to the next. The first is none: the series may begin anywhere; the last is none either. Returns
@@ -47,7 +48,7 @@ static size_t find_slumps(const double *time, const double *angle, size_t count,
             low = k;
         } else if (going != RISING && angle[k] - angle[low] > threshold) {
             if (going == FALLING && has_top) {
-                if (found->count == 0) found->first_end = time[low];
+                found->stop_time[found->count] = time[low];
                 found->start_time[found->count] = time[top];
                 found->start[found->count] = angle[top];
                 found->stop[found->count++] = angle[low];
@@ -125,11 +126,12 @@ dem_slumps measure_no_slumps(void)
     return none;
 }
 
-dem_status measure_slumps(const double *time, const double *angle, size_t count, dem_slumps *slumps)
+/* False: no memory. */
+static bool list_slumps(const double *time, const double *angle, size_t count, slump_list *found)
 {
-    *slumps = measure_no_slumps();
-    double *room = array_create(5 * (count + 1), sizeof *room);
-    if (!room) return DEM_NO_MEMORY;
+    double *room = array_create(6 * (count + 1), sizeof *room);
+    *found = (slump_list){ .start_time = room, .first_start = NAN, .room = room };
+    if (!room) return false;
     double *const seen_time = room + 3 * count, *const seen = room + 4 * count;
     size_t n = 0;
     for (size_t k = 0; k < count; k++)
@@ -137,16 +139,38 @@ dem_status measure_slumps(const double *time, const double *angle, size_t count,
             seen_time[n] = time[k];
             seen[n++] = angle[k];
         }
-    if (n >= 3) {
-        const size_t climbed = climb_end(seen, n, room);
-        const double noise = noise_of(seen, n, room);
-        const double threshold = fmax(8 * noise, 0.87 * swing_of(seen_time + climbed, seen + climbed, n - climbed, room));
-        slump_list found = { room, room + count, room + 2 * count, 0, NAN };
-        const size_t first = find_slumps(seen_time, seen, n, threshold, &found);
-        if (first < n) slumps->first_start = seen_time[first];
-        slumps->first_end = found.first_end;
-        sum_up(&found, slumps);
-    }
-    free(room);
+    if (n < 3) return true;
+    const size_t climbed = climb_end(seen, n, room);
+    const double noise = noise_of(seen, n, room);
+    const double threshold = fmax(8 * noise, 0.87 * swing_of(seen_time + climbed, seen + climbed, n - climbed, room));
+    found->start = room + count;
+    found->stop = room + 2 * count;
+    found->stop_time = room + 5 * count;
+    const size_t first = find_slumps(seen_time, seen, n, threshold, found);
+    if (first < n) found->first_start = seen_time[first];
+    return true;
+}
+
+dem_status measure_slumps(const double *time, const double *angle, size_t count, dem_slumps *slumps)
+{
+    slump_list found;
+    *slumps = measure_no_slumps();
+    if (!list_slumps(time, angle, count, &found)) return DEM_NO_MEMORY;
+    slumps->first_start = found.first_start;
+    if (found.count > 0) slumps->first_end = found.stop_time[0];
+    if (found.start) sum_up(&found, slumps);
+    free(found.room);
+    return DEM_OK;
+}
+
+dem_status measure_slumps_list(const double *time, const double *angle, size_t count, dem_slump *slump, size_t room, size_t *found)
+{
+    slump_list all;
+    *found = 0;
+    if (!list_slumps(time, angle, count, &all)) return DEM_NO_MEMORY;
+    *found = all.count;
+    for (size_t k = 0; k < all.count && k < room; k++)
+        slump[k] = (dem_slump){ all.start_time[k], all.stop_time[k], all.start[k], all.stop[k] };
+    free(all.room);
     return DEM_OK;
 }

@@ -187,10 +187,28 @@ static const char *const other_angles[] = { "center-of-mass", "chord", "theil-se
 
 static const char *const of_each_bed[] = { "angle_deg", "standard_error_deg", "verdict", NULL };
 
+/* Each with its times and angles. */
+static void describe_slumps(json_t *properties)
+{
+    json_t *number = json_pack("{s:s}", "type", "number");
+    json_t *slumps = json_object();
+    json_object_set_new(properties, "slumps", json_pack("{s:s, s:O}", "type", "object", "properties", slumps));
+    json_object_set_new(
+        slumps, "events",
+        json_pack("{s:[ss], s:s, s:{s:s, s:[ssss], s:b, s:{s:O, s:O, s:O, s:O}}}", "type", "array", "null", "description",
+                  "one by one, in order: start and stop in s since rotation began, and the angles then; of several beds "
+                  "those of the first; null where count is, and in a drum with stages",
+                  "items", "type", "object", "required", "start", "stop", "start_deg", "stop_deg", "additionalProperties", 0,
+                  "properties", "start", number, "stop", number, "start_deg", number, "stop_deg", number));
+    json_decref(number);
+    json_decref(slumps);
+}
+
 static void describe_words(json_t *properties, const char *output)
 {
     if (strcmp(output, "repose") != 0) return;
     describe_angle_methods(properties);
+    describe_slumps(properties);
     describe_profile(
         properties, "interface",
         "mean height (m) of the bed's surface over x (m), in a drum that turns counter-clockwise, with its standard_error");

@@ -1,9 +1,11 @@
 #include "drum_run.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "dem_interface.h"
 #include "dem_rules.h"
+#include "dem_slumps.h"
 #include "drum_result.h"
 #include "fields_file.h"
 #include "scene_run.h"
@@ -102,6 +104,24 @@ static dem_status add_stages(const scene_run *run, json_t *document)
     return json_object_set_new(document, "stages", list) == 0 ? status : DEM_NO_MEMORY;
 }
 
+/* Of the first bed, whose samples are told: each that its count has; null where that is null, and of a drum with stages. */
+static dem_status add_slumps(const scene_run *run, const drum_result *bed, json_t *document)
+{
+    enum { MOST = 10000 };
+    const bool any = !isnan(bed->measured.repose.slumps.count) && run->spec.scene.stage_count == 0;
+    dem_slump *slump = any ? malloc(MOST * sizeof *slump) : NULL;
+    size_t found = 0;
+    dem_status status = any && !slump ? DEM_NO_MEMORY : DEM_OK;
+    if (slump) status = dem_drum_slumps_list(run->scene, run->frames, (size_t)run->next_sample, slump, MOST, &found);
+    json_t *events = any ? json_array() : json_null();
+    for (size_t k = 0; slump && status == DEM_OK && k < found && k < MOST; k++)
+        json_array_append_new(events, json_pack("{s:f, s:f, s:f, s:f}", "start", slump[k].start_time, "stop", slump[k].stop_time,
+                                                "start_deg", slump[k].start_deg, "stop_deg", slump[k].stop_deg));
+    free(slump);
+    json_t *slumps = json_object_get(json_object_get(document, "repose"), "slumps");
+    return json_object_set_new(slumps, "events", events) == 0 ? status : DEM_NO_MEMORY;
+}
+
 static dem_status measure_interfaces(const scene_group *group, drum_result *bed)
 {
     dem_status status = DEM_OK;
@@ -124,7 +144,9 @@ static dem_status measure_results(const scene_group *group, json_t **document)
     }
     for (size_t k = 0; k < group->beds; k++) bed[k].run = scene_run_facts(group, k);
     *document = drum_result_to_json(bed, group->beds);
-    return *document ? add_stages(group->bed, *document) : DEM_NO_MEMORY;
+    if (!*document) return DEM_NO_MEMORY;
+    status = add_slumps(group->bed, bed, *document);
+    return status == DEM_OK ? add_stages(group->bed, *document) : status;
 }
 
 enum worker_exit drum_run(const job_context *job)

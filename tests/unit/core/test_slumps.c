@@ -47,6 +47,18 @@ static void a_saw_tooth_is_found_tooth_by_tooth(void **unused)
     CHECK_NEAR(s.stop_deg.mean, 4, 1e-12);
     CHECK_NEAR(s.size_deg.mean, 6, 1e-12);
     CHECK_NEAR(s.size_deg.standard_error, 0, 1e-12);
+    dem_slump one[COUNT];
+    size_t found;
+    assert_int_equal(measure_slumps_list(time, angle, COUNT, one, 10, &found), DEM_OK);
+    assert_true((double)found == s.count);
+    const double first = one[0].start_time;
+    CHECK_NEAR(fmod(first - 7 + 0.3, 1.2), 1.0, 1e-9);
+    for (int k = 0; k < 10; k++) { /* those that there is room for */
+        CHECK_NEAR(one[k].start_time, first + 1.2 * k, 1e-9);
+        CHECK_NEAR(one[k].stop_time, one[k].start_time + 0.2, 1e-9);
+        CHECK_NEAR(one[k].start_deg, 10, 1e-12);
+        CHECK_NEAR(one[k].stop_deg, 4, 1e-12);
+    }
 }
 
 /* Noise of 1/15 of a tooth's height: no tooth is missed and none is made up. A turning point is the extreme of a few
