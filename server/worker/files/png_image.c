@@ -87,7 +87,7 @@ unsigned char *png_image_encode(const png_image *image, size_t *length)
         put_head(&out, image);
         if (image->palette) put_palette(&out, image);
         put_chunk(&out, "IDAT", rows, packed);
-        put_chunk(&out, "IEND", NULL, 0);
+        put_chunk(&out, "IEND", "", 0);
         *length = (size_t)(out.at - file);
     }
     free(rows);
