@@ -42,6 +42,11 @@ double dem_scene_kinetic_energy(const dem_scene *scene);  /* J, translation and 
 /* Fill the arrays that are not NULL; each has dem_scene_sphere_count rows. */
 void dem_scene_particles(const dem_scene *scene, const dem_particle_arrays *arrays);
 
+/* Of the particles with these ids, from 0 to dem_scene_particle_count: place of the centre of mass (m), velocity (m/s) and angular
+ * velocity (rad/s), each (count, DEM_TRACER_NUMBERS); NaN of those that are not in the container. */
+enum { DEM_TRACER_NUMBERS = 9 };
+void dem_tracers_measure(const dem_scene *scene, const int32_t *ids, size_t count, double *numbers);
+
 /* Save and restore. A scene created from the same definition and restored continues bit for bit.
  * Errors: DEM_NO_MEMORY; DEM_STATE_MISMATCH from restore. */
 dem_status dem_scene_save(const dem_scene *scene, dem_state *state);

@@ -31,7 +31,8 @@ route_handler respond_thinned_samples;
 /* handlers_snapshots.c */
 route_handler send_snapshot, send_frames;
 /* handlers_files.c */
-route_handler send_fields, send_fields_text, send_walls, send_snapshot_series, send_picture, send_archive;
+route_handler send_fields, send_fields_text, send_tracers, send_tracers_table, send_walls, send_snapshot_series, send_picture,
+    send_archive;
 /* handlers_events.c */
 route_handler send_events;
 /* handlers_studies.c */

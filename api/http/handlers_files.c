@@ -42,6 +42,20 @@ void send_fields_text(api_service *service, const http_request *request, http_re
     response->is_attachment = false;
 }
 
+static const char WHEN_TRACED[] = "a job has it when its run is over, if its inputs have tracers";
+
+void send_tracers(api_service *service, const http_request *request, http_response *response)
+{
+    static const job_file tracers = { JOB_TRACERS_FILE, "application/x-hdf5", HTTP_FILE_IMMUTABLE, WHEN_TRACED };
+    send_file(service, request, response, &tracers);
+}
+
+void send_tracers_table(api_service *service, const http_request *request, http_response *response)
+{
+    static const job_file tracers = { JOB_TRACERS_TABLE, "text/csv", HTTP_FILE_IMMUTABLE, WHEN_TRACED };
+    send_file(service, request, response, &tracers);
+}
+
 void send_walls(api_service *service, const http_request *request, http_response *response)
 {
     static const job_file walls = { JOB_WALLS_FILE, "application/xml", HTTP_FILE_CHANGING,

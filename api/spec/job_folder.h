@@ -35,6 +35,7 @@
  *   fields.hdf                 a drum's fields over the cross-section, or those at an orifice, averaged over the run; before
  *   fields.json                the same as a short document, just before it
  *                              result.json
+ *   tracers.hdf, tracers.csv   the paths of the particles that were asked for (tracers); before result.json
  *   checkpoint.hdf             newest full state; checkpoint.before.hdf: the one before, should that be damaged
  *   beds/001.hdf ...           of a run of several beds the checkpoint of each but the first, and 001.before.hdf; gone once
  *                              result.json is there. Samples, snapshots, walls and checkpoint.hdf are of the first bed
@@ -67,6 +68,8 @@
 enum { JOB_PICTURE_LARGE = 640, JOB_PICTURE_SMALL = 96 }; /* pixels a side */
 #define JOB_FIELDS_FILE "fields.hdf"
 #define JOB_FIELDS_TEXT_FILE "fields.json"
+#define JOB_TRACERS_FILE "tracers.hdf"
+#define JOB_TRACERS_TABLE "tracers.csv"
 #define JOB_CHECKPOINT_FILE "checkpoint.hdf"
 #define JOB_EARLIER_CHECKPOINT_FILE "checkpoint.before.hdf"
 #define JOB_BEDS_FOLDER "beds"

@@ -109,6 +109,8 @@ typedef struct orifice_inputs {
     double seconds;
 } orifice_inputs;
 
+enum { MOST_TRACERS = 64 };
+
 /* Of every process that advances a scene: drum, fill, heap, orifice. */
 typedef struct scene_inputs {
     double drum_diameter, drum_length, drum_ends, rotation_rate;
@@ -139,6 +141,8 @@ typedef struct scene_inputs {
     double revolutions, seconds, until_standard_error; /* one of the three */
     double at_most_revolutions;                        /* beside the last */
     double snapshot_interval, sample_interval;
+    double tracer[MOST_TRACERS]; /* ids */
+    size_t tracer_count;
     double seed, threads, beds, gravity, corrector_passes;
     double precision; /* 0: single, 1: double */
     start_inputs start;

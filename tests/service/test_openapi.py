@@ -103,7 +103,7 @@ def test_every_address_of_the_daemon_is_documented_and_no_other(contract):
 
 def test_every_documented_operation_answers_as_documented(daemon, contract):
     url = daemon.url
-    done, endless = daemon.submit(of="contract"), daemon.submit(ENDLESS, of="contract")
+    done, endless = daemon.submit(SPEC | {"tracers": [0, 3]}, of="contract"), daemon.submit(ENDLESS, of="contract")
     ended = daemon.ended(done)
     assert ended["status"] == "successful", ended
     job = f"{url}/jobs/{done}"
@@ -180,6 +180,9 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/jobs/{id}/fields.hdf", f"{job}/fields.hdf", 304, headers={"If-None-Match": fields.headers["ETag"]})
     assert any(link["href"].endswith("/fields.hdf") for link in requests.get(job).json()["links"])
     call("/jobs/{id}/samples", f"{job}/samples?points=4&columns=angle_deg", 200)
+    for name in ("tracers.hdf", "tracers.csv"):
+        call(f"/jobs/{{id}}/{name}", f"{job}/{name}", 200)
+        call(f"/jobs/{{id}}/{name}", f"{job}/{name}", 206, headers={"Range": "bytes=0-9"})
     for name in ("walls.vtp", "snapshots.hdf.series", "files.tar", "picture.png", "fields.json"):
         call(f"/jobs/{{id}}/{name}", f"{job}/{name}", 200)
     frame = call("/jobs/{id}/snapshots/{file}", snapshots[-1]["frame"], 200)

@@ -7,6 +7,7 @@
 
 #include "dem_cluster.h"
 #include "input_rows.h"
+#include "scene_rules.h"
 
 static const char *const cohesion_choices[] = { "constant", "sjkr", "sjkr2", "jkr", "liquid-bridge", NULL }; /* dem_cohesion_law */
 static const char *const size_choices[] = { "lognormal", "normal", "rosin-rammler", "uniform", "table", NULL }; /* dem_size_law */
@@ -222,6 +223,10 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     { SPEC_INPUTS, "samples", FIELD_OBJECT, SPEC_SAMPLES, ACTS_LATER, .meaning = "the time series of measurements" }, \
     { SPEC_SAMPLES, "interval", FIELD_REAL, .unit = "s", OPEN_RANGE(0.0, 0.05), .fallback = NAN, AT(sample_interval), \
       .meaning = "simulated time between measurements. Default: 0.05 s, less for fast drums and short runs" }, \
+    { SPEC_INPUTS, "tracers", FIELD_NUMBERS, .unit = "", RANGE(0, SCENE_MOST_PARTICLES - 1), .least_entries = 1, \
+      .most_entries = MOST_TRACERS, .fallback = NAN, AT(tracer), .count_offset = offsetof(scene_inputs, tracer_count), ACTS_LATER, \
+      .meaning = "particles, counted from 0 in the order of the species, whose paths are written: place, velocity and angular " \
+                 "velocity with each sample, in tracers.csv and tracers.hdf" }, \
  \
     { SPEC_INPUTS, "seed", FIELD_INTEGER, .unit = "", RANGE(0, (double)LARGEST_WHOLE_NUMBER), .fallback = NAN, AT(seed), \
       COLUMN("seed", WHOLE, inputs.seed), LISTED, IN_VIEW(320), \

@@ -17,6 +17,7 @@
 #define MOST_SNAPSHOTS 1e5
 #define MOST_SNAPSHOT_BYTES 1e12
 #define MOST_SAMPLES 2e5
+#define MOST_TRACED 1e6
 #define MOST_SHARE_ERROR 1.000001e-4 /* of the sum of shares, which are often given in four digits */
 #define LEAST_RESTITUTION 0.1        /* as restitution's own range has it */
 
@@ -298,6 +299,28 @@ double scene_derive_contact(scene_inputs *inputs, double impact_speed, dem_scene
     return largest;
 }
 
+static void check_tracers(const job_spec *spec, double samples, problem_list *problems)
+{
+    const scene_inputs *inputs = &spec->inputs;
+    for (size_t k = 0; k < inputs->tracer_count; k++) {
+        char pointer[40];
+        const double id = inputs->tracer[k];
+        size_t before = 0;
+        snprintf(pointer, sizeof pointer, "/inputs/tracers/%zu", k);
+        while (inputs->tracer[before] != id) before++;
+        if (id != floor(id)) problem_list_add(problems, pointer, "is %g; must be a whole number", id);
+        else if (before < k) problem_list_add(problems, pointer, "is %g, as is tracers/%zu; give each particle once", id, before);
+        else if (id >= (double)spec->scene.particle_count)
+            problem_list_add(problems, pointer, "is %.0f; must be at most %zu: there are %zu particles, counted from 0", id,
+                             spec->scene.particle_count - 1, spec->scene.particle_count);
+    }
+    if (samples * (double)inputs->tracer_count > MOST_TRACED)
+        problem_list_add(
+            problems, "/inputs/tracers",
+            "are %zu, of %.3g samples each; must make at most %.0f places in all: follow fewer, or give a longer samples/interval",
+            inputs->tracer_count, samples, MOST_TRACED);
+}
+
 void scene_check_amounts(const job_spec *spec, const char *duration, problem_list *problems)
 {
     if (problem_list_is_empty(problems)) sizes_check_cost(spec, problems);
@@ -317,6 +340,7 @@ void scene_check_amounts(const job_spec *spec, const char *duration, problem_lis
     if (samples > MOST_SAMPLES)
         problem_list_add(problems, "/inputs/samples/interval", "is %g s, %.3g samples in all; must make at most %.0f",
                          spec->sample_interval, samples, MOST_SAMPLES);
+    check_tracers(spec, samples, problems);
     if (spec->snapshot_interval > 0.0 && spec->snapshot_interval < spec->scene.time_step)
         problem_list_add(problems, "/inputs/snapshots/interval", "is %g s; must be 0 or at least the time step, %.3g s",
                          spec->snapshot_interval, spec->scene.time_step);

@@ -37,9 +37,10 @@ static bool is_plain(const char *name, mode_t kind)
 static bool all_is_plain(void)
 {
     static const char *const files[] = {
-        JOB_SPEC_FILE,   JOB_START_FILE,      JOB_EVENTS_FILE,        JOB_SERIES_FILE,     JOB_WALLS_FILE,
-        JOB_FIELDS_FILE, JOB_CHECKPOINT_FILE, JOB_RESULT_FILE,        JOB_PROFILE_FILE,    JOB_EARLIER_CHECKPOINT_FILE,
-        JOB_BED_FILE,    JOB_PICTURE_FILE,    JOB_SMALL_PICTURE_FILE, JOB_FIELDS_TEXT_FILE
+        JOB_SPEC_FILE,    JOB_START_FILE,      JOB_EVENTS_FILE,        JOB_SERIES_FILE,      JOB_WALLS_FILE,
+        JOB_FIELDS_FILE,  JOB_CHECKPOINT_FILE, JOB_RESULT_FILE,        JOB_PROFILE_FILE,     JOB_EARLIER_CHECKPOINT_FILE,
+        JOB_BED_FILE,     JOB_PICTURE_FILE,    JOB_SMALL_PICTURE_FILE, JOB_FIELDS_TEXT_FILE, JOB_TRACERS_FILE,
+        JOB_TRACERS_TABLE
     };
     bool plain = is_plain(JOB_SNAPSHOT_FOLDER, S_IFDIR);
     plain = is_plain(JOB_BEDS_FOLDER, S_IFDIR) && plain;

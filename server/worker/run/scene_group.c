@@ -276,6 +276,10 @@ static enum worker_exit write_result(scene_group *g)
         return fail_for_disk(g, JOB_SERIES_FILE);
     }
     draw_picture(g);
+    if (!tracing_write(&g->bed->tracing, g->job->spec, (size_t)g->bed->next_sample, g->job->params)) {
+        json_decref(document);
+        return fail_for_disk(g, JOB_TRACERS_FILE);
+    }
     if (!write_files(g)) {
         json_decref(document);
         return fail_for_disk(g, JOB_FIELDS_FILE);

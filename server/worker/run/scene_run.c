@@ -82,6 +82,7 @@ void scene_run_sample(scene_run *r)
     if (r->status != DEM_OK) return;
     const int64_t number = r->next_sample++;
     if (r->number > 0) return;
+    tracing_take(&r->tracing, r->scene, (size_t)number);
     json_t *event = json_pack("{s:I, s:o}", "number", (json_int_t)number, "values", frame_values(r->test, frame));
     r->is_untold =
         !scene_event_add(r->events, "sample", dem_scene_step_count(r->scene), dem_scene_time(r->scene), event) || r->is_untold;
@@ -137,6 +138,7 @@ bool scene_run_save(const scene_run *r, double wall_seconds, dem_status *status)
     snprintf(saved.program, sizeof saved.program, "%s", r->program);
     *status = dem_scene_save(r->scene, &saved.state);
     if (*status == DEM_OK) *status = save_tally(r, &saved.state);
+    if (*status == DEM_OK) *status = tracing_save(&r->tracing, (size_t)r->next_sample, &saved.state);
     const bool written = *status == DEM_OK && checkpoint_write(&saved, &r->names, r->params);
     dem_state_clear(&saved.state);
     return written;
@@ -151,7 +153,8 @@ file_state scene_run_resume(scene_run *r, const char *name, double *earlier_seco
     /* Another version of the program may derive other numbers from the same inputs. */
     const bool fits = saved.time_step == r->spec.scene.time_step && saved.stiffness == r->spec.scene.contact.stiffness
                       && saved.frame_width == r->frame_width && saved.next_sample <= r->plan.samples && saved.next_snapshot >= 0
-                      && saved.next_snapshot <= r->plan.snapshots && restore_tally(r, &saved.state);
+                      && saved.next_snapshot <= r->plan.snapshots && restore_tally(r, &saved.state)
+                      && tracing_restore(&r->tracing, (size_t)saved.next_sample, &saved.state);
     const dem_status status = fits ? dem_scene_restore(r->scene, &saved.state) : DEM_STATE_MISMATCH;
     if (status == DEM_OK) {
         memcpy(r->frames, saved.frames, (size_t)saved.next_sample * saved.frame_width * sizeof *saved.frames);
@@ -178,7 +181,8 @@ dem_status scene_run_prepare(scene_run *r)
     r->frames = calloc((size_t)r->plan.samples, r->frame_width * sizeof *r->frames);
     r->tally_size = r->test->tally_size ? r->test->tally_size(r->scene) : 0;
     r->tally = calloc(r->tally_size + 1, sizeof *r->tally);
-    return r->frames && r->tally ? DEM_OK : DEM_NO_MEMORY;
+    if (!r->frames || !r->tally) return DEM_NO_MEMORY;
+    return r->number == 0 ? tracing_begin(&r->tracing, &r->spec, (size_t)r->plan.samples) : DEM_OK;
 }
 
 void scene_run_clear(scene_run *r)
@@ -186,5 +190,6 @@ void scene_run_clear(scene_run *r)
     dem_scene_free(r->scene);
     free(r->frames);
     free(r->tally);
+    tracing_clear(&r->tracing);
     free(r->params);
 }

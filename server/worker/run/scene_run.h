@@ -13,6 +13,7 @@
 #include "run_facts.h"
 #include "run_profile.h"
 #include "schedule.h"
+#include "tracing.h"
 
 typedef struct scene_run scene_run;
 typedef struct scene_group scene_group;
@@ -51,6 +52,7 @@ struct scene_run {
     size_t frame_width;
     double *tally; /* (tally_size) */
     size_t tally_size;
+    tracing tracing; /* of the first bed alone */
     int64_t next_sample, next_snapshot;
     char settled_by[JOB_ID_SIZE]; /* the job that settled the bed; "": this one */
     bool is_busy;                 /* a thread advances it */
