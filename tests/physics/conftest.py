@@ -172,6 +172,7 @@ class Drums:
         assert done.returncode == 0, f"{json.dumps(spec)}: {done.stdout}{done.stderr}"
         result = json.loads((folder / "job/result.json").read_text())
         events = [json.loads(line) for line in (folder / "job/events.ndjson").read_text().splitlines()]
+        result["folder"] = folder / "job"
         result["samples"] = [e["values"] for e in events if e["event"] == "sample"]
         return result
 
