@@ -24,8 +24,7 @@ typedef struct sphere_rest {
 /* Place (in ring units), velocity and spin of a step; the radius stays. */
 static inline void sphere_row_store(sphere_row *row, sphere_rest *rest, vector4 place, vector4 v, vector4 omega)
 {
-    const half_row w = half_row_of(omega), front = half_row_place(place, w),
-                   back = __builtin_shufflevector(half_row_of(v), w, 0, 1, 2, 5);
+    const half_row w = half_row_of(omega), front = half_row_place(place, w), back = half_row_velocity(half_row_of(v), w);
     memcpy(row->place, &front, sizeof front);
     memcpy(row->v, &back, sizeof back);
     rest->omega_z = w[2];

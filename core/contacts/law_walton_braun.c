@@ -90,7 +90,7 @@ static void normal_forces_of_list(contact_block *block, real *alpha_0, const con
 static void rotate_friction(contact_block *restrict block, const real *restrict t_x, const real *restrict t_y,
                             const real *restrict t_z, const real *restrict friction)
 {
-    const wide zero = wide_all(0), one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
+    const wide one = wide_all(1), half = wide_all((real)0.5), tiny = wide_all(TINY_SQUARE);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide n[3] = { wide_load(block->n[0] + k), wide_load(block->n[1] + k), wide_load(block->n[2] + k) };
         const wide t[3] = { wide_load(t_x + k), wide_load(t_y + k), wide_load(t_z + k) };
@@ -99,7 +99,7 @@ static void rotate_friction(contact_block *restrict block, const real *restrict 
         const wide u[3] = { wide_minus_product(t[0], tn, n[0]), wide_minus_product(t[1], tn, n[1]),
                             wide_minus_product(t[2], tn, n[2]) };
         const wide uu = wide_dot(u, u);
-        const wide turn = wide_select(wide_exceeds(uu, tiny), wide_inverse_root(uu), zero);
+        const wide turn = wide_where(wide_exceeds(uu, tiny), wide_inverse_root(uu));
         const wide size = uu * turn, off = tn * turn, magnitude = wide_fused(half * size, wide_lesser(off * off, one), size);
         const wide h[3] = { u[0] * turn, u[1] * turn, u[2] * turn };
         const wide mu_n = wide_load(friction + k) * wide_load(block->f_n + k);
@@ -112,17 +112,17 @@ static void rotate_friction(contact_block *restrict block, const real *restrict 
 
 static void friction_stiffness(contact_block *restrict block, real *restrict t_star)
 {
-    const wide zero = wide_all(0), one = wide_all(1), floor = wide_all(SLIP_FLOOR);
+    const wide one = wide_all(1), floor = wide_all(SLIP_FLOOR);
     for (int k = 0; k < BLOCK; k += LANES) {
         const wide mu_n = wide_load(block->mu_n + k), stored = wide_load(block->stored + k), s_p = wide_load(block->s_p + k);
         const wide_mask pressed = wide_exceeds(mu_n, wide_all(TINY_FORCE));
-        const wide tau = wide_times_sign(wide_select(pressed, stored / mu_n, zero), s_p);
+        const wide tau = wide_times_sign(wide_where(pressed, stored / mu_n), s_p);
         const wide turning = wide_lesser(wide_times_sign(wide_load(t_star + k), s_p), tau);
         const wide left = wide_greater(one - tau, floor), left_at_turn = wide_greater(one - turning, floor);
         const wide share = left * wide_inverse_cube_root(left * left * left_at_turn);
         const wide s = wide_fused(share, s_p, stored);
         wide_store(block->along + k, s);
-        wide_store(t_star + k, wide_select(pressed, wide_times_sign(wide_times_sign(turning, s_p), s), zero));
+        wide_store(t_star + k, wide_where(pressed, wide_times_sign(wide_times_sign(turning, s_p), s)));
     }
 }
 

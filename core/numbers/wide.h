@@ -124,6 +124,15 @@ WIDE_INLINE wide wide_spins_in_order(const void *rests, const int32_t *i, size_t
         const __m512i to = _mm512_slli_epi32(_mm512_sub_epi32(_mm512_loadu_si512(i), _mm512_set1_epi32(i[0])), 1);
         return (wide)_mm512_permutex2var_ps(_mm512_loadu_ps(from), to, _mm512_loadu_ps(from + LANES));
     }
+#elif WIDE_BYTES == 32 && !defined(DEM_DOUBLE)
+    const uint32_t first = (uint32_t)i[0];
+    if ((uint32_t)i[LANES - 1] - first < LANES && first + LANES <= end) {
+        const float *from = (const float *)rests + 2 * (size_t)first;
+        const __m256i lane = _mm256_sub_epi32(_mm256_loadu_si256((const __m256i_u *)i), _mm256_set1_epi32(i[0]));
+        const __m256 mixed = _mm256_shuffle_ps(_mm256_loadu_ps(from), _mm256_loadu_ps(from + LANES), _MM_SHUFFLE(2, 0, 2, 0));
+        const __m256d spins = _mm256_permute4x64_pd(_mm256_castps_pd(mixed), _MM_SHUFFLE(3, 1, 2, 0));
+        return (wide)_mm256_permutevar8x32_ps(_mm256_castpd_ps(spins), lane);
+    }
 #else
     (void)end;
 #endif
@@ -239,9 +248,23 @@ WIDE_INLINE half_row half_row_place(vector4 place, half_row w)
     const __m256i low_and_w = _mm256_setr_epi32(0, 2, 4, 8, 0, 0, 0, 0);
     const __m256 shifted = (__m256)(place + RING_SHIFT);
     return (half_row)_mm256_castps256_ps128(_mm256_permutex2var_ps(shifted, low_and_w, _mm256_castps128_ps256((__m128)w)));
+#elif WIDE_BYTES == 32
+    const __m256 shifted = (__m256)(place + RING_SHIFT);
+    const __m128 low = _mm_shuffle_ps(_mm256_castps256_ps128(shifted), _mm256_extractf128_ps(shifted, 1), _MM_SHUFFLE(2, 0, 2, 0));
+    return (half_row)_mm_insert_ps(low, (__m128)w, 3 << 4);
 #else
     typedef int64_t long4 __attribute__((vector_size(32)));
     return __builtin_shufflevector((half_row) __builtin_convertvector((long4)(place + RING_SHIFT), ring_row), w, 0, 1, 2, 4);
+#endif
+}
+
+/* The second half: three numbers of v, then the second of w. */
+WIDE_INLINE half_row half_row_velocity(half_row v, half_row w)
+{
+#if WIDE_BYTES > 16 && !defined(DEM_DOUBLE)
+    return (half_row)_mm_insert_ps((__m128)v, (__m128)w, 1 << 6 | 3 << 4);
+#else
+    return __builtin_shufflevector(v, w, 0, 1, 2, 5);
 #endif
 }
 

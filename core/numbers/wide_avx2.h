@@ -43,13 +43,12 @@ WIDE_INLINE void transpose_halves(const __m256 from[4], __m256 to[4])
 
 WIDE_INLINE wide wide_from_quads(const __m128 x[2]) { return (wide)_mm256_set_m128(x[1], x[0]); }
 
-/* One half of two rows. */
-WIDE_INLINE __m256 row_halves(const float *rows, int32_t i, int32_t j, int half)
+/* One half of two rows, whose other half begins 16 bytes away. */
+WIDE_INLINE __m256 halves_of(const __m128 *row, const __m128 *other)
 {
-    enum { ROW = 8 };
-    const __m128 low = _mm_load_ps(rows + ROW * (size_t)(uint32_t)i + 4 * half);
-    return _mm256_insertf128_ps(_mm256_castps128_ps256(low), _mm_load_ps(rows + ROW * (size_t)(uint32_t)j + 4 * half), 1);
+    return _mm256_insertf128_ps(_mm256_castps128_ps256(*row), *other, 1);
 }
+WIDE_INLINE const __m128 *halves_at(const void *rows, int32_t i) { return (const __m128 *)rows + 2 * (size_t)(uint32_t)i; }
 
 /* LANES rows, of which vectors k have those of k and k + 4: front halves, then back halves. */
 WIDE_INLINE wide_rows rows_transposed(const __m256 from[8])
@@ -68,7 +67,11 @@ WIDE_INLINE wide_rows rows_transposed(const __m256 from[8])
 WIDE_INLINE wide_rows wide_rows_load(const void *rows, const int32_t *i)
 {
     __m256 halves[8];
-    for (int k = 0; k < 8; k++) halves[k] = row_halves(rows, i[k % 4], i[k % 4 + 4], k / 4);
+    for (int k = 0; k < 4; k++) {
+        const __m128 *const row = halves_at(rows, i[k]), *const other = halves_at(rows, i[k + 4]);
+        halves[k] = halves_of(row, other);
+        halves[k + 4] = halves_of(row + 1, other + 1);
+    }
     return rows_transposed(halves);
 }
 
@@ -78,11 +81,13 @@ WIDE_INLINE wide_rows wide_rows_of_pairs(const void *rows, const int32_t *a, con
     const __m256 sign = _mm256_setr_ps(-1, -1, -1, 1, -1, -1, -1, 1), zero = _mm256_setzero_ps();
     __m256 halves[8];
     for (int k = 0; k < 4; k++) {
-        const __m256 front_a = row_halves(rows, a[k], a[k + 4], 0), front_b = row_halves(rows, b[k], b[k + 4], 0);
+        const __m128 *const row_a = halves_at(rows, a[k]), *const other_a = halves_at(rows, a[k + 4]);
+        const __m128 *const row_b = halves_at(rows, b[k]), *const other_b = halves_at(rows, b[k + 4]);
+        const __m256 front_a = halves_of(row_a, other_a), front_b = halves_of(row_b, other_b);
         const __m256i turned = _mm256_sub_epi32(_mm256_castps_si256(front_b), _mm256_castps_si256(front_a));
         const __m256 sum = _mm256_add_ps(_mm256_blend_ps(front_b, zero, PLACES), _mm256_blend_ps(front_a, zero, PLACES));
         halves[k] = _mm256_blend_ps(sum, _mm256_castsi256_ps(turned), PLACES);
-        halves[4 + k] = _mm256_fmadd_ps(row_halves(rows, a[k], a[k + 4], 1), sign, row_halves(rows, b[k], b[k + 4], 1));
+        halves[4 + k] = _mm256_fmadd_ps(halves_of(row_a + 1, other_a + 1), sign, halves_of(row_b + 1, other_b + 1));
     }
     return rows_transposed(halves);
 }
