@@ -66,8 +66,8 @@ function overlay(plot, events, colors) {
   ctx.clip();
   ctx.fillStyle = ctx.strokeStyle = colors.bad;
   ctx.lineWidth = 1.4 * devicePixelRatio;
-  for (const { start, end, start_deg: from, stop_deg: to } of events) {
-    const [x, y, endX, endY] = [plot.valToPos(start, 'x', true), plot.valToPos(from, 'y', true), plot.valToPos(end, 'x', true), plot.valToPos(to, 'y', true)];
+  for (const { start, stop, start_deg: from, stop_deg: to } of events) {
+    const [x, y, endX, endY] = [plot.valToPos(start, 'x', true), plot.valToPos(from, 'y', true), plot.valToPos(stop, 'x', true), plot.valToPos(to, 'y', true)];
     ctx.beginPath();
     ctx.moveTo(x, y - 1.5 * size);
     ctx.lineTo(x - size, y - 3.2 * size);

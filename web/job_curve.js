@@ -1,7 +1,7 @@
 // Which of what was measured the curve of a job shows, and the choice of it.
 import { h, replaceIfChanged } from './dom.js';
 
-const MARKS = [['transient', 'before and after the measuring window'], ['band', 'mean ± 2 standard errors'], ['slump', 'slump or avalanche']];
+const MARKS = [['transient', 'before and after the measuring window'], ['band', 'mean ± 2 standard errors'], ['slump', 'slump or avalanche, by the centre of mass']];
 
 export function showCurve(box, { series, choice, curve }) {
   const angles = series.definitions(), others = series.others();
