@@ -26,6 +26,7 @@ byId('states').append(...filters.values());
 let rows = new Map(); // by job id, in the order shown
 let columns = [], processes = []; // what is known of the processes; asked for once
 let shownList = null;
+let hadActive = false; // whether anything ran or waited at the last look
 const selection = createSelection(() => shownList && showList(shownList));
 const refresh = startPolling(ask, (error, pause) => {
   showFailure(error, pause, refresh);
@@ -43,16 +44,24 @@ function listed() {
 
 async function ask() {
   const asked = view;
+  const mayHaveActive = isUsual() && !asked.cursor;
+  // Asked for before the others: a job that ends meanwhile is then in both answers, not in none.
+  let first = mayHaveActive && hadActive ? await listActive(asked) : [];
   const list = await listJobs({ ...listed(), limit: PAGE });
   const active = (list.counts?.accepted ?? 0) + (list.counts?.running ?? 0);
-  const first = isUsual() && !asked.cursor && active > 0
-    ? (await listJobs({ ...asked, status: 'running,accepted', sort: 'created', limit: ACTIVE })).jobs.sort(byPlace) : [];
+  if (mayHaveActive && active > 0 && !hadActive) first = await listActive(asked);
+  hadActive = active > 0;
+  first = first.filter(job => !list.jobs.some(one => one.jobID === job.jobID)).sort(byPlace);
   await learnInputs([...first, ...list.jobs]);
   await learnColumns();
   if (asked !== view) return true; // the view changed meanwhile: this answer is of the old one
   showConnected();
   showList({ ...list, first });
   return active > 0;
+}
+
+async function listActive(asked) {
+  return (await listJobs({ ...asked, status: 'running,accepted', sort: 'created', limit: ACTIVE })).jobs;
 }
 
 const byPlace = (a, b) => (a.status !== 'running') - (b.status !== 'running') || (a.position ?? 0) - (b.position ?? 0);

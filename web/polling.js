@@ -1,15 +1,18 @@
-// Asking again and again, politely: soon while something runs, seldom when nothing does or nobody looks,
-// and ever more seldom while the daemon can't be reached.
+// Asking again and again, politely: when the daemon tells of a change; where it can't tell, soon while something runs, seldom
+// when nothing does or nobody looks; and ever more seldom while it can't be reached.
 
 import { isOfAddress } from './connection.js';
+import { listenTo } from './live.js';
 
 const BUSY = 2_000, IDLE = 5_000, HIDDEN = 60_000, LONGEST = 60_000; // ms
+const TOLD = 900_000; // ms, while the daemon tells of changes
 
 // ask(): a promise that resolves to true when something is going on, to SETTLED when nothing will change by itself. Told of every
 // failure: failed(error, ms).
 export const SETTLED = 'settled';
 export function startPolling(ask, failed) {
   let timer = 0, failures = 0, turn = 0;
+  const changes = listenTo(now);
 
   async function now() {
     clearTimeout(timer);
@@ -17,7 +20,8 @@ export function startPolling(ask, failed) {
     let pause;
     try {
       const found = await ask();
-      pause = found === SETTLED ? LONGEST : found ? BUSY : IDLE;
+      if (found !== SETTLED) changes.start();
+      pause = found === SETTLED ? LONGEST : found ? BUSY : changes.isLive() ? TOLD : IDLE;
       failures = 0;
     } catch (error) {
       if (mine !== turn) return;

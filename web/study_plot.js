@@ -78,7 +78,7 @@ function seriesOf(points, k, scale, titles, hrefOf) {
   const ordered = [...points].sort((a, b) => a.x - b.x);
   return svg('g', { class: `series s${k % 6}` },
     svg('path', { class: 'join', d: ordered.map((point, i) => `${i ? 'L' : 'M'}${scale.x(point.x).toFixed(1)} ${scale.y(point.y).toFixed(1)}`).join('') }),
-    ordered.map(point => svg('a', { href: hrefOf(point), class: 'mean', 'aria-label': `${point.one.case}: ${significant(point.y, 4)} ± ${significant(point.error, 2)}` },
+    ordered.map(point => svg('a', { href: hrefOf(point), class: 'case', 'aria-label': `${point.one.case}: ${significant(point.y, 4)} ± ${significant(point.error, 2)}` },
       svg('title', null, `${point.one.case}: ${significant(point.y, 4)}${point.error ? ` ± ${significant(point.error, 2)}` : ''}`),
       point.error ? svg('path', { class: 'bar', d: bar(scale.x(point.x), scale.y(point.y - point.error), scale.y(point.y + point.error)) }) : null,
       markOf(MARKS[k % MARKS.length], scale.x(point.x), scale.y(point.y)))));
