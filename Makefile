@@ -235,7 +235,7 @@ $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(BUILD)/libapi.a $(RULES)
 	$(call fuzz_link)
 $(BUILD)/fuzz_checkpoint $(BUILD)/fuzz_start: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(WORKER_FILES) $(BUILD)/libapi.a $(RULES) $(DEM)
 	$(SAY) link $@
-	$(call fuzz_link,$(HDF5_CFLAGS) $(addprefix -I,$(server/worker/files_SEES)),$(WORKER_FILES),$(DEM) -lgomp $(HDF5_LIBS) -lz -lnettle)
+	$(call fuzz_link,$(HDF5_CFLAGS) $(addprefix -I,$(server/worker/files_SEES)),$(WORKER_FILES) $(DEM),-lgomp $(HDF5_LIBS) -lz -lnettle)
 $(BUILD)/fuzz_events $(BUILD)/fuzz_request $(BUILD)/fuzz_result: $(BUILD)/fuzz_%: tests/fuzz/fuzz_%.c $(FUZZ_HEADERS) $(DAEMON_PARTS) $(BUILD)/libapi.a $(RULES)
 	$(SAY) link $@
 	$(call fuzz_link,$(addprefix -I,$(server/daemon_SEES)),$(DAEMON_PARTS),-pthread -lmicrohttpd -lsqlite3 -lyaml -lz -lnettle)

@@ -2,6 +2,7 @@
  * a body. What is let in and reads is answered by the real handlers, from a store with one job.
  * No answer may break out of its headers, and what says that it is JSON is. */
 #include <string.h>
+#include <sys/stat.h>
 
 #include "fuzz.h"
 #include "http_guard.h"
@@ -12,12 +13,20 @@
 static data_folder data;
 static api_service service;
 static char job[JOB_ID_SIZE];
+static http_guard open_to_all, guard; /* the second asks for a token */
 
 int LLVMFuzzerInitialize(int *count, char ***arguments)
 {
     (void)count;
     (void)arguments;
     service = service_of(store_with_a_job(&data, job));
+    static const config settings = { .host = "127.0.0.1", .allowed_host = { "rig.example" }, .allowed_hosts = 1 };
+    static config closed;
+    FILE *file = fopen("token", "w");
+    CLAIM(file && fputs("0123456789abcdef\n", file) >= 0 && fchmod(fileno(file), 0600) == 0 && fclose(file) == 0);
+    closed = settings;
+    closed.token_file = "token";
+    CLAIM(http_guard_init(&open_to_all, &settings) && http_guard_init(&guard, &closed));
     return 0;
 }
 
@@ -30,8 +39,6 @@ static void name_the_job(http_request *request)
 
 static void answer(http_request *request, const http_headers *headers, http_response *response)
 {
-    static const config settings = { .host = "127.0.0.1", .allowed_host = { "rig.example" }, .allowed_hosts = 1 };
-    static const http_guard open_to_all = { .settings = &settings }, guard = { .settings = &settings, .token = "0123456789abcdef" };
     size_t length = 0;
     if (!http_guard_knows_host(&open_to_all, headers, request, response)) return;
     const http_route *route = routes_match(route_table, route_count, request, response);

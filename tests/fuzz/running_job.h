@@ -31,7 +31,7 @@ static inline job_store *store_with_a_job(data_folder *data, char id[JOB_ID_SIZE
 static inline job_store *store_with_a_claim(data_folder *data, char id[JOB_ID_SIZE], job_claim *claim)
 {
     job_store *store = store_with_a_job(data, id);
-    CLAIM(store_claim_job(store, QUEUE_BY_TURN, 1, 1, claim) == STORE_OK);
+    CLAIM(store_claim_job(store, QUEUE_BY_TURN, 1, 1, "[]", claim) == STORE_OK);
     return store;
 }
 
