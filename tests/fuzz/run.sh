@@ -1,6 +1,7 @@
 #!/bin/sh
 # Runs the fuzzers one after the other: run.sh BUILD SECONDS NAME .... Each tells how many inputs it has tried. What one of
 # them finds is kept in BUILD/fuzz/findings, and the exit code is 1 then; BUILD/fuzz/fuzz_NAME FILE tries one input again.
+# SEED=1: the same inputs each time, as far as the machine gets; otherwise others.
 set -u
 here=$(pwd)
 build=$here/$1 seconds=$2
@@ -41,7 +42,7 @@ export ASAN_OPTIONS=allocator_may_return_null=1 OMP_NUM_THREADS=1
 failed=0
 for fuzzer; do
   seeds "$fuzzer" || { echo "there are no seeds for $fuzzer"; exit 1; }
-  (cd "$scratch" && "$build/fuzz/fuzz_$fuzzer" -max_total_time="$seconds" -timeout=20 -rss_limit_mb=1500 -malloc_limit_mb="$(most_memory "$fuzzer")" -close_fd_mask=3 \
+  (cd "$scratch" && "$build/fuzz/fuzz_$fuzzer" -max_total_time="$seconds" -seed="${SEED:-0}" -timeout=20 -rss_limit_mb=1500 -malloc_limit_mb="$(most_memory "$fuzzer")" -close_fd_mask=3 \
     -print_final_stats=1 -dict="$scratch/words" -artifact_prefix="$findings/$fuzzer-" seeds) >"$scratch/log" 2>&1
   code=$?
   count=$(sed -n 's/^stat::number_of_executed_units: *//p' "$scratch/log" | tail -n 1)
