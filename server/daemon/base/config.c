@@ -292,10 +292,10 @@ void config_clear(config *settings)
 /* Options that take a restart are kept in one place each. */
 static void keep_running(const config_option *option, config *fresh, const config *running)
 {
-    const size_t size = option->kind == OPTION_WHOLE  ? sizeof(int)
-                        : option->kind == OPTION_TEXT ? sizeof(char *)
+    const size_t size = option->kind == OPTION_WHOLE    ? sizeof(int)
+                        : option->kind == OPTION_TEXT   ? sizeof(char *)
                         : option->kind == OPTION_AMOUNT ? sizeof(double)
-                                                      : sizeof(bool); /* confine */
+                                                        : sizeof(bool); /* confine */
     memcpy((char *)fresh + option->offset, (const char *)running + option->offset, size);
 }
 
