@@ -4,7 +4,9 @@ import sqlite3
 import time
 from concurrent.futures import ThreadPoolExecutor
 
+import pytest
 import requests
+from conftest import SPEC
 from test_daemon_http import head, metrics_of
 
 ENDLESS = "with+recursive+n(i)+as+(select+1+union+all+select+i%2B1+from+n)+select+count(*)+from+n"
@@ -138,3 +140,23 @@ def test_answers_that_nobody_reads_take_bounded_memory(fake):
     finally:
         for client in clients:
             client.close()
+
+
+@pytest.mark.torture
+def test_memory_stays_as_it_is_while_jobs_come_and_go(fake):
+    """In each round a study and single jobs are posted, looked for, cancelled and deleted; what the first rounds needed suffices."""
+    fake.until(fake.submit(fake="slow", seconds="1000"), lambda job: job["status"] == "running")
+    fake.until(fake.submit(fake="slow", seconds="1000"), lambda job: job["status"] == "running")
+    taken = []
+    for round_ in range(40):
+        study = {"name": "churn", "base": {"inputs": SPEC}, "vary": {"/inputs/contact/friction": [0.1 + 1e-4 * k for k in range(500)]}}
+        assert requests.post(f"{fake.url}/studies", json=study, timeout=120).status_code == 201
+        for number in range(20):
+            fake.submit(round=f"churn {round_}", number=number)
+        for query in ("q=churn&sort=-friction", "q=churn&value.friction=0.1..0.12", "label.round=churn+1", "f=csv&q=churn"):
+            assert fake.get(f"/jobs?{query}").status_code == 200
+        while fake.get("/jobs?q=churn&limit=1").json()["jobs"]:  # each of these works for a second at most
+            for what in ("cancel", "delete"):
+                assert requests.post(f"{fake.url}/jobs/{what}?q=churn", timeout=120).status_code == 200
+        taken.append(resident(fake))
+    assert max(taken[30:]) - max(taken[:10]) < 2e6, taken  # 100 bytes kept of each of the 15,600 jobs between are 1.6 MB
