@@ -77,6 +77,9 @@ enum { JOB_PICTURE_LARGE = 640, JOB_PICTURE_SMALL = 96 }; /* pixels a side */
 #define JOB_RESULT_SUM_FILE JOB_RESULT_FILE ".sum"
 #define JOB_PROFILE_FILE "profile.json"
 #define JOB_LOG_FILE "log.txt"
+/* Of a study that was split into folders, from 1. */
+#define JOB_NUMBERED_FORMAT "%06zu"
+#define JOB_NUMBERED_SQL "%06d"
 #define JOB_FENCE_START "fence."
 #define JOB_FENCE_FORMAT JOB_FENCE_START "%06d"
 

@@ -14,6 +14,7 @@
 #include "calibrator.h"
 #include "callback_sender.h"
 #include "client.h"
+#include "collect.h"
 #include "data_check.h"
 #include "end_signals.h"
 #include "executor_slurm.h"
@@ -260,6 +261,7 @@ static int run_command(const config *settings)
     if (strcmp(settings->command, "submit") == 0) return client_submit(settings);
     if (strcmp(settings->command, "jobs") == 0) return client_jobs(settings);
     if (strcmp(settings->command, "show") == 0) return client_show(settings);
+    if (strcmp(settings->command, "collect") == 0) return collect_study(settings->argument) ? 0 : 1;
     if (strcmp(settings->command, "check") == 0) return data_check(settings->data, settings->repair) ? 0 : 1;
     const prune_rules rules = rules_of(settings);
     if (rules.keep_days > 0 || rules.keep_bytes > 0.0) return prune_once(settings->data, &rules) ? 0 : 1;

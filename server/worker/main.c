@@ -26,6 +26,7 @@
 #include "spec_file.h"
 #include "start_file.h"
 #include "study_report.h"
+#include "study_split.h"
 #include "variant.h"
 #include "version.h"
 #include "worker_log.h"
@@ -60,6 +61,12 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "repose plan FILE              of a calibration {\"request\", \"runs\"} (\"-\": stdin): print which cases to run next, or "    \
     "the\n"                                                                                                                        \
     "                              answer, or every problem of the request\n"
+#define HELP_SPLIT                                                                                                                 \
+    "repose split STUDY --out DIR  write the jobs of a study as numbered folders, and DIR/job.sbatch, which runs them as an\n"     \
+    "                              array of Slurm's, with PBS or by GNU parallel\n"
+#define HELP_COLLECT                                                                                                               \
+    "repose collect DIR            of such a study, whatever has run so far: DIR/results.csv, and DIR/reposed.sqlite with the\n"   \
+    "                              tables of a service\n"
 #define HELP_EXIT                                                                                                                  \
     "\n"                                                                                                                           \
     "A run that was interrupted goes on from its checkpoint when it is started again with the same SPEC and DIR. Results\n"        \
@@ -67,7 +74,8 @@ enum { LONGEST_RESULT = 10000000, MOST_THREADS = 256 };
     "Exit: 0 done, 1 fault, 2 bad spec or usage, 3 stopped by a signal (to be continued), 4 numerical failure, 5 disk,\n"          \
     "6 memory, descriptors or the like that the machine did not give, 7 another start has DIR.\n"
 
-static const char help[] = HELP_RUN HELP_CHECK HELP_CALIBRATE HELP_PLAN "repose COMMAND --help | --help | --version\n" HELP_EXIT;
+static const char help[] =
+    HELP_RUN HELP_CHECK HELP_CALIBRATE HELP_PLAN HELP_SPLIT HELP_COLLECT "repose COMMAND --help | --help | --version\n" HELP_EXIT;
 
 /* Complete once main has begun. */
 static char program_version[80];
@@ -301,18 +309,51 @@ static enum worker_exit calibrate_here(int argc, char **argv, char *word)
     return WORKER_DONE;
 }
 
-/* The planner is a program of its own, beside this one: no run loads the linear algebra. */
-static enum worker_exit plan(char **argv)
+static void path_beside(const char *name, char path[PATH_MAX + 16])
 {
-    char path[PATH_MAX], program[PATH_MAX + 16];
-    const ssize_t length = readlink("/proc/self/exe", path, sizeof path - 1);
-    path[length > 0 ? length : 0] = '\0';
-    const char *name = strrchr(path, '/');
-    snprintf(program, sizeof program, "%.*s/repose-plan", name ? (int)(name - path) : 0, path);
+    char own[PATH_MAX];
+    const ssize_t length = readlink("/proc/self/exe", own, sizeof own - 1);
+    own[length > 0 ? length : 0] = '\0';
+    const char *end = strrchr(own, '/');
+    snprintf(path, PATH_MAX + 16, "%.*s/%s", end ? (int)(end - own) : 0, own, name);
+}
+
+/* A study into folders of its own. */
+static enum worker_exit split(int argc, char **argv)
+{
+    command_line line;
+    enum worker_exit exit = read_command_line(argc, argv, &line);
+    if (exit != WORKER_DONE) return exit;
+    if (line.help) return show(HELP_SPLIT);
+    if (!line.spec || !line.out) return refuse_usage("give a STUDY file, and say where to write: --out DIR", NULL);
+    char program[PATH_MAX + 16];
+    path_beside("repose", program);
+    problem_list problems;
+    problem_list_init(&problems);
+    json_t *document = spec_file_read(path_of(line.spec), &problems);
+    const start_source beds = start_files(beside(line.spec));
+    const bool good = document && study_split(document, &beds, random_seed(), NULL, program, line.out, &problems);
+    json_decref(document);
+    if (!good) exit = problem_list_is_empty(&problems) ? WORKER_DISK : refuse(&problems);
+    problem_list_clear(&problems);
+    return exit;
+}
+
+/* A program of its own, beside this one: no run loads the planner's linear algebra, or the daemon's database. */
+static enum worker_exit become(const char *name, char **argv)
+{
+    char program[PATH_MAX + 16];
+    path_beside(name, program);
     execv(program, argv);
     const int reason = errno;
     fprintf(stderr, "repose: %s: %s\n", program, strerror(reason));
     return machine_error_is(reason) ? WORKER_MACHINE : WORKER_FAULT;
+}
+
+static enum worker_exit collect(char **argv, char *word)
+{
+    argv[1] = word;
+    return become("reposed", argv);
 }
 
 /* The working directory is the job folder now. */
@@ -389,7 +430,9 @@ int main(int argc, char **argv)
     if (strcmp(word, "run") == 0) exit = run(argc - 1, argv + 1, word);
     else if (strcmp(word, "check") == 0) exit = check(argc - 1, argv + 1, word);
     else if (strcmp(word, "calibrate") == 0) exit = calibrate_here(argc - 1, argv + 1, word);
-    else if (strcmp(word, "plan") == 0) exit = plan(argv + 1);
+    else if (strcmp(word, "plan") == 0) exit = become("repose-plan", argv + 1);
+    else if (strcmp(word, "split") == 0) exit = split(argc - 1, argv + 1);
+    else if (strcmp(word, "collect") == 0) exit = collect(argv, word);
     else if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) exit = show(help);
     else if (strcmp(word, "--version") == 0) printf("repose " REPOSED_VERSION "%s\n", reposed_commit);
     else exit = refuse_usage("not a command", word);

@@ -29,6 +29,7 @@ static const struct command {
     { "show", "ID", "show a job, and its results when there are any" },
     { "backup", "DIR", "copy the data folder of a service, also of one at work" },
     { "prune", NULL, "remove what --keep-days and --keep-bytes do not keep" },
+    { "collect", "DIR", "of a study that repose split has written to DIR: its results as DIR/results.csv and DIR/reposed.sqlite" },
     { "check", NULL, "look whether the data folder is sound; with --repair, mend it" },
 };
 enum { COMMANDS = sizeof commands / sizeof commands[0] };

@@ -84,7 +84,7 @@ static bool take_lock(data_folder *data, const char *path)
     return false;
 }
 
-bool data_folder_open(data_folder *data, const char *path)
+bool data_folder_open_beside_workers(data_folder *data, const char *path)
 {
     *data = (data_folder){ .jobs = -1, .lock = -1 };
     char jobs[4096], resolved[4096];
@@ -101,6 +101,12 @@ bool data_folder_open(data_folder *data, const char *path)
         log_line("folder %s can't be opened: %s", jobs, strerror(errno));
         return false;
     }
+    return true;
+}
+
+bool data_folder_open(data_folder *data, const char *path)
+{
+    if (!data_folder_open_beside_workers(data, path)) return false;
     sweep_unfinished(data->jobs, 2, -1);
     return true;
 }

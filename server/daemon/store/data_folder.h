@@ -15,6 +15,8 @@ typedef struct data_folder {
 /* Creates what is missing, takes the lock, removes files that were being written when a daemon or worker died.
  * False: the problem is logged; most often a second daemon on the same folder. */
 bool data_folder_open(data_folder *data, const char *path);
+/* The same, where workers that no daemon knows of may be writing: nothing is removed. */
+bool data_folder_open_beside_workers(data_folder *data, const char *path);
 void data_folder_close(data_folder *data);
 
 /* Makes jobs/<id> with this spec.json; keeps a folder that has it already, but not a spec.json that says something else. What a
