@@ -16,7 +16,7 @@ from conftest import BUILD, FAKE_WORKER, ROOT, SPEC, run_daemon
 from test_damage import line_of
 
 # Long enough that a worker can be seen at work and killed: the first report of progress comes after a second.
-LONG = SPEC | {"duration": {"seconds": 8.0}, "fill_fraction": 0.5, "snapshots": {"interval": 0.5}}
+LONG = SPEC | {"duration": {"seconds": 16.0}, "fill_fraction": 0.5, "snapshots": {"interval": 0.5}}
 
 
 GOOD = json.dumps({"repose": {"angle_deg": 30.0}, "run": {"steps": 5}})

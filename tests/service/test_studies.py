@@ -334,7 +334,8 @@ def test_ready_made_studies_are_taken(fake, name):
     assert info["repeats"] == study.get("repeats", 1)
     varied = numpy.prod([len(values) for values in study["vary"].values()]) if "vary" in study else len(study["cases"])
     assert info["jobs"] == varied * info["repeats"]
-    assert all(case["label"]["paper"] for case in study.get("cases", []))
+    if not name.startswith("materials-"):  # these say which row of the paper each case is
+        assert all(case["label"]["paper"] for case in study.get("cases", []))
 
 
 def check(folder, study):

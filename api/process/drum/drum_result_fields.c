@@ -195,9 +195,10 @@ static void describe_slumps(json_t *properties)
     json_object_set_new(properties, "slumps", json_pack("{s:s, s:O}", "type", "object", "properties", slumps));
     json_object_set_new(
         slumps, "events",
-        json_pack("{s:[ss], s:s, s:{s:s, s:[ssss], s:b, s:{s:O, s:O, s:O, s:O}}}", "type", "array", "null", "description",
+        json_pack("{s:[ss], s:s, s:s, s:{s:s, s:[ssss], s:b, s:{s:O, s:O, s:O, s:O}}}", "type", "array", "null", "title",
+                  "each slump", "description",
                   "one by one, in order: start and stop in s since rotation began, and the angles then; of several beds "
-                  "those of the first; null where count is, and in a drum with stages",
+                  "those of the first; null where count is, and in a drum of several stages",
                   "items", "type", "object", "required", "start", "stop", "start_deg", "stop_deg", "additionalProperties", 0,
                   "properties", "start", number, "stop", number, "start_deg", number, "stop_deg", number));
     json_decref(number);

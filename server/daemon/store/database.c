@@ -166,13 +166,8 @@ static sqlite3 *open_with(const char *path, int flags, const char *pragmas)
     return database;
 }
 
-/* What undoes one statement within a transaction: with the triggers of a job's row that is some 100 kB, which would go through a
- * file otherwise. To be said before the first use of the library, and refused later. */
-enum { UNDO_IN_MEMORY = 1 << 20 };
-
 sqlite3 *database_open_writer(const char *path)
 {
-    sqlite3_config(SQLITE_CONFIG_STMTJRNL_SPILL, UNDO_IN_MEMORY);
     sqlite3 *database = open_with(path, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE,
                                   "PRAGMA busy_timeout=5000; PRAGMA journal_mode=WAL; PRAGMA synchronous=FULL;"
                                   "PRAGMA foreign_keys=ON; PRAGMA journal_size_limit=67108864; PRAGMA cache_size=-2000;");

@@ -104,11 +104,11 @@ static dem_status add_stages(const scene_run *run, json_t *document)
     return json_object_set_new(document, "stages", list) == 0 ? status : DEM_NO_MEMORY;
 }
 
-/* Of the first bed, whose samples are told: each that its count has; null where that is null, and of a drum with stages. */
+/* Of the first bed, whose samples are told: each that its count has; null where that is null, and of a drum of several stages. */
 static dem_status add_slumps(const scene_run *run, const drum_result *bed, json_t *document)
 {
     enum { MOST = 10000 };
-    const bool any = !isnan(bed->measured.repose.slumps.count) && run->spec.scene.stage_count == 0;
+    const bool any = !isnan(bed->measured.repose.slumps.count) && run->spec.scene.stage_count <= 1;
     dem_slump *slump = any ? malloc(MOST * sizeof *slump) : NULL;
     size_t found = 0;
     dem_status status = any && !slump ? DEM_NO_MEMORY : DEM_OK;
