@@ -359,7 +359,7 @@ lint: lint-packages ## clang-tidy and cppcheck
 	  --extra-arg='-D__builtin_cpu_supports(level)=1' -p $(BUILD)/lint 2>$(BUILD)/lint/log || { cat $(BUILD)/lint/log; false; }
 	@cppcheck --quiet -j $(shell nproc) --enable=warning,performance,portability --error-exitcode=1 \
 	  --suppress=unknownMacro --suppress=invalidPointerCast --suppress=ctuArrayIndex \
-	  --suppress=memleak:api/http/tar_stream.c --suppress=memleak:server/worker/run/scene_run.c \
+	  --suppress=memleak:api/http/tar_stream.c --suppress=memleak:server/worker/run/scene_run.c --suppress=memleak:server/worker/run/tracing.c \
 	  --suppress=legacyUninitvar:core/contacts/neighbor_pick.c --suppress=objectIndex:core/walls/container.h \
 	  $(addprefix -I,$(core_SEES) $(server/daemon_SEES)) $(API_SEES) -Iserver/worker/files -Iserver/worker/run $(addprefix -I,$(server/plan_SEES)) core api server
 

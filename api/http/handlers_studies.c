@@ -97,7 +97,8 @@ static void check_and_add(api_service *service, const http_request *request, htt
         store_drop_stage(stage);
         return;
     }
-    const study_taker taker = checks ? (study_taker){ .take = take_nothing } : store_stage_taker(stage);
+    study_taker taker = { .take = take_nothing };
+    if (!checks) taker = store_stage_taker(stage);
     const bool good = check_jobs(service, request, study, taker, &estimate, problems, &warnings);
     const store_status status = stage ? store_stage_status(stage) : STORE_OK;
     if (status != STORE_OK) respond_not_kept(service, response, status, "keep the study");

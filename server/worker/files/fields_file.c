@@ -120,8 +120,9 @@ bool fields_file_write_outlet(const dem_scene *scene, const double *sums, const 
     const size_t n = outlet.rows * outlet.columns;
     const double thickness = orifice->depth > 0 ? orifice->depth : outlet.size;
     const field_grid grid = { outlet.rows, outlet.columns, outlet.size, { 0.5 * outlet.size, 0 }, thickness, outlet.frames };
-    double *solid = room_for(10 * n), *velocity = solid + 2 * n, *outward = velocity + 6 * n, *downward = outward + n;
+    double *solid = room_for(10 * n);
     if (!solid) return false;
+    double *velocity = solid + 2 * n, *outward = velocity + 6 * n, *downward = outward + n;
     dem_outlet_fields(scene, sums, solid, outward, downward);
     for (size_t k = 0; k < n; k++) memcpy(velocity + 3 * k, (double[]){ outward[k], -downward[k], 0 }, 3 * sizeof *velocity);
     hdf_file file;
