@@ -73,6 +73,9 @@ def test_a_study_of_more_jobs_costs_as_much_more(many):
     assert cost[1] < 2 * cost[0]  # six times, where the row that counts the jobs also holds what was posted
 
 
+LONG = SPEC | {"duration": {"seconds": 1000}, "snapshots": {"interval": 0}}  # too long for the lane of short jobs
+
+
 @pytest.fixture(scope="module")
 def counted(tmp_path_factory):
     """A daemon whose one worker is busy, and what it has parsed, waited for and written (counted_calls.c)."""
@@ -83,7 +86,7 @@ def counted(tmp_path_factory):
         environment.setenv("COUNTED_CALLS", str(counts))
         daemon = Daemon(folder, worker=FAKE_WORKER, options=["--workers", "1"]).start()
     try:
-        daemon.until(daemon.submit(fake="slow", seconds="100"), lambda info: info["status"] == "running")
+        daemon.until(daemon.submit(LONG, fake="slow", seconds="300"), lambda info: info["status"] == "running")
         yield daemon, lambda: struct.unpack("3q", counts.read_bytes())
     finally:
         daemon.stop()
@@ -92,10 +95,10 @@ def counted(tmp_path_factory):
 def test_a_post_waits_for_the_disk_once_and_parses_no_statement_that_it_knows(counted):
     daemon, counts = counted
     for _ in range(5):
-        daemon.submit()
+        daemon.submit(LONG)
     before = counts()
     for _ in range(20):
-        daemon.submit()
+        daemon.submit(LONG)
     parsed, waited, _ = (after - start for after, start in zip(counts(), before, strict=True))
     assert parsed <= 10  # the other threads have connections of their own; 20 POSTs have some 300 statements
     assert 20 <= waited <= 30  # a commit each; what the running job reports is committed once a second
@@ -105,7 +108,7 @@ def test_a_study_is_written_a_few_times_at_most(counted):
     """To its own database, the log and the database; with what would undo each row by itself it would be thirty times."""
     daemon, counts = counted
     before, written = bytes_of_database(daemon), counts()[2]
-    post_study(daemon, base={"inputs": SPEC}, vary={"/inputs/contact/friction": [0.1 + 0.0001 * k for k in range(1000)]})
+    post_study(daemon, base={"inputs": LONG}, vary={"/inputs/contact/friction": [0.1 + 0.0001 * k for k in range(1000)]})
     grown = bytes_of_database(daemon) - before
     assert grown > 1e6
     assert grown < counts()[2] - written < 5 * grown
