@@ -24,13 +24,20 @@ for program in $programs; do
   passed=$((passed + ok))
 done
 
-# Tests of physics use all processors themselves. Those of the service mostly wait: several of them at once.
+# suite FOLDER PROCESSES: what pytest says goes to the caller and is kept.
+suite() {
+  REPOSED_BUILD=$build "${PYTHON:-python3}" -m pytest -q -p no:cacheprovider -n "$2" -m "not long and not minutes and not torture" \
+    "tests/$1" 2>&1 | tee "$logs/$1"
+}
+
+# Tests of the service mostly wait: several of them at once, and those of physics take what they leave of the processors.
 if [ "$only" != unit ]; then
+  suite physics 0 >"$logs/physics.said" &
+  suite service $(($(nproc) * 2))
+  wait
+  cat "$logs/physics.said"
   for folder in physics service; do
-    [ $folder = service ] && at_once=$(($(nproc) * 2)) || at_once=0
-    REPOSED_BUILD=$build "${PYTHON:-python3}" -m pytest -q -p no:cacheprovider -n $at_once -m "not long and not minutes and not torture" \
-      "tests/$folder" | tee "$logs/pytest"
-    last=$(grep -E '[0-9]+ (passed|failed|error)' "$logs/pytest" | tail -n 1)
+    last=$(grep -E '[0-9]+ (passed|failed|error)' "$logs/$folder" | tail -n 1)
     count() { printf '%s' "$last" | grep -oE "[0-9]+ $1" | grep -oE '[0-9]+' || echo 0; }
     passed=$((passed + $(count passed)))
     failed=$((failed + $(count failed) + $(count error)))

@@ -7,8 +7,7 @@ import time
 
 import pytest
 import requests
-import yaml
-from conftest import BUILD, FAKE_WORKER, ROOT, run_daemon
+from conftest import BUILD, FAKE_WORKER, ROOT, run_daemon, read_yaml
 from test_daemon_clients import ENDLESS, ask_and_keep, job_of_long_specification, until
 from test_daemon_http import head, metrics_of
 
@@ -45,7 +44,7 @@ def test_a_token_does_what_its_line_says(guarded):
 
 def test_every_address_but_the_page_needs_a_token(guarded):
     """By the list of addresses that the OpenAPI document has."""
-    paths = yaml.safe_load((ROOT / "api/openapi.yaml").read_text())["paths"]
+    paths = read_yaml((ROOT / "api/openapi.yaml").read_text())["paths"]
     asked = 0
     for path, operations in paths.items():
         for method in operations:

@@ -5,7 +5,7 @@ import sqlite3
 
 import pytest
 import requests
-from conftest import SPEC, Daemon, FAKE_WORKER
+from conftest import FAKE_WORKER, SPEC, Daemon, read_yaml
 
 EXECUTION = "/processes/drum/execution"
 GRANULE = {"friction": 0.5, "rotation_rate": 18.0}
@@ -226,7 +226,7 @@ def test_owslib_reads_the_service_and_what_it_submits_is_taken(running):
 
 def test_both_descriptions_name_the_same_addresses(running):
     yaml = pytest.importorskip("yaml")
-    whole, outline = yaml.safe_load(running.get("/api").text), running.get("/api?f=json").json()
+    whole, outline = read_yaml(running.get("/api").text), running.get("/api?f=json").json()
     assert outline["servers"] == [{"url": running.url}]
     assert set(outline["paths"]) == set(whole["paths"])
     for path, operations in outline["paths"].items():

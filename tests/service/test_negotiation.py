@@ -9,8 +9,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 import requests
-import yaml
-from conftest import BUILD, FAKE_WORKER, SPEC, Daemon, run_daemon
+from conftest import BUILD, FAKE_WORKER, SPEC, Daemon, run_daemon, read_yaml
 from test_page import find, find_all, until
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -81,9 +80,9 @@ def test_html_of_what_the_page_shows_is_the_page(service):
 
 def test_the_document_as_3_0_is_the_same_contract(service):
     daemon, _ = service
-    new = yaml.safe_load(daemon.get("/api").text)
+    new = read_yaml(daemon.get("/api").text)
     old = daemon.get("/api?f=json").json()
-    assert yaml.safe_load(daemon.get("/api?f=yaml").text) == old and daemon.get("/api?f=json&version=3.1").json() == new
+    assert read_yaml(daemon.get("/api?f=yaml").text) == old and daemon.get("/api?f=json&version=3.1").json() == new
     assert old["openapi"] == "3.0.3" and old["servers"] == [{"url": daemon.url}]
     assert old["paths"].keys() == new["paths"].keys() and old["components"]["schemas"].keys() == new["components"]["schemas"].keys()
     for path, item in new["paths"].items():
@@ -260,7 +259,7 @@ def test_a_program_finds_its_way_through_a_proxy(behind):
             assert requests.get(link["href"], timeout=30).status_code in (200, 400) or link["rel"] in ("fields", "series", "walls"), link
     assert len(seen) > 15
     for form in ("?f=json", "?f=yaml", "", "?f=json&version=3.1"):
-        assert yaml.safe_load(requests.get(f"{behind.url}/api{form}", timeout=30).text)["servers"] == [{"url": behind.url}]
+        assert read_yaml(requests.get(f"{behind.url}/api{form}", timeout=30).text)["servers"] == [{"url": behind.url}]
     assert requests.get(f"{behind.url}/nowhere", timeout=30).json()["type"] == f"{behind.url}/problems/not-found"
     origin = {"Origin": behind.url.removesuffix(Proxy.prefix)}
     assert requests.delete(job, headers=origin, timeout=30).status_code == 200

@@ -10,8 +10,7 @@ from pathlib import Path
 
 import pytest
 import requests
-import yaml
-from conftest import BUILD, FAKE_WORKER, SPEC, Daemon
+from conftest import BUILD, FAKE_WORKER, SPEC, Daemon, read_yaml
 
 pytestmark = pytest.mark.torture  # for the time that npm takes
 HERE = Path(__file__).parent
@@ -92,7 +91,7 @@ def test_a_client_that_is_made_from_the_document_compiles_and_calls_every_operat
     called = {tuple(line.rsplit(" ", 1)) for line in ran.stdout.splitlines()}
     refused = {name for name, status in called if status not in ("200", "201")}
     assert refused <= {"POST /studies/{id}/retry"}, called  # a study that is successful is not tried again
-    paths = yaml.safe_load(document.read_text())["paths"]
+    paths = read_yaml(document.read_text())["paths"]
     assert {name for name, _ in called} == {f"{method.upper()} {path}" for path, item in paths.items() for method in item if method != "parameters"}
 
 

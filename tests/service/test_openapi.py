@@ -11,8 +11,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 import requests
-import yaml
-from conftest import BUILD, SPEC, run_daemon
+from conftest import BUILD, SPEC, run_daemon, read_yaml
 
 ROOT = Path(__file__).resolve().parents[2]
 ENDLESS = SPEC | {"duration": {"seconds": 2000.0}, "snapshots": {"interval": 0}}
@@ -72,7 +71,7 @@ def refs_in(node):
 
 @pytest.fixture(scope="module")
 def contract():
-    return Contract(yaml.safe_load((ROOT / "api/openapi.yaml").read_text()))
+    return Contract(read_yaml((ROOT / "api/openapi.yaml").read_text()))
 
 
 def test_the_document_is_sound(contract):
@@ -123,7 +122,7 @@ def test_every_documented_operation_answers_as_documented(daemon, contract):
     call("/web/vendor/{name}", f"{url}/web/vendor/uPlot.min.css", 200)
     call("/web/{name}", f"{url}/web/icon.svg", 304, headers={"If-None-Match": asset.headers["ETag"]})
     call("/conformance", f"{url}/conformance", 200)
-    assert yaml.safe_load(call("/api", f"{url}/api", 200).text) == contract.document
+    assert read_yaml(call("/api", f"{url}/api", 200).text) == contract.document
     call("/api", f"{url}/api?f=json", 200)
     kinds = call("/problems", f"{url}/problems", 200).json()["problems"]
     call("/problems/{name}", next(kind["type"] for kind in kinds if kind["type"].startswith(url)), 200)
@@ -418,7 +417,7 @@ def test_the_program_writes_the_schemas_of_inputs_and_results_into_the_document(
     (tmp_path / "other.yaml").write_text("openapi: 3.1.0\n")
     assert subprocess.run([BUILD / "reposed", "openapi", tmp_path / "other.yaml"], stderr=subprocess.DEVNULL, check=False).returncode == 1
     assert (tmp_path / "other.yaml").read_text() == "openapi: 3.1.0\n"
-    written = set(yaml.safe_load(textwrap.dedent(line.split("\n", 1)[1])))
+    written = set(read_yaml(textwrap.dedent(line.split("\n", 1)[1])))
     units = {name for name in written if name.startswith("UnitOf")}
     assert len(units) > 8 and {"UnitOfLength", "UnitOfRotation"} <= units
     assert {f"{name}{what}" for _, name in PROCESSES for what in ("Inputs", "Results")} | {"Summary", "ProcessId", "Results"} | units == written
@@ -428,7 +427,7 @@ def test_a_stale_document_is_served_with_the_schemas_of_the_program(tmp_path, co
     document = (ROOT / "api/openapi.yaml").read_text()
     (tmp_path / "stale.yaml").write_text(document.split("    ProcessId:")[0])
     with contextmanager(run_daemon)(tmp_path, options=["--api-file", str(tmp_path / "stale.yaml")]) as daemon:
-        assert yaml.safe_load(daemon.get("/api").text) == contract.document
+        assert read_yaml(daemon.get("/api").text) == contract.document
 
 
 def test_the_whole_document_is_served_as_json_too(daemon, contract):
@@ -437,7 +436,7 @@ def test_the_whole_document_is_served_as_json_too(daemon, contract):
         assert answer.status_code == 200 and answer.headers["Content-Type"] == "application/vnd.oai.openapi+json;version=3.1"
         assert answer.json() == contract.document
         contract.check(answer, "/api")
-    assert yaml.safe_load(requests.get(f"{daemon.url}/api", headers={"Accept": "*/*"}).text) == contract.document
+    assert read_yaml(requests.get(f"{daemon.url}/api", headers={"Accept": "*/*"}).text) == contract.document
 
 
 YAML = r"""# a comment
@@ -477,7 +476,7 @@ def test_yaml_of_every_kind_that_documents_use_is_read_as_others_read_it(tmp_pat
     (tmp_path / "any.yaml").write_text(YAML)
     with contextmanager(run_daemon)(tmp_path, options=["--api-file", str(tmp_path / "any.yaml")]) as daemon:
         accept = {"Accept": "application/json"}
-        assert daemon.get("/api", headers=accept).json() == yaml.safe_load(YAML)
+        assert daemon.get("/api", headers=accept).json() == read_yaml(YAML)
         for number, bad in enumerate(("a: {b: [1, 2}\n", "a: 1\n b: 2\n", "a: 1\na: 2\n", "a: 'open\n", "[" * 500, "- a\nb: 1\n",
                                        "a: &again 1\nb: *again\n", "a: !kind 1\n", "a: 1\n---\nb: 2\n", "[a]: 1\n", "")):
             (tmp_path / "any.yaml").write_text(bad)

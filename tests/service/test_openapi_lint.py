@@ -16,7 +16,7 @@ MAPS, LISTS = {"properties"}, {"oneOf", "anyOf", "allOf", "prefixItems"}
 SUBSCHEMAS = {"items", "additionalProperties", "unevaluatedProperties", "propertyNames", "not"}
 
 
-class UniqueKeys(yaml.SafeLoader):
+class UniqueKeys(yaml.CSafeLoader):
     """Without this the second of two equal keys silently wins."""
 
     def construct_mapping(self, node, deep=False):
