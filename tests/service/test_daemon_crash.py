@@ -46,6 +46,14 @@ def running(daemon, job):
     return daemon.until(job, lambda info: info["status"] == "running" and info["progress"] > 0 and daemon.workers())
 
 
+def under_way(daemon, job, seconds=30):
+    """Until the real worker has told of some samples, which is well before a job as LONG ends and the daemon knows of them."""
+    events, end = daemon.data / "jobs" / job / "events.ndjson", time.monotonic() + seconds
+    while not events.exists() or events.read_bytes().count(b'"sample"') < 20:
+        assert time.monotonic() < end, f"{daemon.job(job)}\n{daemon.log()}"
+        time.sleep(0.02)
+
+
 def test_a_killed_worker_is_started_again(fake):
     job = fake.submit(fake="slow", seconds="3")
     running(fake, job)
@@ -334,7 +342,7 @@ def same_results(daemon, job, undisturbed):
 
 def test_a_killed_real_worker_changes_no_number(daemon, undisturbed):
     job = daemon.submit(LONG)
-    running(daemon, job)
+    under_way(daemon, job)
     os.kill(daemon.workers()[0], signal.SIGKILL)
     assert daemon.until(job, lambda info: info["attempt"] == 2)
     same_results(daemon, job, undisturbed)
@@ -342,7 +350,7 @@ def test_a_killed_real_worker_changes_no_number(daemon, undisturbed):
 
 def test_a_killed_daemon_changes_no_number(daemon, undisturbed):
     job = daemon.submit(LONG)
-    running(daemon, job)
+    under_way(daemon, job)
     workers = daemon.workers()
     daemon.stop(signal.SIGKILL)
     assert all(gone(worker) for worker in workers)
@@ -353,7 +361,7 @@ def test_a_killed_daemon_changes_no_number(daemon, undisturbed):
 
 def test_a_stopped_daemon_goes_on_from_the_checkpoint(daemon, undisturbed):
     job = daemon.submit(LONG)
-    running(daemon, job)
+    under_way(daemon, job)
     assert daemon.stop() == 0
     assert (daemon.data / "jobs" / job / "checkpoint.hdf").exists()
     daemon.start()
