@@ -87,3 +87,7 @@ export const dismissJob = id => json(`${jobPath(id)}?only=dismiss`, { method: 'D
 
 export const studyPath = id => `${root}studies/${encodeURIComponent(id)}`;
 export const dismissStudy = id => json(`${studyPath(id)}?only=dismiss`, { method: 'DELETE' });
+
+export const calibrationPath = id => `${root}calibrations/${encodeURIComponent(id)}`;
+export const dismissCalibration = id => json(`${calibrationPath(id)}?only=dismiss`, { method: 'DELETE' });
+export const retryCalibration = id => json(`${calibrationPath(id)}/retry`, { method: 'POST', body: '{}' });

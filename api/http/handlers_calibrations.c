@@ -101,6 +101,7 @@ void show_calibration(api_service *service, const http_request *request, http_re
         return;
     }
     if (!find_plan(service, request, response, &plan)) return;
+    if (leads_to_page(request, response, "/web/calibrations.html#%s", plan.id)) return;
     if (!has_ended(&plan) && request->may_wait && request->waited < (double)wait) response->wait = (double)wait - request->waited;
     else http_respond_json(response, 200, plan_info(&plan));
 }
@@ -130,6 +131,7 @@ void list_calibrations(api_service *service, const http_request *request, http_r
         http_respond_problem(response, 400, NULL, "Bad parameter", "%s", problem);
         return;
     }
+    if (leads_to_page(request, response, "/web/calibrations.html")) return;
     page.plans = json_array();
     const store_status status = store_list_plans(service->store, before, page.limit + 1, add_to_page, &page);
     if (status != STORE_OK) {

@@ -70,7 +70,7 @@ def test_a_form_that_there_is_not_is_refused_with_those_that_there_are(service, 
 def test_html_of_what_the_page_shows_is_the_page(service):
     daemon, job = service
     for path, page in (("/jobs", "/"), ("/jobs?q=%C3%A4%20b&status=failed&limit=3", "/?status=failed&q=%C3%A4%20b"), (job, f"/web/job.html?id={job[6:]}"),
-                       ("/studies", "/web/studies.html")):
+                       ("/studies", "/web/studies.html"), ("/calibrations", "/web/calibrations.html")):
         answer = daemon.get(path + "&f=html" * ("?" in path) + "?f=html" * ("?" not in path), allow_redirects=False)
         assert answer.status_code == 303 and answer.headers["Location"] == daemon.url + page
         assert daemon.get(answer.headers["Location"], headers={"Accept": "text/html"}).text.startswith("<!doctype html>")

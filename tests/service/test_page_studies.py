@@ -86,6 +86,34 @@ def test_what_users_wrote_stays_text_and_a_phone_does_not_scroll_sideways(fake, 
     assert not scrolls_sideways(browser)
 
 
+def test_a_calibration_is_followed_to_its_answer(fake, browser):
+    request = {"name": HOSTILE, "base": {"process": "drum", "inputs": SPEC}, "seed": 3, "stop": {"jobs": 14}, "label": {"fit": "steep"},
+               "parameters": {"/inputs/contact/friction": {"range": [0.05, 1.0]}},
+               "targets": [{"name": "angle", "result": "/repose/angle_deg", "value": 29.0, "standard_error": 0.5}]}
+    posted = requests.post(f"{fake.url}/calibrations", json=request)
+    assert posted.status_code == 201, posted.text
+    calibration = posted.json()["calibrationID"]
+    browser.get(f"{fake.url}/web/studies.html")
+    click(browser, ".places a[href$='calibrations.html']")
+    assert until(browser, lambda b: find(b, f"#calibration-{calibration} a")).text == HOSTILE
+    click(browser, f"#calibration-{calibration} a")
+    until(browser, lambda b: "identified" in find(b, ".verdict strong").text, 60)
+    found = fake.get(f"/calibrations/{calibration}/results").json()
+    parts = {find(part, "h2").text: part for part in find_all(browser, ".calibration-part")}
+    assert [cell.text for cell in find_all(parts["Parameters"], "tbody th")] == ["contact/friction"]
+    best = found["answer"]["best"]["parameters"]["/inputs/contact/friction"]
+    assert f"{best:.4g}" in find(parts["Parameters"], "tbody tr").text
+    measured = find(parts["Measured and predicted"], "tbody tr").text
+    assert "29 ± 0.5" in measured and "°" in measured and len(find_all(parts["Measured and predicted"], "svg .fitted")) == 1
+    columns = find_all(parts["What fits"], "svg .column")
+    assert len(columns) > 3 and len(find_all(parts["What fits"], "svg .region68")) == 1
+    rows = find_all(parts["Runs"], "tbody tr")
+    assert len(rows) == len(found["runs"]) and find(rows[-1], "a").get_attribute("href").endswith(found["runs"][0]["job"])
+    assert "LAMMPS" in parts["The likeliest set for other programs"].text.upper() and browser.title != "owned"
+    use_phone(browser)
+    assert not scrolls_sideways(browser)
+
+
 def test_the_token_is_asked_for_here_too(daemon_with_token, browser):
     browser.get(f"{daemon_with_token.url}/web/studies.html")
     field = until(browser, lambda b: find(b, "#token").is_displayed() and find(b, "#token-value"))
