@@ -16,35 +16,20 @@ export function ticks(low, high, wanted) {
   return marks;
 }
 
-// One lowest and one highest sample a pixel: a long run keeps its spikes and costs no more than a short one.
-function thin(points, pixels) {
-  if (points.length <= 2 * pixels) return points;
-  const kept = [];
-  for (let column = 0; column < pixels; column++) {
-    const from = Math.floor(column * points.length / pixels);
-    const some = points.slice(from, Math.floor((column + 1) * points.length / pixels));
-    const low = some.reduce((a, b) => b.angle < a.angle ? b : a);
-    const high = some.reduce((a, b) => b.angle > a.angle ? b : a);
-    kept.push(...(low.time <= high.time ? [low, high] : [high, low]));
-  }
-  return kept;
-}
-
-// points: [{time (s), angle (deg)}] in order of time; repose: the results' member, or null while it runs.
+// points: [{time (s), angle (deg)}] in order of time, thinned; repose: the results' member, or null while it runs.
 export function anglePlot(points, repose, width) {
-  const shown = thin(points, width - LEFT - RIGHT);
-  const times = [Math.min(0, shown[0].time), shown.at(-1).time];
-  let low = Math.min(...shown.map(p => p.angle)), high = Math.max(...shown.map(p => p.angle));
+  const times = [Math.min(0, points[0].time), points.at(-1).time];
+  let low = Math.min(...points.map(p => p.angle)), high = Math.max(...points.map(p => p.angle));
   if (high - low < 1) [low, high] = [(low + high) / 2 - 0.5, (low + high) / 2 + 0.5];
   const margin = 0.08 * (high - low);
   [low, high] = [low - margin, high + margin];
   const x = time => LEFT + (width - LEFT - RIGHT) * (time - times[0]) / (times[1] - times[0] || 1);
   const y = angle => HEIGHT - BOTTOM - (HEIGHT - TOP - BOTTOM) * (angle - low) / (high - low);
-  const line = shown.map((p, i) => `${i ? 'L' : 'M'}${x(p.time).toFixed(1)} ${y(p.angle).toFixed(1)}`).join('');
+  const line = points.map((p, i) => `${i ? 'L' : 'M'}${x(p.time).toFixed(1)} ${y(p.angle).toFixed(1)}`).join('');
 
-  const description = `Angle against time: ${shown.length} samples from ${significant(shown[0].time)} to `
-    + `${significant(times[1])} s, between ${degrees(Math.min(...shown.map(p => p.angle)))} and `
-    + `${degrees(Math.max(...shown.map(p => p.angle)))}`;
+  const description = `Angle against time: ${points.length} samples from ${significant(points[0].time)} to `
+    + `${significant(times[1])} s, between ${degrees(Math.min(...points.map(p => p.angle)))} and `
+    + `${degrees(Math.max(...points.map(p => p.angle)))}`;
   return svg('svg', { class: 'plot', role: 'img', 'aria-label': description, viewBox: `0 0 ${width} ${HEIGHT}` },
     axes(x, y, times, [low, high], width),
     measuringWindow(repose, x, y, times),

@@ -24,7 +24,7 @@ let curve = null, quantity = '';
 const refresh = startPolling(ask, (error, pause) => {
   showFailure(error, pause, refresh);
   if (isOfAddress(error)) byId('sheet').hidden = true;
-});
+}, change => ids.includes(change.jobID));
 takeToken(refresh);
 
 async function ask() {
@@ -37,14 +37,14 @@ async function ask() {
   showConnected();
   byId('sheet').hidden = false;
   const open = await Promise.all(sides.map(follow));
-  show();
+  await show();
   return open.some(Boolean) || SETTLED;
 }
 
 async function begin(id) {
   const [job, spec] = await Promise.all([json(jobPath(id)), json(`${jobPath(id)}/spec`)]);
   const [described, schemas] = await Promise.all([describedInputs(job.processID), schemasOf(job.processID)]);
-  const series = createSeries(id);
+  const series = createSeries(id, ['angle_deg', 'tube_height']);
   const bed = createBedPanel(job, { process: job.processID, inputs: spec.inputs }, clock, {
     angleAt: time => series.at('angle_deg', time), liftAt: time => series.at('tube_height', time) ?? 0, isSmall: true });
   return { id, job, spec, described, schemas, series, bed, results: null, isWhole: false };
@@ -78,35 +78,37 @@ async function follow(side) {
   side.job = await json(jobPath(side.id));
   const isOpen = side.job.status === 'accepted' || side.job.status === 'running';
   if (side.job.status === 'accepted') return true;
+  side.series.choose(quantity ? [quantity] : []);
   await Promise.all([side.series.update(), side.bed.update()]);
   if (side.job.status === 'successful') side.results = await json(`${jobPath(side.id)}/results`);
   side.isWhole = !isOpen;
   return isOpen;
 }
 
-function show() {
+async function show() {
   const stops = [...new Set(sides.flatMap(({ bed }) => bed.store.list.map(frame => frame.time)))].sort((a, b) => a - b);
   const ends = sides.map(({ series }) => series.times.at(-1) ?? 0), isFirst = clock.to === 0;
   clock.extend(0, Math.max(...ends, stops.at(-1) ?? 0), stops);
   if (isFirst) clock.set(clock.to);
   showTools();
-  showCurve();
+  await draw();
   replaceIfChanged(byId('inputs'), sides.map(({ id }) => id), () => comparedInputs(sides));
   replaceIfChanged(byId('results'), sides.map(({ job }) => job.status), () => comparedResults(sides));
 }
 
 function showTools() {
-  const names = [...new Set(sides.flatMap(({ series }) => [...series.columns.keys()].filter(series.has)))];
+  const names = [...new Set(sides.flatMap(({ series }) => series.names()))];
   if (!names.includes(quantity)) quantity = names.includes('angle_deg') ? 'angle_deg' : names[0] ?? '';
   replaceIfChanged(byId('curve-tools'), names, () => {
-    const select = h('select', { class: 'quantity', onchange: () => { quantity = select.value; showCurve(); } },
+    const select = h('select', { class: 'quantity', onchange: () => { quantity = select.value; draw().catch(error => showFailure(error, 0, refresh)); } },
       names.map(name => h('option', { value: name, selected: name === quantity }, name.replace(/_deg$/, '').replaceAll('_', ' '))));
     return [h('label', null, 'Shown ', select), h('button', { type: 'button', class: 'unzoom', onclick: () => curve.zoom(clock.from, clock.to) }, 'Whole runs')];
   });
 }
 
-function showCurve() {
-  const have = sides.filter(({ series }) => series.times.length > 1 && series.has(quantity));
+async function draw() {
+  await Promise.all(sides.filter(({ series }) => series.choose([quantity])).map(({ series }) => series.update()));
+  const have = sides.filter(({ series }) => series.times.length > 1 && series.columns.has(quantity));
   byId('curve').classList.toggle('nothing-yet', have.length === 0);
   if (have.length === 0) return;
   const colors = palette();

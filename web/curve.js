@@ -97,7 +97,7 @@ export function createCurve(box, clock, facts = () => ({}), onPaper = { width: 6
 
   function yRange(u) {
     const { window } = facts(), times = u.data[0], [first, last] = u.series[0].idxs ?? [0, times.length - 1];
-    const shown = given.series.map((one, k) => one.isShown === false ? 0 : k + 1).filter(Boolean);
+    const shown = given.series.map((_, k) => k + 1);
     const isWhole = first === 0 && last === times.length - 1; // not zoomed
     const extent = isWhole && window && extentOf(u.data, shown, window.start, window.end);
     return extent || extentOf(u.data, shown, times[first], times[last]) || [0, 1];
@@ -113,7 +113,7 @@ export function createCurve(box, clock, facts = () => ({}), onPaper = { width: 6
       axes: [{ ...axis, label: 'time since the test began, s', labelSize: 18, labelFont: axis.font, size: 30 },
         { ...axis, size: 54, values: (_, marks) => marks.map(mark => given.unit === '°' ? `${mark}°` : significant(mark, 4)) }],
       series: [{}, ...given.series.map((one, k) => ({
-        label: one.name, show: one.isShown !== false, stroke: one.color ?? colors[COLORS[k % COLORS.length]],
+        label: one.name, stroke: one.color ?? colors[COLORS[(one.place ?? k) % COLORS.length]],
         width: k ? 1.2 : 1.7, points: { show: false }, spanGaps: false }))],
       hooks: { drawAxes: [u => underlay(u, facts(), colors)], draw: [u => { overlay(u, facts().events ?? [], colors); moveLine(); }], setCursor: [follow] },
     }, given.data, box);
@@ -139,7 +139,8 @@ export function createCurve(box, clock, facts = () => ({}), onPaper = { width: 6
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => plot && build());
 
   return {
-    // series: [{name, color, isShown}], of data[1] and on; data[0]: times, rising. unit: '°', or none.
+    // series: [{name, color, or place in COLORS}], of data[1] and on; data[0]: times, rising. unit: '°', or none. of: how many
+    // samples these stand for, where they are thinned.
     show(next) {
       given = next;
       const kind = JSON.stringify(next.series);
@@ -155,9 +156,9 @@ export function createCurve(box, clock, facts = () => ({}), onPaper = { width: 6
   };
 }
 
-function inWords({ data, series, unit }, { mean, error }) {
+function inWords({ data, series, unit, of }, { mean, error }) {
   const [times] = data, extent = extentOf(data, [1], -Infinity, Infinity);
   const write = value => unit === '°' ? degrees(value) : significant(value);
-  return `${series[0]?.name ?? 'Values'} against time: ${times.length} samples to ${significant(times.at(-1) ?? 0)} s`
+  return `${series[0]?.name ?? 'Values'} against time: ${of ?? times.length} samples to ${significant(times.at(-1) ?? 0)} s`
     + (extent ? `, between ${write(extent[0])} and ${write(extent[1])}` : '') + (typeof mean === 'number' ? `; mean ${degrees(mean, error)}` : '');
 }

@@ -3,17 +3,24 @@ import { h, replaceIfChanged } from './dom.js';
 
 const MARKS = [['transient', 'before and after the measuring window'], ['band', 'mean ± 2 standard errors'], ['slump', 'slump or avalanche, by the centre of mass']];
 
-export function showCurve(box, { series, choice, curve }) {
+const isOfAngles = (angles, { quantity }) => angles.length > 0 && (quantity || 'angle') === 'angle';
+
+// [{key, name, place}] of the columns that are drawn.
+export function columnsShown({ series, choice }) {
   const angles = series.definitions(), others = series.others();
-  const isAngle = angles.length > 0 && (choice.quantity || 'angle') === 'angle';
-  const wanted = isAngle ? angles.map(({ key, name }, k) => ({ key, name, isShown: k === 0 || choice.extra.has(key) }))
-    : others.filter(({ key }) => key === (choice.quantity || others[0]?.key)).map(one => ({ ...one, isShown: true }));
+  return isOfAngles(angles, choice) ? angles.map((one, place) => ({ ...one, place })).filter(({ key, place }) => place === 0 || choice.extra.has(key))
+    : others.filter(({ key }) => key === (choice.quantity || others[0]?.key));
+}
+
+export function showCurve(box, view) {
+  const { series, choice, curve } = view, wanted = columnsShown(view).filter(({ key }) => series.columns.has(key));
   if (series.times.length < 2 || wanted.length === 0) {
     box.classList.add('nothing-yet');
     return;
   }
   box.classList.remove('nothing-yet');
-  curve.show({ data: [series.times, ...wanted.map(({ key }) => series.columns.get(key))], series: wanted.map(({ name, isShown }) => ({ name, isShown })), unit: isAngle ? '°' : '' });
+  curve.show({ data: [series.times, ...wanted.map(({ key }) => series.columns.get(key))], of: series.of,
+    series: wanted.map(({ name, place }) => ({ name, place })), unit: isOfAngles(series.definitions(), choice) ? '°' : '' });
 }
 
 export function showCurveTools(box, view, changed) {
@@ -26,7 +33,7 @@ export function showCurveTools(box, view, changed) {
       showCurveTools(box, view, changed);
       changed();
     } }, angles.length ? h('option', { value: 'angle' }, 'angle') : null, others.map(({ key, name }) => h('option', { value: key, selected: key === choice.quantity }, name)));
-    const isAngle = angles.length > 0 && (choice.quantity || 'angle') === 'angle';
+    const isAngle = isOfAngles(angles, choice);
     const toggle = ({ key, name }, k) => h('label', { class: `series s${k + 1}` }, h('input', { type: 'checkbox', value: key, checked: choice.extra.has(key), onchange: event => {
       if (event.target.checked) choice.extra.add(key); else choice.extra.delete(key);
       changed();

@@ -7,6 +7,7 @@ import { anglePlot } from './angle_plot.js';
 import { viewOf } from './process_views.js';
 import { warningsOf } from './results.js';
 import { fileLink } from './file_link.js';
+import { createSeries } from './sample_series.js';
 import { schemasOf } from './words.js';
 
 const SNAPSHOTS_SHOWN = 200;
@@ -17,7 +18,7 @@ export function createDetail() {
     results: h('div'), links: h('div') };
   const element = h('div', { class: 'panel' },
     parts.reason, h('div', { class: 'first' }, parts.answer, parts.plot), parts.links, parts.results, parts.about);
-  const series = { points: [], last: -1 };
+  let series = null;
   let loading = false;
   let finalShown = null; // the state whose results and plot are on the page for good
 
@@ -30,9 +31,10 @@ export function createDetail() {
     try {
       const results = job.status === 'successful' ? await json(`${jobPath(job.jobID)}/results`) : null;
       const hasSeries = viewOf(job.processID).series;
-      if (hasSeries) await fetchNewSamples(job.jobID, series);
+      series ??= createSeries(job.jobID, ['angle_deg']);
+      if (hasSeries) await series.update();
       if (results) showResults(parts, results, await schemasOf(job.processID), job);
-      if (hasSeries) showPlot(parts.plot, series.points, results, job.status);
+      if (hasSeries) showPlot(parts.plot, anglesOf(series), results, job.status);
       if (job.status !== 'running') finalShown = job.status;
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
@@ -44,17 +46,7 @@ export function createDetail() {
   return { element, update };
 }
 
-// Samples never change, so each is asked for once; an answer holds some thousands and links to the next.
-async function fetchNewSamples(id, series) {
-  for (let more = true; more;) {
-    const { samples, links } = await json(`${jobPath(id)}/samples?after=${series.last}`);
-    for (const { number, time, values } of samples) {
-      series.last = number;
-      if (typeof values.angle_deg === 'number') series.points.push({ time, angle: values.angle_deg });
-    }
-    more = links.some(link => link.rel === 'next');
-  }
-}
+const anglesOf = ({ times, columns }) => (columns.get('angle_deg') ?? []).map((angle, k) => ({ time: times[k], angle })).filter(({ angle }) => angle !== null);
 
 function showReason(box, job) {
   const isOpen = job.status === 'accepted' || job.status === 'running';
@@ -88,7 +80,7 @@ function showAbout(box, job) {
 function showLinks(box, job) {
   const path = jobPath(job.jobID);
   const { series } = viewOf(job.processID);
-  const fields = job.links?.find(link => link.rel === 'fields');
+  const fields = job.links?.find(link => link.rel === 'fields' && link.type !== 'application/json');
   replaceIfChanged(box, job.status, () => [
     h('ul', { class: 'links' },
       h('li', null, h('a', { href: `${root}web/job.html?id=${encodeURIComponent(job.jobID)}` }, 'Page of this job')),

@@ -7,7 +7,7 @@ import { createBedPanel } from './bed_panel.js';
 import { createClock, transport } from './clock.js';
 import { createCurve } from './curve.js';
 import { nameOf } from './job_name.js';
-import { showCurve, showCurveTools } from './job_curve.js';
+import { columnsShown, showCurve, showCurveTools } from './job_curve.js';
 import { showAgain, showAnswers, showFiles, showHead, showInputs, showLog, showReason, showResults } from './job_parts.js';
 import { prepareForPaper } from './job_print.js';
 import { SETTLED, startPolling } from './polling.js';
@@ -17,14 +17,14 @@ import { describedInputs, schemasOf } from './words.js';
 
 const id = new URLSearchParams(location.search).get('id') ?? '';
 const looked = new URLSearchParams(location.hash.slice(1));
-const view = { job: null, spec: null, results: null, schemas: {}, described: {}, series: createSeries(id), bed: null, curve: null, shown: '', choice: { quantity: '', extra: new Set(looked.get('also')?.split(',') ?? []) } };
+const view = { job: null, spec: null, results: null, schemas: {}, described: {}, series: createSeries(id, ['angle_deg', 'tube_height']), bed: null, curve: null, shown: '', choice: { quantity: '', extra: new Set(looked.get('also')?.split(',') ?? []) } };
 const clock = createClock({ ready: () => view.bed?.isReady() ?? true });
 let finalShown = null; // the state whose samples, frames and results are on the page for good
 
 const refresh = startPolling(ask, (error, pause) => {
   showFailure(error, pause, refresh);
   if (isOfAddress(error)) byId('sheet').hidden = true;
-});
+}, change => change.jobID === id);
 takeToken(refresh);
 
 async function ask() {
@@ -89,15 +89,21 @@ async function showCourse(job) {
   }
   if (!view.bed) return;
   await Promise.all([view.series.update(), view.bed.update()]);
+  if (view.series.choose(columnsShown(view).map(({ key }) => key))) await view.series.update();
   const { times } = view.series, stops = view.bed.store.list.map(frame => frame.time), isFirst = clock.to === 0;
   byId('stage').classList.toggle('bare', times.length < 2 && stops.length === 0);
   clock.extend(Math.min(times[0] ?? 0, stops[0] ?? 0), Math.max(times.at(-1) ?? 0, stops.at(-1) ?? 0), stops);
   if (isFirst) clock.set(looked.has('t') ? Number(looked.get('t')) || 0 : clock.to);
-  showCurveTools(byId('curve-tools'), view, () => { remember('also', [...view.choice.extra].join(',')); draw(); });
-  draw();
+  showCurveTools(byId('curve-tools'), view, chooseCurve);
+  showCurve(byId('curve'), view);
 }
 
-const draw = () => showCurve(byId('curve'), view);
+function chooseCurve() {
+  remember('also', [...view.choice.extra].join(','));
+  showCurve(byId('curve'), view);
+  finalShown = null; // columns that were not drawn before are still to come
+  refresh();
+}
 
 function remember(name, value) {
   if (value) looked.set(name, value); else looked.delete(name);

@@ -19,7 +19,7 @@ export function showHead(box, job, { stop, again }) {
   const isOpen = job.status === 'accepted' || job.status === 'running';
   const end = job.finished ?? (job.status === 'running' ? new Date().toISOString() : null), took = secondsBetween(job.started, end);
   const fact = (name, value, title) => value ? h('div', null, h('dt', null, name), h('dd', { title }, value)) : null;
-  replaceIfChanged(box, [job.status, job.progress, job.message, job.attempt, job.label, job.eta_seconds, job.position, Math.floor(took ?? -1)], () => [
+  replaceIfChanged(box, [job.status, job.progress, job.message, job.attempt, job.label, job.eta_seconds, job.position, job.expected_start, Math.floor(took ?? -1)], () => [
     h('div', { class: 'job-title' }, h('h1', null, h('bdi', null, nameOf(job))), h('span', { class: `badge ${job.status}` }, job.status),
       job.status === 'running' ? h('progress', { max: 100, value: job.progress ?? 0, 'aria-label': 'progress' }) : null,
       job.status === 'running' ? h('small', null, `${Math.floor(job.progress ?? 0)} %${typeof job.eta_seconds === 'number' ? ` · ${duration(job.eta_seconds)} left` : ''}`) : null,
@@ -29,6 +29,7 @@ export function showHead(box, job, { stop, again }) {
         h('a', { class: 'button', href: again }, 'Change and run again'))),
     h('dl', { class: 'job-facts' }, fact('test', job.processID), fact('id', job.jobID), fact('submitted', clock(job.created), job.created), job.started ? fact('started', clock(job.started), job.started) : null,
       took === null ? null : fact(job.finished ? 'took' : 'running for', duration(took)), job.attempt > 1 ? fact('attempt', count(job.attempt)) : null,
+      job.position ? fact('in line', `${count(job.position)}.${job.expected_start ? `, expected to start ${clock(job.expected_start)}` : ''}`) : null,
       job.studyID ? h('div', null, h('dt', null, 'study'), h('dd', null, h('a', { href: `${root}web/studies.html#${job.studyID}` }, job.studyID))) : null,
       Object.entries(job.label ?? {}).map(([name, value]) => h('div', { class: 'label' }, h('dt', null, h('bdi', null, name)), h('dd', null, h('bdi', null, String(value))))))]);
 }
@@ -75,7 +76,7 @@ export function showFiles(box, job, frames) {
   const path = jobPath(job.jobID), { series } = viewOf(job.processID);
   const links = [job.status === 'successful' ? ['results', 'Results (JSON)'] : null, ['spec', 'Spec (JSON)'], ['log', 'Log'],
     series ? ['samples', 'Samples (JSON)'] : null, series ? ['samples?format=csv', 'Samples (CSV)'] : null,
-    ...['fields', 'walls', 'series', 'archive'].map(rel => job.links?.some(link => link.rel === rel) ? LINKED[rel] : null)].filter(Boolean);
+    ...['fields', 'picture', 'frames', 'walls', 'series', 'archive'].map(rel => job.links?.some(link => link.rel === rel) ? LINKED[rel] : null)].filter(Boolean);
   replaceIfChanged(box, [job.status, frames.length], () => [
     h('ul', { class: 'links' }, links.map(([name, words]) => h('li', null, fileLink(`${path}/${name}`, words)))),
     frames.length ? h('details', { class: 'snapshots' }, h('summary', null, `Snapshots (HDF5, for ParaView): ${count(frames.length)}`),
@@ -83,7 +84,7 @@ export function showFiles(box, job, frames) {
       h('ul', null, frames.slice(-SNAPSHOTS_SHOWN).map(({ name, time, size }) => h('li', null, fileLink(`${path}/snapshots/${name}.hdf`, `${name}.hdf`), ` at ${significant(time)} s, ${bytes(size)}`)))) : null]);
 }
 
-const LINKED = { fields: ['fields.hdf', 'Fields (HDF5)'], walls: ['walls.vtp', 'Walls (VTK)'], series: ['snapshots.hdf.series', 'Series for ParaView'], archive: ['files.tar', 'All files (tar)'] };
+const LINKED = { fields: ['fields.hdf', 'Fields (HDF5)'], picture: ['picture.png', 'Picture (PNG)'], frames: ['frames.bin', 'Frames of the bed (api/FRAMES.md)'], walls: ['walls.vtp', 'Walls (VTK)'], series: ['snapshots.hdf.series', 'Series for ParaView'], archive: ['files.tar', 'All files (tar)'] };
 
 // As a word of a shell.
 const quoted = text => `'${text.replaceAll("'", "'\\''")}'`;

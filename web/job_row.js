@@ -12,6 +12,21 @@ import { root } from './api.js';
 const COLUMNS = ['pick', 'job', 'state', 'inputs', 'angle', 'regime', 'times', 'actions'];
 const CAN_BE_STOPPED = ['accepted', 'running'];
 
+const PICTURE_AFTER = 20; // s of running from which on there is one
+
+// Where a job's picture is; undefined while it has none.
+function pictureOf(job) {
+  const isThere = job.status === 'successful' || job.status === 'running' && secondsBetween(job.started, new Date().toISOString()) > PICTURE_AFTER;
+  return isThere ? job.links?.find(link => link.rel === 'picture')?.href : undefined;
+}
+
+// A job of an earlier version has no picture: then, of a drum, its angle is drawn.
+function thumbnail(job, picture) {
+  const instead = event => event.target.replaceWith(job.processID === 'drum' ? drumPicture(job.summary ?? {}, 48) : '');
+  return h('a', { class: 'thumb', href: pageOf(job), tabindex: '-1', 'aria-hidden': 'true' },
+    h('img', { src: `${picture}?width=96`, alt: '', width: 48, height: 48, loading: 'lazy', onerror: instead }));
+}
+
 const pageOf = job => `${root}web/job.html?id=${encodeURIComponent(job.jobID)}`;
 
 const nothing = () => h('span', { class: 'quiet nothing' }, '–');
@@ -65,12 +80,12 @@ function showOthers(main, last, before, columns, job) {
 }
 
 function showName(cell, job, open, actions) {
-  const picture = job.links?.find(link => link.type === 'image/png')?.href;
-  replaceIfChanged(cell, [job.label, job.processID, picture, picture && job.status], () => [
-    picture ? h('a', { class: 'thumb', href: pageOf(job), tabindex: '-1', 'aria-hidden': 'true' }, h('img', { src: `${picture}?width=96`, alt: '', width: 48, height: 48, loading: 'lazy' })) : null,
-    h('button', { class: 'opener', 'aria-controls': `detail-${job.jobID}`, 'aria-expanded': 'false',
+  const picture = pictureOf(job);
+  replaceIfChanged(cell, [job.label, job.processID, picture, picture && job.status], () => h('div', { class: 'named' },
+    picture ? thumbnail(job, picture) : null,
+    h('div', null, h('button', { class: 'opener', 'aria-controls': `detail-${job.jobID}`, 'aria-expanded': 'false',
       onclick: () => actions.toggle(job.jobID) }, h('bdi', null, nameOf(job))),
-    h('small', null, h('a', { href: pageOf(job) }, job.jobID))]);
+    h('small', null, h('a', { href: pageOf(job) }, job.jobID)))));
   cell.querySelector('.opener').setAttribute('aria-expanded', String(open));
 }
 
@@ -105,8 +120,7 @@ function showAnswer(cell, job) {
   replaceIfChanged(cell, [words, fill_fraction, steady, verdict, warnings, job.status], () => {
     if (words === null) return nothing();
     const isRate = minimum_omega2 !== undefined;
-    const hasPicture = job.links?.some(link => link.type === 'image/png');
-    return [!hasPicture && angle_deg !== undefined && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
+    return [!pictureOf(job) && angle_deg !== undefined && fill_fraction !== undefined ? drumPicture({ angle_deg, fill_fraction }, 34) : null,
       h('span', { class: 'value', title: isRate ? 'least rate that keeps the particle on the wall' : 'angle of repose' }, words,
         isRate ? h('small', { class: 'quiet' }, `ω²R/g ${significant(minimum_omega2, 4)}`) : null,
         steady !== true && verdictInWords({ verdict, steady }) ? h('small', null, verdictInWords({ verdict, steady })) : null,

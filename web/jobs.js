@@ -10,6 +10,7 @@ import { columnsOf, headingOf } from './columns.js';
 import { filterOf } from './filter.js';
 import { chipsOf, filterPanel } from './list_filters.js';
 import { pagesOf } from './list_pages.js';
+import { knownPlaces, learnPlaces } from './list_places.js';
 import { createSelection, selectionBar } from './list_selection.js';
 import { startPolling } from './polling.js';
 import { addressOf, isFiltered, readView, STATES, writeView } from './view.js';
@@ -56,8 +57,17 @@ async function ask() {
   await learnColumns();
   if (asked !== view) return true; // the view changed meanwhile: this answer is of the old one
   showConnected();
+  knownPlaces([...first, ...list.jobs]);
   showList({ ...list, first });
+  showPlaces(first);
   return active > 0;
+}
+
+// After the list, which does not wait for them.
+async function showPlaces(jobs) {
+  if (!await learnPlaces(jobs)) return;
+  knownPlaces(jobs);
+  for (const job of jobs) if (rows.get(job.jobID)?.job === job) rows.get(job.jobID).update(job, view.open.has(job.jobID), { columns: chosen(), picked: selection.has(job.jobID) });
 }
 
 async function listActive(asked) {

@@ -2,14 +2,16 @@
 import { root } from './api.js';
 
 const GAP = 2_000;    // ms at least between two tellings
+const TOGETHER = 200; // ms in which changes may come together
 const AGAIN = 30_000; // ms until a stream that was refused is asked for again
 
-// heard(): something has changed, or was missed. Returns {start, isLive}: start may be called any time.
-export function listenTo(heard) {
-  let source = null, isLive = false, timer = 0, wanted = false;
+// heard(): something has changed, or was missed; isOurs(change): whether a job's change is worth it. Returns {start, stop, isLive}: start
+// may be called any time.
+export function listenTo(heard, isOurs) {
+  let source = null, isLive = false, timer = 0, wanted = false, told = 0;
 
   function tell() {
-    timer ||= setTimeout(() => { timer = 0; heard(); }, GAP);
+    timer ||= setTimeout(() => { timer = 0; told = performance.now(); heard(); }, Math.max(told + GAP - performance.now(), TOGETHER));
   }
   function close() {
     source?.close();
@@ -27,9 +29,10 @@ export function listenTo(heard) {
       close();
       setTimeout(open, AGAIN);
     };
-    for (const kind of ['job', 'jobs']) source.addEventListener(kind, tell);
+    source.addEventListener('job', event => { if (isOurs(JSON.parse(event.data))) tell(); });
+    source.addEventListener('jobs', tell);
   }
   document.addEventListener('visibilitychange', () => document.hidden ? close() : open());
   window.addEventListener('pagehide', close);
-  return { start: () => { wanted = true; open(); }, isLive: () => isLive };
+  return { start: () => { wanted = true; open(); }, stop: () => { wanted = false; close(); }, isLive: () => isLive };
 }

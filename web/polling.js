@@ -5,14 +5,20 @@ import { isOfAddress } from './connection.js';
 import { listenTo } from './live.js';
 
 const BUSY = 2_000, IDLE = 5_000, HIDDEN = 60_000, LONGEST = 60_000; // ms
-const TOLD = 900_000; // ms, while the daemon tells of changes
+const TOLD_BUSY = 15_000, TOLD = 900_000; // ms, while the daemon tells of changes
 
 // ask(): a promise that resolves to true when something is going on, to SETTLED when nothing will change by itself. Told of every
-// failure: failed(error, ms).
+// failure: failed(error, ms). isOurs(change): whether a change of a job is of what is shown.
 export const SETTLED = 'settled';
-export function startPolling(ask, failed) {
+export function startPolling(ask, failed, isOurs = () => true) {
   let timer = 0, failures = 0, turn = 0;
-  const changes = listenTo(now);
+  const changes = listenTo(now, isOurs);
+
+  function pauseAfter(found) {
+    if (found === SETTLED) return LONGEST;
+    if (changes.isLive()) return found ? TOLD_BUSY : TOLD;
+    return found ? BUSY : IDLE;
+  }
 
   async function now() {
     clearTimeout(timer);
@@ -20,8 +26,8 @@ export function startPolling(ask, failed) {
     let pause;
     try {
       const found = await ask();
-      if (found !== SETTLED) changes.start();
-      pause = found === SETTLED ? LONGEST : found ? BUSY : changes.isLive() ? TOLD : IDLE;
+      if (found === SETTLED) changes.stop(); else changes.start();
+      pause = pauseAfter(found);
       failures = 0;
     } catch (error) {
       if (mine !== turn) return;

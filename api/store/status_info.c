@@ -44,6 +44,7 @@ static void write_links(text_buffer *out, const job_record *job, const char *bas
     static const struct {
         const char *rel, *type, *end;
         bool is_result;      /* there once the job has ended well */
+        bool is_of_run;      /* there soon after the job has begun */
         const char *process; /* of this one alone; NULL: of all */
         const char *but;     /* not of this one */
     } links[] = {
@@ -55,6 +56,10 @@ static void write_links(text_buffer *out, const job_record *job, const char *bas
         { "snapshots", "application/json", .end = "/snapshots" },
         { "series", "application/json", .end = "/snapshots.hdf.series", .is_result = true, .but = "granule" },
         { "walls", "application/xml", .end = "/walls.vtp", .is_result = true, .but = "granule" },
+        { "frames", "application/octet-stream", .end = "/frames.bin", .is_of_run = true, .but = "granule" },
+        { "picture", "image/png", .end = "/picture.png", .is_of_run = true, .but = "granule" },
+        { "fields", "application/json", .end = "/fields.json", .is_result = true, .process = "drum" },
+        { "fields", "application/json", .end = "/fields.json", .is_result = true, .process = "orifice" },
         { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "drum" },
         { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "orifice" },
         { "archive", "application/x-tar", .end = "/files.tar" },
@@ -62,6 +67,7 @@ static void write_links(text_buffer *out, const job_record *job, const char *bas
     char between = '[';
     for (size_t i = 0; i < sizeof links / sizeof links[0]; i++) {
         if (links[i].is_result && job->status != JOB_SUCCESSFUL) continue;
+        if (links[i].is_of_run && !job->started[0]) continue;
         if (links[i].process && strcmp(job->process, links[i].process) != 0) continue;
         if (links[i].but && strcmp(job->process, links[i].but) == 0) continue;
         char href[LONGEST_BASE + 80];

@@ -209,7 +209,7 @@ def browser(chromium):
     chromium.execute_cdp_cmd("Network.clearBrowserCache", {})
     yield chromium
     complaints = [entry["message"] for entry in chromium.get_log("browser")
-                  if entry["level"] == "SEVERE" and not re.search(r"ERR_(CONNECTION|SOCKET)_|status of 401|check=true - .*status of 400|/events - .*status of 503", entry["message"])]
+                  if entry["level"] == "SEVERE" and not re.search(r"ERR_(CONNECTION|SOCKET)_|status of 401|check=true - .*status of 400|/events - .*status of 503|picture.png.*status of 404", entry["message"])]
     origin = chromium.execute_script("return origin")
     if origin.startswith("http"):
         chromium.execute_cdp_cmd("Storage.clearDataForOrigin", {"origin": origin, "storageTypes": "all"})

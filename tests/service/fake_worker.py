@@ -1,6 +1,7 @@
 #!/usr/bin/python3 -SE
 """Stands in for `repose run SPEC --out DIR`: keeps the contract of the job folder and does what the spec's label
 "fake" says, so that tests of the daemon can have any end of a worker at once."""
+import base64
 import json
 import os
 import signal
@@ -14,6 +15,7 @@ if sys.argv[1] == "plan":  # by the real one
     os.execv(program, [program, *sys.argv[1:]])
 if sys.argv[1] != "run":  # calibrate: nobody's speed
     sys.exit(0)
+DOT = base64.b64decode("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGOYCQAAmwCarS5ItAAAAABJRU5ErkJggg==")  # a picture
 SPEC, FOLDER = Path(sys.argv[2]), Path(sys.argv[4])
 CHECKPOINT = FOLDER / "checkpoint.hdf"
 spec = json.loads(SPEC.read_text())
@@ -79,6 +81,8 @@ def run():
         tell("progress", phase="rotating", step=step, time=0.1 * step, progress=5 * step, eta_seconds=seconds * (1 - step / 20),
              particle_steps_per_second=1e6)
         if step % 10 == 0:
+            for name in ("picture.png", "picture-96.png"):
+                (FOLDER / name).write_bytes(DOT)
             snapshot(step // 10)
             checkpoint(step)
         if what == "stumbles" and step % 4 == 3:  # always a little further

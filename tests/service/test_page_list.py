@@ -18,6 +18,9 @@ def test_a_list_is_sorted_narrowed_and_changed_many_at_once(fake, browser):
         fake.until(job, lambda status: status["status"] == "running")
     browser.get(fake.url)
     until(browser, lambda b: jobs_shown(b) == slow + ended[::-1])  # running, then waiting in their turn, then what has ended
+    places = until(browser, lambda b: [find(b, f"#job-{job} .place").text for job in slow[2:]])
+    assert [place[:12] for place in places] == ["1. in line, ", "2. in line, "] and "expected" in places[0]
+    until(browser, lambda b: b.execute_script("return document.querySelector(arguments[0]).naturalWidth", f"#job-{ended[0]} .thumb img") == 1)
     find(browser, "#narrow summary").click()
     find(browser, "#filters").find_element(By.XPATH, ".//label[contains(., 'seed')]/input").click()
     until(browser, lambda b: cells(b, "seed")[-3:] == ["13", "12", "11"])

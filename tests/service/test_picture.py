@@ -63,6 +63,8 @@ def test_a_picture_is_sent_in_two_sizes_and_a_job_without_one_says_so(daemon):
         assert answer.content[:8] == b"\x89PNG\r\n\x1a\n" and answer.content[16:24] == width.to_bytes(4, "big") * 2
         again = daemon.get(f"/jobs/{job}/picture.png{query}", headers={"If-None-Match": answer.headers["ETag"]})
         assert again.status_code == 304 and "inline" in answer.headers["Content-Disposition"]
+    links = [{link["rel"]: link["href"] for link in daemon.job(one)["links"] if link["type"] != "application/x-hdf5"} for one in (job, granule)]
+    assert all(daemon.get(links[0][rel]).status_code == 200 for rel in ("picture", "frames", "fields")) and not {"picture", "frames", "fields"} & set(links[1])
     none = daemon.get(f"/jobs/{granule}/picture.png?width=96")
     assert none.status_code == 404 and re.search("has no picture-96.png; it is there some seconds after the start.* a granule has none", none.json()["detail"])
     assert daemon.get(f"/jobs/{job}/picture.png?width=97").status_code == 400
