@@ -11,6 +11,7 @@
 
 #define LONG_JOB 3600.0 /* s: nobody waits for it */
 #define MANY_SNAPSHOT_BYTES 2e10
+#define EVERY_MACHINE_HAS 1e8 /* bytes of memory: a job that needs less does not ask the system, ten thousand times for a study */
 
 /* In two units, of which the second is rounded; what is shorter than a minute in one. */
 void time_in_words(double seconds, char text[TIME_IN_WORDS_SIZE])
@@ -37,11 +38,19 @@ static const spec_field *input(const job_spec *spec, const char *name)
     return spec_field_find(spec->type->inputs, SPEC_INPUTS, name);
 }
 
+static void warn_of_memory(double bytes, problem_list *warnings)
+{
+    if (!(bytes > EVERY_MACHINE_HAS)) return;
+    const double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
+    if (memory > 0.0 && bytes > memory)
+        problem_list_add(warnings, "/inputs", "need about %.3g GB of memory, but this machine has %.3g GB", 1e-9 * bytes,
+                         1e-9 * memory);
+}
+
 /* What the job asks of the machine. */
 static void warn_of_cost(const job_spec *spec, const calibration *machine, problem_list *warnings)
 {
     const job_estimate cost = job_spec_estimate(spec, machine);
-    const double memory = (double)sysconf(_SC_PHYS_PAGES) * (double)sysconf(_SC_PAGESIZE);
     const int cores = machine ? machine->cores : calibration_built_in().cores;
     char words[TIME_IN_WORDS_SIZE];
     time_in_words(cost.wall_seconds, words);
@@ -51,9 +60,7 @@ static void warn_of_cost(const job_spec *spec, const calibration *machine, probl
     if (cost.wall_seconds > LONG_JOB)
         problem_list_add(warnings, input(spec, "duration") ? "/inputs/duration" : "/inputs",
                          "makes about %.3g steps, which take about %s on this machine", cost.steps, words);
-    if (memory > 0.0 && cost.memory_bytes > memory)
-        problem_list_add(warnings, "/inputs", "need about %.3g GB of memory, but this machine has %.3g GB",
-                         1e-9 * cost.memory_bytes, 1e-9 * memory);
+    warn_of_memory(cost.memory_bytes, warnings);
     if (cost.snapshot_bytes > MANY_SNAPSHOT_BYTES)
         problem_list_add(warnings, "/inputs/snapshots/interval", "makes %.0f snapshots, about %.3g GB in all", cost.snapshots,
                          1e-9 * cost.snapshot_bytes);

@@ -16,6 +16,7 @@
 /* s of processor time, ten times what ten thousand usual jobs take; and how long to look for more when something is wrong. */
 #define MOST_SECONDS 60.0
 #define MOST_SECONDS_OF_WRONG 5.0
+#define SECONDS_BETWEEN_LOOKS 0.01
 
 enum { ENOUGH_PROBLEMS = 100, LONG_POINTER = 2 * JSON_POINTER_SIZE };
 
@@ -122,8 +123,9 @@ typedef struct checking {
     start_source source; /* the study's own, with a memory */
     study_estimate *estimate;
     told wrong, unusual;
-    double started; /* s of this thread's processor time */
-    bool refused;   /* by the taker, or its client has left */
+    double started;   /* s of this thread's processor time */
+    double next_look; /* at that and at its client, by the clock */
+    bool refused;     /* by the taker, or its client has left */
 } checking;
 
 /* The repeats of a case that was read with the seed of the last. */
@@ -185,10 +187,23 @@ static double processor_seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
+/* Both looks are calls of the system, and ten thousand of them are felt. */
+static bool is_time_to_look(checking *check)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC_COARSE, &now);
+    const double seconds = (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    if (seconds < check->next_look) return false;
+    check->next_look = seconds + SECONDS_BETWEEN_LOOKS;
+    return true;
+}
+
 static bool goes_on(checking *check)
 {
-    if (check->taker && client_has_left(check->taker->client)) check->refused = true;
     if (check->refused || json_array_size(check->wrong.all->errors) >= ENOUGH_PROBLEMS) return false;
+    if (!is_time_to_look(check)) return true;
+    if (check->taker && client_has_left(check->taker->client)) check->refused = true;
+    if (check->refused) return false;
     const double limit = problem_list_is_empty(check->wrong.all) ? MOST_SECONDS : MOST_SECONDS_OF_WRONG;
     if (processor_seconds() - check->started < limit) return true;
     if (limit == MOST_SECONDS)

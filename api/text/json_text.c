@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "json_writer.h"
 #include "text_buffer.h"
 
 /* What of a number is shown in a message. */
@@ -101,6 +102,7 @@ static void write_real(text_buffer *out, double number)
 {
     char text[40];
     int digits = 15;
+    if (json_write_short(out, number)) return;
     do snprintf(text, sizeof text, "%.*g", digits, number);
     while (strtod(text, NULL) != number && ++digits <= 17);
     text_buffer_add(out, text, strlen(text));

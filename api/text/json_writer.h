@@ -13,6 +13,8 @@ bool json_write(text_buffer *out, const json_t *value);
 
 void json_write_string(text_buffer *out, const char *text);
 void json_write_real(text_buffer *out, double number); /* of a finite number, as it is read back: with a point or an exponent */
+/* Only a number of few decimal places, as most that people give are; false: it is not one, and nothing was written. */
+bool json_write_short(text_buffer *out, double number);
 void json_write_integer(text_buffer *out, int64_t number);
 
 #endif

@@ -47,14 +47,34 @@ static store_status visit_tables(study_stage *stage, table_visitor *visit, void 
 
 /* --- a database with the same tables --- */
 
+/* Of the table the columns alone, their defaults and the number that its rows are in order of: what else it demands of a row is
+ * looked at when the row is copied. */
+static bool write_definition(sqlite3 *reader, const char *table, text_buffer *sql)
+{
+    sqlite3_stmt *row =
+        sql_prepare(reader,
+                    "SELECT name, CASE WHEN pk=1 AND type='INTEGER' AND (SELECT max(pk) FROM pragma_table_info(?1))=1"
+                    " THEN ' INTEGER PRIMARY KEY' ELSE coalesce(' DEFAULT ('||dflt_value||')','') END"
+                    " FROM pragma_table_info(?1)",
+                    "t", table);
+    int columns = 0;
+    text_buffer_print(sql, "CREATE TABLE %s(", table);
+    for (; row && sqlite3_step(row) == SQLITE_ROW; columns++)
+        text_buffer_print(sql, "%s\"%s\"%s", columns ? "," : "", (const char *)sqlite3_column_text(row, 0),
+                          (const char *)sqlite3_column_text(row, 1));
+    text_buffer_print(sql, ")");
+    sqlite3_finalize(row);
+    return columns > 0 && !sql->failed;
+}
+
 static store_status copy_definition(study_stage *stage, const char *table, void *database)
 {
+    text_buffer sql;
+    text_buffer_init(&sql, 8192);
     sqlite3 *reader = store_borrow_reader(stage->store);
-    sqlite3_stmt *row = sql_prepare(reader, "SELECT sql FROM sqlite_schema WHERE type='table' AND name=?", "t", table);
-    bool good = row && sqlite3_step(row) == SQLITE_ROW
-                && sqlite3_exec(database, (const char *)sqlite3_column_text(row, 0), NULL, NULL, NULL) == SQLITE_OK;
-    sqlite3_finalize(row);
+    const bool good = write_definition(reader, table, &sql) && sqlite3_exec(database, sql.text, NULL, NULL, NULL) == SQLITE_OK;
     store_return_reader(stage->store, reader);
+    text_buffer_clear(&sql);
     return good ? STORE_OK : STORE_FAILED;
 }
 
@@ -280,7 +300,7 @@ static bool write_copy(study_stage *stage, const char *table, text_buffer *selec
     }
     sqlite3_finalize(row);
     const bool good = *columns > 0 && !sources.failed && !targets.failed && !values.failed;
-    if (good) text_buffer_print(select, "SELECT %s FROM %s ORDER BY 1", sources.text, table);
+    if (good) text_buffer_print(select, "SELECT %s FROM %s", sources.text, table);
     if (good) text_buffer_print(insert, "INSERT INTO %s(%s) VALUES(%s)", table, targets.text, values.text);
     text_buffer_clear(&sources);
     text_buffer_clear(&targets);

@@ -129,6 +129,39 @@ static void numbers_are_written_in_the_fewest_digits_that_read_back_the_same(voi
     }
 }
 
+/* As printf writes it with 15 digits, where these read back as the number, else with 16 or 17. */
+static void assert_digits(double number)
+{
+    char expected[48] = "";
+    json_t *document = json_real(number);
+    char *text = json_text_write(document);
+    for (int digits = 15; digits <= 17 && (digits == 15 || strtod(expected, NULL) != number); digits++)
+        snprintf(expected, sizeof expected, "%.*g", digits, number);
+    strcat(expected, strpbrk(expected, ".e") ? "\n" : ".0\n");
+    assert_string_equal(text, expected);
+    free(text);
+    json_decref(document);
+}
+
+static void numbers_of_any_size_have_the_digits_that_printf_gives_them(void **state)
+{
+    (void)state;
+    uint64_t chance = 1;
+    for (int k = 0; k < 20000; k++) {
+        chance = chance * 6364136223846793005u + 1442695040888963407u;
+        const double whole = (double)(chance >> 40), power = pow(10.0, (double)(chance % 41) - 20.0);
+        assert_digits(whole * power);
+        assert_digits(-whole / 10000.0);
+        assert_digits(nextafter(whole / 1000.0, 1e9));
+        assert_digits((double)(chance >> 13));
+    }
+    assert_digits(0.0);
+    assert_digits(1e15);
+    assert_digits(nextafter(1e15, 0.0));
+    assert_digits(1e-4);
+    assert_digits(nextafter(1e-4, 0.0));
+}
+
 /* The library's own writer is the oracle; only reals differ. */
 static void texts_are_escaped_and_indented_as_the_library_does(void **state)
 {
@@ -150,4 +183,5 @@ static void texts_are_escaped_and_indented_as_the_library_does(void **state)
 
 UNIT_TESTS(texts_are_escaped_and_indented_as_the_library_does, a_number_that_would_turn_into_0_is_refused,
            a_message_holds_no_byte_that_was_not_sent, bodies_are_read_by_their_length, digits_inside_a_text_are_no_numbers,
-           numbers_are_written_in_the_fewest_digits_that_read_back_the_same)
+           numbers_are_written_in_the_fewest_digits_that_read_back_the_same,
+           numbers_of_any_size_have_the_digits_that_printf_gives_them)
