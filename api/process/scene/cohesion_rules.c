@@ -217,8 +217,7 @@ double cohesion_complete(const scene_inputs *inputs, const collision *worst, dou
     double gap = 0.0, at_rest = 0.0;
     for (size_t a = 0; scene->contact.cohesion_law && inputs->species_count && a < scene->species_count; a++)
         for (size_t b = 0; b < DEM_MAXIMUM_SPECIES + DEM_SURFACES; b++) {
-            const bool is_species = b < DEM_MAXIMUM_SPECIES;
-            if (is_species ? b >= scene->species_count : !surface_is_there(scene, (dem_surface)(b - DEM_MAXIMUM_SPECIES))) continue;
+            if (!partner_is_there(scene, b)) continue;
             const cohesive_contact c = contact_between(scene, a, b);
             if (!(c.cohesion.strength > 0)) continue;
             const double rest = overlap_at_rest(&c, scene);

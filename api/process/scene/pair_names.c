@@ -28,6 +28,12 @@ bool surface_is_there(const dem_scene_definition *scene, dem_surface surface)
     }
 }
 
+bool partner_is_there(const dem_scene_definition *scene, size_t partner)
+{
+    return partner < DEM_MAXIMUM_SPECIES ? partner < scene->species_count
+                                         : surface_is_there(scene, (dem_surface)(partner - DEM_MAXIMUM_SPECIES));
+}
+
 bool is_surface_name(const char *name)
 {
     for (size_t k = 0; k < SURFACE_NAMES; k++)

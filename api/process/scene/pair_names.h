@@ -7,6 +7,8 @@
 enum { NO_PARTNER = -1 };
 
 bool surface_is_there(const dem_scene_definition *scene, dem_surface surface);
+/* A column of dem_scene_definition's pairs: a species, or a surface behind the largest number of species. */
+bool partner_is_there(const dem_scene_definition *scene, size_t partner);
 /* Of any container: no material may be called so. */
 bool is_surface_name(const char *name);
 /* NO_PARTNER: nobody has the name. */

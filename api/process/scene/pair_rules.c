@@ -274,32 +274,54 @@ static double step_of(const dem_pair *p, const collision *worst, const bodies *b
     return dem_latching_time_step(p->stiffness, twice, e);
 }
 
-/* Largest overlap and shortest step of all pairs that can touch. */
-typedef struct outcome {
-    double overlap, time_step; /* m, s */
-} outcome;
-
-static void add_outcome(outcome *all, const dem_scene_definition *scene, const collision *worst, size_t a, size_t partner)
+/* Latching springs between spheres need fewer than clusters, which several springs hold at once, and dashpots, unless they unload
+ * fast: core/NUMERICS.md, "Time step". */
+static double usual_steps_per_contact(const dem_scene_definition *scene, double restitution)
 {
-    const bool is_species = partner < DEM_MAXIMUM_SPECIES;
-    const bodies b = bodies_of(&scene->species[a], is_species ? &scene->species[partner] : NULL);
-    const dem_pair *p = &scene->pair[a][partner];
-    all->overlap = larger_of(all->overlap, overlap_of(p, worst, &b, scene->contact.law));
-    all->time_step = smaller_of(all->time_step, step_of(p, worst, &b, scene->contact.law));
+    const dem_contact_parameters *c = &scene->contact;
+    const bool is_slow = c->law == DEM_WALTON_BRAUN && c->rolling_law == DEM_EPSD && restitution >= 0.7;
+    return is_slow && !dem_has_clusters(scene->species, scene->species_count) ? 14.0 : DEM_STEPS_PER_CONTACT;
 }
 
-static void set_pairs(const scene_inputs *inputs, const collision *worst, dem_scene_definition *scene, outcome *all)
+static bodies bodies_of_pair(const dem_scene_definition *scene, size_t a, size_t partner)
+{
+    return bodies_of(&scene->species[a], partner < DEM_MAXIMUM_SPECIES ? &scene->species[partner] : NULL);
+}
+
+static void set_pairs(const scene_inputs *inputs, const collision *worst, dem_scene_definition *scene)
 {
     for (size_t a = 0; a < scene->species_count; a++) {
-        for (size_t b = 0; b < scene->species_count; b++) {
-            scene->pair[a][b] = pair_of_species(inputs, worst, scene, a, b);
-            add_outcome(all, scene, worst, a, b);
-        }
-        for (size_t s = 0; s < DEM_SURFACES; s++) {
+        for (size_t b = 0; b < scene->species_count; b++) scene->pair[a][b] = pair_of_species(inputs, worst, scene, a, b);
+        for (size_t s = 0; s < DEM_SURFACES; s++)
             scene->pair[a][DEM_MAXIMUM_SPECIES + s] = pair_with_surface(inputs, worst, scene, a, (dem_surface)s);
-            if (surface_is_there(scene, (dem_surface)s)) add_outcome(all, scene, worst, a, DEM_MAXIMUM_SPECIES + s);
-        }
     }
+}
+
+/* Of all pairs that can touch. */
+typedef struct outcome {
+    double overlap, time_step; /* m, the largest; s, the least at DEM_STEPS_PER_CONTACT */
+    double steps;              /* in the contact that is over soonest, so that each contact has as many as it usually takes */
+} outcome;
+
+static outcome outcome_of_pairs(const collision *worst, const dem_scene_definition *scene)
+{
+    const dem_contact_law law = scene->contact.law;
+    double step[DEM_MAXIMUM_SPECIES][DEM_MAXIMUM_SPECIES + DEM_SURFACES];
+    outcome all = { 0.0, INFINITY, 0.0 };
+    for (size_t a = 0; a < scene->species_count; a++)
+        for (size_t b = 0; b < DEM_MAXIMUM_SPECIES + DEM_SURFACES; b++) {
+            if (!partner_is_there(scene, b)) continue;
+            const bodies both = bodies_of_pair(scene, a, b);
+            step[a][b] = step_of(&scene->pair[a][b], worst, &both, law);
+            all.overlap = larger_of(all.overlap, overlap_of(&scene->pair[a][b], worst, &both, law));
+            all.time_step = smaller_of(all.time_step, step[a][b]);
+        }
+    for (size_t a = 0; a < scene->species_count; a++)
+        for (size_t b = 0; b < DEM_MAXIMUM_SPECIES + DEM_SURFACES; b++)
+            if (partner_is_there(scene, b))
+                all.steps =
+                    fmax(all.steps, usual_steps_per_contact(scene, scene->pair[a][b].restitution) * (all.time_step / step[a][b]));
+    return all;
 }
 
 /* Particles that are all alike keep the contact for all, which is faster. */
@@ -316,23 +338,25 @@ static void contact_of_one_species(dem_scene_definition *scene)
     c->particle = c->wall = p->elasticity[0];
 }
 
-double pairs_derive(const scene_inputs *inputs, const collision *worst, double overlap, dem_scene_definition *scene,
+double pairs_derive(const scene_inputs *inputs, const collision *worst, double *overlap, dem_scene_definition *scene,
                     problem_list *problems)
 {
     const bool is_hertzian = scene->contact.law == DEM_HERTZ_MINDLIN;
     check_pairs(inputs, scene, problems);
     if (is_hertzian) check_moduli(inputs, problems);
-    if ((inputs->pair_count == 0 && !(is_hertzian && have_moduli(inputs))) || inputs->species_count == 0) return overlap;
+    if ((inputs->pair_count == 0 && !(is_hertzian && have_moduli(inputs))) || inputs->species_count == 0)
+        return usual_steps_per_contact(scene, scene->contact.restitution);
     scene->has_pairs = true;
-    outcome all = { 0.0, INFINITY };
-    set_pairs(inputs, worst, scene, &all);
-    if (all.overlap > MOST_OVERLAP * worst->smallest)
+    set_pairs(inputs, worst, scene);
+    const outcome all = outcome_of_pairs(worst, scene);
+    *overlap = all.overlap / worst->smallest;
+    if (*overlap > MOST_OVERLAP)
         problem_list_add(
             problems, is_hertzian ? "/inputs/materials" : "/inputs/pairs",
             "have contacts so soft that overlaps would reach %.3g of the smallest diameter; must stay below %g: give a "
             "larger %s",
-            all.overlap / worst->smallest, MOST_OVERLAP, is_hertzian ? "youngs_modulus" : "stiffness");
+            *overlap, MOST_OVERLAP, is_hertzian ? "youngs_modulus" : "stiffness");
     scene->time_step = all.time_step;
     if (scene->species_count == 1) contact_of_one_species(scene);
-    return all.overlap / worst->smallest;
+    return all.steps;
 }

@@ -27,9 +27,10 @@ void materials_complete(scene_inputs *inputs, problem_list *problems);
 double material_density(const scene_inputs *inputs, const species_inputs *species);
 
 /* Each pair's contact, once `scene` has the contact of those that nothing is said of, and its time step; the step becomes the least
- * that any pair needs. overlap: the largest expected, as a share of the smallest diameter, without pairs. Returns the same with
- * them. */
-double pairs_derive(const scene_inputs *inputs, const collision *worst, double overlap, dem_scene_definition *scene,
+ * that any pair needs at DEM_STEPS_PER_CONTACT. overlap: the largest expected, as a share of the smallest diameter, without pairs;
+ * becomes the same with them. Returns the number of steps that the contact which is over soonest usually takes; where others unload
+ * faster, so many that these have theirs. */
+double pairs_derive(const scene_inputs *inputs, const collision *worst, double *overlap, dem_scene_definition *scene,
                     problem_list *problems);
 
 #endif

@@ -150,8 +150,9 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
     { SPEC_CONTACT, "poissons_ratio", FIELD_REAL, .unit = "", RANGE(0.0, 0.5), .fallback = 0.3, AT(poissons_ratio), \
       .meaning = "of particles and wall; used by hertz-mindlin alone" }, \
     { SPEC_CONTACT, "steps_per_contact", FIELD_REAL, .unit = "", RANGE(10.0, 200.0), .fallback = NAN, AT(steps_per_contact), \
-      .meaning = "time steps in a collision of the two lightest particles, which the time step follows from. Default: 14 for " \
-                 "spheres of walton-braun and epsd whose restitution is 0.7 or more, else 20" }
+      .meaning = "time steps in a collision of the two lightest particles, or with pairs in that which is over soonest, which " \
+                 "the time step follows from. Default: 14 for spheres of walton-braun and epsd whose restitution is 0.7 or " \
+                 "more, else 20; with pairs, as many as give each pair its own number" }
 
 #define FIELDS_OF_MATERIALS \
     { SPEC_INPUTS, "materials", FIELD_NAMED_LIST, SPEC_MATERIALS, RANGE(0, MOST_MATERIALS), AT(materials), \

@@ -238,23 +238,6 @@ static double fastest_meeting(const start_inputs *start)
     return first + second;
 }
 
-static double least_of_pairs(const dem_scene_definition *scene)
-{
-    double least = scene->contact.restitution;
-    for (size_t a = 0; scene->has_pairs && a < scene->species_count; a++)
-        for (size_t b = 0; b < DEM_MAXIMUM_SPECIES + DEM_SURFACES; b++)
-            if (scene->pair[a][b].restitution > 0.0) least = fmin(least, scene->pair[a][b].restitution);
-    return least;
-}
-
-/* Latching springs between spheres need fewer than clusters, which several springs hold at once, and dashpots, unless they unload
- * fast: core/NUMERICS.md, "Time step". */
-static double usual_steps_per_contact(dem_contact_law law, const dem_scene_definition *scene)
-{
-    const bool is_slow = law == DEM_WALTON_BRAUN && scene->contact.rolling_law == DEM_EPSD && least_of_pairs(scene) >= 0.7;
-    return is_slow && !dem_has_clusters(scene->species, scene->species_count) ? 14.0 : DEM_STEPS_PER_CONTACT;
-}
-
 double scene_derive_contact(scene_inputs *inputs, double impact_speed, dem_scene_definition *scene, problem_list *problems)
 {
     const dem_contact_law law =
@@ -291,10 +274,10 @@ double scene_derive_contact(scene_inputs *inputs, double impact_speed, dem_scene
                          "is %g Pa, but this law takes stiffness (N/m) or "
                          "maximum_overlap; youngs_modulus is for hertz-mindlin",
                          inputs->youngs_modulus);
-    const double overlap = (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
-    const double with_pairs = pairs_derive(inputs, &worst, overlap, scene, problems);
-    const double largest = cohesion_complete(inputs, &worst, with_pairs, scene, problems);
-    if (isnan(inputs->steps_per_contact)) inputs->steps_per_contact = usual_steps_per_contact(law, scene);
+    double overlap = (law == DEM_HERTZ_MINDLIN ? derive_hertzian : derive_linear)(inputs, &worst, scene, problems);
+    const double usual_steps = pairs_derive(inputs, &worst, &overlap, scene, problems);
+    const double largest = cohesion_complete(inputs, &worst, overlap, scene, problems);
+    if (isnan(inputs->steps_per_contact)) inputs->steps_per_contact = usual_steps;
     scene->time_step *= DEM_STEPS_PER_CONTACT / inputs->steps_per_contact;
     return largest;
 }

@@ -37,9 +37,59 @@ static void a_pair_says_what_differs_either_way_round_and_the_rest_stays(void **
     /* the wall is of steel: glass meets it as it meets steel, but for what is said of the wall itself; steel as steel */
     assert_true(wall->friction == 0.33 && wall->stiffness == 20000 && wall->restitution == 0.5);
     assert_true(steel->friction == 0.11 && steel->stiffness == 9000);
-    /* K1 20000, of a steel sphere of 4 mm against one of glass of 5 mm; e 0.5 to the wall is not shorter: 1.5/1.7 of it at twice the mass */
-    const double m_1 = dem_sphere_mass(0.005, 2500), m_2 = dem_sphere_mass(0.004, 7800), m = m_1 * m_2 / (m_1 + m_2);
-    assert_true(fabs(d->time_step / (DEM_PI / 2 * sqrt(m / 20000) * 1.7 / 20) - 1) < 1e-12);
+    job_spec_clear(&spec);
+}
+
+/* s, t_c of latching springs: a quarter of a swing by K1, and one by K1/e^2. */
+static double contact_duration(double mass, double stiffness, double restitution)
+{
+    return DEM_PI / 2 * sqrt(mass / stiffness) * (1 + restitution);
+}
+
+static void each_pair_has_the_steps_that_its_own_restitution_needs(void **state)
+{
+    (void)state;
+    const double glass = dem_sphere_mass(0.005, 2500), steel = dem_sphere_mass(0.004, 7800),
+                 unlike = glass * steel / (glass + steel);
+    const double least = contact_duration(0.5 * glass, 9000, 0.8); /* of what touches at 9000 N/m, at 0.8 */
+    const struct {
+        const char *pairs;
+        double step; /* s */
+    } cases[] = {
+        { "{\"between\": [\"glass\", \"steel\"], \"friction\": 0.3}", least / 14 },
+        /* the wall is met by twice the mass, for sqrt(2) 1.6/1.8 of the time, 20 steps of which are 0.88 of that */
+        { "{\"between\": [\"glass\", \"wall\"], \"restitution\": 0.6}", contact_duration(glass, 9000, 0.6) / 20 },
+        { "{\"between\": [\"glass\", \"wall\"], \"restitution\": 0.6, \"stiffness\": 5000}", least / 14 },
+        { "{\"between\": [\"steel\", \"wall\"], \"restitution\": 0.65}", least / 14 },
+        { "{\"between\": [\"glass\", \"glass\"], \"restitution\": 0.6}", contact_duration(0.5 * glass, 9000, 0.6) / 20 },
+        { "{\"between\": [\"glass\", \"steel\"], \"restitution\": 0.3, \"stiffness\": 20000}",
+          contact_duration(unlike, 20000, 0.3) / 20 },
+        { "{\"between\": [\"glass\", \"steel\"], \"restitution\": 0.3, \"stiffness\": 2000}", least / 14 },
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char inputs[800];
+        snprintf(inputs, sizeof inputs,
+                 "{" TWO_MATERIALS ", \"contact\": {\"restitution\": 0.8, \"stiffness\": 9000}, \"pairs\": [%s]}", cases[k].pairs);
+        job_spec spec = parse_or_fail(request_with(inputs));
+        assert_true(fabs(spec.scene.time_step / cases[k].step - 1) < 1e-12);
+        char *text = job_spec_to_text(&spec); /* which says the number of steps, and must mean the same to the bit */
+        job_spec same = parse_or_fail(load(text));
+        assert_true(same.scene.time_step == spec.scene.time_step);
+        free(text);
+        job_spec_clear(&same);
+        job_spec_clear(&spec);
+    }
+}
+
+static void what_no_two_bodies_have_sets_no_step(void **state)
+{
+    (void)state; /* all pairs say more than the contact of the rest, which nothing is left of */
+    job_spec spec = parse_or_fail(request_with(
+        "{\"materials\": {\"glass\": {\"density\": 2500}}, \"particles\": [{\"diameter\": 0.005, \"material\": \"glass\"}], "
+        "\"contact\": {\"restitution\": 0.3, \"stiffness\": 9000}, \"pairs\": [{\"between\": [\"glass\", \"glass\"], "
+        "\"restitution\": 0.9}, {\"between\": [\"glass\", \"wall\"], \"restitution\": 0.9}]}"));
+    assert_true(spec.inputs.steps_per_contact == 14);
+    assert_true(fabs(spec.scene.time_step / (contact_duration(0.5 * dem_sphere_mass(0.005, 2500), 9000, 0.9) / 14) - 1) < 1e-12);
     job_spec_clear(&spec);
 }
 
@@ -114,6 +164,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(without_pairs_materials_are_densities_alone),
         cmocka_unit_test(a_pair_says_what_differs_either_way_round_and_the_rest_stays),
+        cmocka_unit_test(each_pair_has_the_steps_that_its_own_restitution_needs),
+        cmocka_unit_test(what_no_two_bodies_have_sets_no_step),
         cmocka_unit_test(moduli_are_those_of_the_two_materials),
         cmocka_unit_test(each_pair_of_other_restitution_has_a_slope_of_its_own),
         cmocka_unit_test(wrong_names_are_told_with_those_there_are),
