@@ -76,7 +76,7 @@ export function showFiles(box, job, frames) {
   const path = jobPath(job.jobID), { series } = viewOf(job.processID);
   const links = [job.status === 'successful' ? ['results', 'Results (JSON)'] : null, ['spec', 'Spec (JSON)'], ['log', 'Log'],
     series ? ['samples', 'Samples (JSON)'] : null, series ? ['samples?format=csv', 'Samples (CSV)'] : null,
-    ...['fields', 'picture', 'frames', 'walls', 'series', 'archive'].map(rel => job.links?.some(link => link.rel === rel) ? LINKED[rel] : null)].filter(Boolean);
+    ...['fields', 'picture', 'frames', 'walls', 'series', 'tracers', 'archive'].map(rel => job.links?.some(link => link.rel === rel) ? LINKED[rel] : null)].filter(Boolean);
   replaceIfChanged(box, [job.status, frames.length], () => [
     h('ul', { class: 'links' }, links.map(([name, words]) => h('li', null, fileLink(`${path}/${name}`, words)))),
     frames.length ? h('details', { class: 'snapshots' }, h('summary', null, `Snapshots (HDF5, for ParaView): ${count(frames.length)}`),
@@ -84,7 +84,7 @@ export function showFiles(box, job, frames) {
       h('ul', null, frames.slice(-SNAPSHOTS_SHOWN).map(({ name, time, size }) => h('li', null, fileLink(`${path}/snapshots/${name}.hdf`, `${name}.hdf`), ` at ${significant(time)} s, ${bytes(size)}`)))) : null]);
 }
 
-const LINKED = { fields: ['fields.hdf', 'Fields (HDF5)'], picture: ['picture.png', 'Picture (PNG)'], frames: ['frames.bin', 'Frames of the bed (api/FRAMES.md)'], walls: ['walls.vtp', 'Walls (VTK)'], series: ['snapshots.hdf.series', 'Series for ParaView'], archive: ['files.tar', 'All files (tar)'] };
+const LINKED = { fields: ['fields.hdf', 'Fields (HDF5)'], picture: ['picture.png', 'Picture (PNG)'], frames: ['frames.bin', 'Frames of the bed (api/FRAMES.md)'], walls: ['walls.vtp', 'Walls (VTK)'], series: ['snapshots.hdf.series', 'Series for ParaView'], tracers: ['tracers.csv', 'Paths of tracers (CSV)'], archive: ['files.tar', 'All files (tar)'] };
 
 // As a word of a shell.
 const quoted = text => `'${text.replaceAll("'", "'\\''")}'`;

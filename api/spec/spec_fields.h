@@ -103,7 +103,7 @@ typedef struct spec_field {
     const char *column; /* of the table <process>_input; NULL: none */
     input_column column_kind;
     size_t column_at;     /* of the number in the job_spec */
-    bool column_may_miss; /* where it is NaN, the column is null */
+    bool column_may_miss; /* where it is NaN, or a count is 0, the column is null */
     int in_view;          /* the place among the columns of run_summary; 0: not there */
     bool is_listed;       /* a member of a job's summary */
 

@@ -39,6 +39,13 @@ json_t *link_to(const char *rel, const char *type, const char *href)
 
 #define WRITE(out, literal) text_buffer_add(out, literal, sizeof literal - 1)
 
+static bool summary_has(const job_record *job, const char *name)
+{
+    for (size_t i = 0; i < job->summary_count; i++)
+        if (strcmp(job->summary[i].name, name) == 0) return true;
+    return false;
+}
+
 static void write_links(text_buffer *out, const job_record *job, const char *base)
 {
     static const struct {
@@ -47,6 +54,7 @@ static void write_links(text_buffer *out, const job_record *job, const char *bas
         bool is_of_run;      /* there soon after the job has begun */
         const char *process; /* of this one alone; NULL: of all */
         const char *but;     /* not of this one */
+        const char *with;    /* of jobs whose summary has this alone; NULL: of all */
     } links[] = {
         { "self", "application/json", .end = "" },
         { "http://www.opengis.net/def/rel/ogc/1.0/results", "application/json", .end = "/results", .is_result = true },
@@ -62,6 +70,8 @@ static void write_links(text_buffer *out, const job_record *job, const char *bas
         { "fields", "application/json", .end = "/fields.json", .is_result = true, .process = "orifice" },
         { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "drum" },
         { "fields", "application/x-hdf5", .end = "/fields.hdf", .is_result = true, .process = "orifice" },
+        { "tracers", "text/csv", .end = "/tracers.csv", .is_result = true, .with = "tracers" },
+        { "tracers", "application/x-hdf5", .end = "/tracers.hdf", .is_result = true, .with = "tracers" },
         { "archive", "application/x-tar", .end = "/files.tar" },
     };
     char between = '[';
@@ -70,6 +80,7 @@ static void write_links(text_buffer *out, const job_record *job, const char *bas
         if (links[i].is_of_run && !job->started[0]) continue;
         if (links[i].process && strcmp(job->process, links[i].process) != 0) continue;
         if (links[i].but && strcmp(job->process, links[i].but) == 0) continue;
+        if (links[i].with && !summary_has(job, links[i].with)) continue;
         char href[LONGEST_BASE + 80];
         snprintf(href, sizeof href, "%.*s/jobs/%s%s", LONGEST_BASE, base, job->id, links[i].end);
         text_buffer_add(out, &between, 1);

@@ -7,6 +7,7 @@ import numpy
 import pytest
 import requests
 
+from conftest import SPEC
 from worker_runs import events, run, small, start, wait_until, write_spec
 
 FOLLOWED = [3, 0, 90]
@@ -77,3 +78,14 @@ def test_tracers_that_are_no_particles_are_named_all_at_once(daemon):
     problems = {error["pointer"]: error["detail"] for error in answer.json()["errors"]}
     assert set(problems) == {"/inputs/tracers/1", "/inputs/tracers/2", "/inputs/tracers/3"}
     assert "whole" in problems["/inputs/tracers/1"] and "once" in problems["/inputs/tracers/2"] and "at most" in problems["/inputs/tracers/3"]
+
+
+def test_a_job_links_to_the_paths_that_it_has(daemon):
+    jobs = [daemon.submit(SPEC | more) for more in ({"tracers": [2, 0]}, {})]
+    assert all(daemon.ended(job)["status"] == "successful" for job in jobs)
+    links = [{link["type"]: link["href"] for link in daemon.job(job)["links"] if link["rel"] == "tracers"} for job in jobs]
+    listed = {job["jobID"]: job for job in daemon.get("/jobs").json()["jobs"]}
+    assert set(links[0]) == {"text/csv", "application/x-hdf5"} and not links[1]
+    assert all(daemon.get(href).headers["Content-Type"].startswith(kind) for kind, href in links[0].items())
+    assert [listed[job]["summary"].get("tracers") for job in jobs] == [2, None]
+    assert [len([link for link in listed[job]["links"] if link["rel"] == "tracers"]) for job in jobs] == [2, 0]

@@ -226,8 +226,9 @@ _Static_assert(sizeof share_choices / sizeof *share_choices == SHARE_BY_MASS + 2
       .meaning = "simulated time between measurements. Default: 0.05 s, less for fast drums and short runs" }, \
     { SPEC_INPUTS, "tracers", FIELD_NUMBERS, .unit = "", RANGE(0, SCENE_MOST_PARTICLES - 1), .least_entries = 1, \
       .most_entries = MOST_TRACERS, .fallback = NAN, AT(tracer), .count_offset = offsetof(scene_inputs, tracer_count), ACTS_LATER, \
+      COLUMN("tracers", COUNT, inputs.tracer_count), .column_may_miss = true, LISTED, \
       .meaning = "particles, counted from 0 in the order of the species, whose paths are written: place, velocity and angular " \
-                 "velocity with each sample, in tracers.csv and tracers.hdf" }, \
+                 "velocity with each sample, in tracers.csv and tracers.hdf. The column has their number" }, \
  \
     { SPEC_INPUTS, "seed", FIELD_INTEGER, .unit = "", RANGE(0, (double)LARGEST_WHOLE_NUMBER), .fallback = NAN, AT(seed), \
       COLUMN("seed", WHOLE, inputs.seed), LISTED, IN_VIEW(320), \

@@ -302,7 +302,10 @@ static void bind_input(sqlite3_stmt *statement, int index, const spec_field *fie
     const char *place = (const char *)spec + field->column_at;
     const double number = field->column_kind == COLUMN_COUNT ? NAN : *(const double *)place;
     switch (field->column_kind) {
-    case COLUMN_COUNT: sqlite3_bind_int64(statement, index, (int64_t) * (const size_t *)place); break;
+    case COLUMN_COUNT:
+        if (field->column_may_miss && *(const size_t *)place == 0) sqlite3_bind_null(statement, index);
+        else sqlite3_bind_int64(statement, index, (int64_t) * (const size_t *)place);
+        break;
     case COLUMN_WHOLE: sqlite3_bind_int64(statement, index, (int64_t)number); break;
     case COLUMN_WORD: sqlite3_bind_text(statement, index, word_of(spec->type->inputs, field, number), -1, SQLITE_STATIC); break;
     default: sqlite3_bind_double(statement, index, number); /* NaN binds NULL */
