@@ -290,8 +290,8 @@ int main(int argc, char **argv)
     announce(&all);
     calibrator_start(all.settings.worker, all.data.path);
     dispatcher_run(&all.dispatcher, leave);
+    http_server_stop(&all.server); /* first: requests wake what is stopped next */
     planner_stop(all.planner);
-    http_server_stop(&all.server);
     folder_remover_stop(&all.remover);
     callback_sender_stop(all.callbacks);
     dispatcher_clear(&all.dispatcher);

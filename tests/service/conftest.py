@@ -110,6 +110,7 @@ class Daemon:
         self.process.send_signal(how)
         code = self.process.wait(seconds)
         self.process.stdout.close()
+        assert code >= 0 or code == -how, f"ended by signal {-code}, which nobody sent\n{self.log()}"
         return code
 
     def is_running(self):

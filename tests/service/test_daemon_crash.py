@@ -1,4 +1,5 @@
 """kill -9 of a worker or of the daemon in the middle of a job loses nothing."""
+import contextlib
 import fcntl
 import http.client
 import json
@@ -12,7 +13,7 @@ import time
 import pytest
 import requests
 
-from conftest import BUILD, FAKE_WORKER, ROOT, SPEC, run_daemon
+from conftest import BUILD, FAKE_WORKER, ROOT, SPEC, compiled_shim, run_daemon
 from test_damage import line_of
 
 # Long enough that a worker can be seen at work and killed: the first report of progress comes after a second.
@@ -174,6 +175,23 @@ def test_a_stop_ends_although_a_client_waits_and_a_worker_does_not_listen(fake):
     assert fake.stop() == 0
     assert time.monotonic() - start < 9  # 5 s of grace for the worker
     assert json.loads(waiting.getresponse().read())["status"] in ("running", "accepted")
+
+
+def test_a_stop_ends_well_whatever_is_asked_while_the_listening_socket_is_closed(tmp_path, monkeypatch):
+    """Of the threads that answer and the one that leaves, each may find it in an epoll set that another has taken it out of."""
+    monkeypatch.setenv("LD_PRELOAD", str(compiled_shim("late_epoll", tmp_path)))
+    for fake in run_daemon(tmp_path, worker=FAKE_WORKER):
+        clients = [http.client.HTTPConnection("127.0.0.1", fake.port, timeout=10) for _ in range(32)]
+        fake.job(fake.submit(fake="slow", seconds="60"))  # its worker is to be stopped, too
+        for client in clients:
+            client.connect()
+        fake.process.terminate()
+        while fake.is_running():
+            for client in clients:
+                with contextlib.suppress(OSError, http.client.HTTPException):
+                    client.request("GET", "/healthz")
+                    client.getresponse().read()
+        assert fake.process.returncode == 0, fake.log()
 
 
 def test_a_result_written_just_before_the_daemon_died_counts(fake):

@@ -1,15 +1,18 @@
 #include "http_server.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <netdb.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <time.h>
 #include <unistd.h>
 
+#include "http_panic.h"
 #include "http_reply.h"
 #include "log.h"
 #include "request_key.h"
@@ -371,7 +374,8 @@ bool http_server_open(http_server *server, const config *settings, api_service *
     server->service = service;
     if (!http_guard_init(&server->guard, settings)) return false;
     server->listener = open_listener(settings->host, settings->port);
-    if (server->listener < 0) return false;
+    server->nothing = eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
+    if (server->listener < 0 || server->nothing < 0) return false;
     server->port = port_of(server->listener);
     connection_watch_init(&server->watch, ENOUGH_CONNECTIONS, ADDRESS_CONNECTIONS);
     server->watch.most = MOST_CONNECTIONS;
@@ -391,6 +395,7 @@ static void allow_descriptors(void)
 bool http_server_start(http_server *server)
 {
     allow_descriptors();
+    http_panic_watch();
     if (!waiting_room_open(&server->room, server->service, &server->watch)) return false;
     if (!event_hub_open(&server->hub, server->service->store)) return false;
     server->daemon = MHD_start_daemon(
@@ -407,18 +412,29 @@ bool http_server_start(http_server *server)
     return false;
 }
 
+/* MHD_quiesce_daemon would be the library's way to stop listening, but it races with the library's own threads, and the process
+ * aborts when they come between. So the descriptor becomes another file, on which nothing ever happens: that closes the socket, and
+ * the kernel takes it out of every thread's epoll. */
+static void stop_listening(http_server *server)
+{
+    if (dup3(server->nothing, server->listener, O_CLOEXEC) < 0)
+        log_line("the listening socket can't be closed: %s", strerror(errno));
+    close(server->nothing);
+}
+
 void http_server_leave(http_server *server)
 {
+    http_panic_leaves();
     waiting_room_close(&server->room);
     event_hub_close(&server->hub);
-    const MHD_socket listener = MHD_quiesce_daemon(server->daemon);
-    if (listener != MHD_INVALID_SOCKET) close(listener);
+    stop_listening(server);
 }
 
 void http_server_stop(http_server *server)
 {
-    for (int ms = 0; ms < LAST_ANSWERS_MS && atomic_load(&server->under_way) > 0; ms += 10)
+    for (int ms = 0; ms < LAST_ANSWERS_MS && atomic_load(&server->under_way) > 0 && !http_panic_has_come(); ms += 10)
         nanosleep(&(struct timespec){ .tv_nsec = 10000000 }, NULL);
+    http_panic_may_end();
     MHD_stop_daemon(server->daemon);
     event_hub_clear(&server->hub);
     connection_watch_clear(&server->watch);

@@ -21,6 +21,7 @@ typedef struct http_server {
     event_hub hub;
     struct MHD_Daemon *daemon;
     int listener, port; /* the port that was opened */
+    int nothing;        /* a descriptor that is never ready */
 } http_server;
 
 /* Listens, but answers nobody yet. False: the problem is logged. */
