@@ -16,7 +16,7 @@ const SNAPSHOTS_SHOWN = 200;
 export function createDetail() {
   const parts = { reason: h('div'), about: h('div'), answer: h('div'), plot: h('div', { class: 'plot-box' }),
     results: h('div'), links: h('div') };
-  const element = h('div', { class: 'panel' },
+  const element = h('div', { class: 'panel' }, h('h2', { class: 'unseen' }, 'The job'),
     parts.reason, h('div', { class: 'first' }, parts.answer, parts.plot), parts.links, parts.results, parts.about);
   let series = null;
   let loading = false;

@@ -106,7 +106,7 @@ async function askForStudy(id) {
   byId('study').hidden = false;
   if (shown?.id !== id) {
     const view = createStudyView(data, description);
-    byId('study').replaceChildren(h('div', { id: 'head' }), view.plots, h('div', { id: 'links' }), view.table);
+    byId('study').replaceChildren(h('div', { id: 'head' }), view.plots, h('div', { id: 'links' }), view.table, view.shared);
     shown = { id, data, view };
   }
   replaceIfChanged(byId('head'), study, () => head(study));
@@ -125,7 +125,8 @@ function head(study) {
   const took = secondsBetween(study.started, study.finished);
   return [h('p', null, h('a', { href: '#' }, '← All studies')),
     h('div', { class: 'study-head' }, h('h1', null, study.name), h('span', null, state(study)),
-      hasEnded(study) ? null : h('button', { class: 'stop', onclick: () => stop(study) }, 'Cancel')),
+      hasEnded(study) ? null : h('button', { class: 'stop', onclick: () => stop(study) }, 'Cancel'),
+      h('button', { type: 'button', class: 'print', onclick: () => globalThis.print() }, 'Print')),
     h('p', { class: 'quiet' }, `${casesOf(study)}, ${study.repeats > 1 ? `each ${count(study.repeats)} times` : 'once'}; submitted ${clock(study.created)}`
       + (took === null ? '' : `, took ${duration(took)}`))];
 }

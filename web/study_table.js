@@ -21,7 +21,7 @@ function plain(mean, error) {
 }
 
 function angle(mean, error) {
-  if (!(error > 0)) return degrees(mean, error);
+  if (!(error > 0)) return degrees(mean);
   return `${plain(mean, error)}°`;
 }
 
@@ -66,8 +66,8 @@ function sorted(cases, { head, falls }) {
 }
 
 // cases: those of the study that are known, of which there are `all`; schemas: of the process's results; order: {head, falls,
-// page}; go(order): shows it otherwise; units: of inputs by their names.
-export function caseTable(cases, all, schemas, { order, go, units }) {
+// page}; go(order): shows it otherwise; units: of inputs by their names; isWhole: all rows at once.
+export function caseTable(cases, all, schemas, { order, go, units, isWhole = false }) {
   const inputs = named(cases, 'inputs'), labels = named(cases, 'label');
   const measures = measuresIn(cases, schemas);
   const words = WORDS.filter(([name]) => cases.some(one => one[name]));
@@ -76,16 +76,16 @@ export function caseTable(cases, all, schemas, { order, go, units }) {
     return h('th', { scope: 'col', class: kind, 'aria-sort': isIt ? order.falls ? 'descending' : 'ascending' : null },
       h('button', { type: 'button', class: 'sorter', onclick: () => go({ head: isIt && order.falls ? null : key, falls: isIt && !order.falls, page: 0 }) }, text));
   };
-  const pages = Math.ceil(cases.length / ROWS_SHOWN), page = Math.min(order.page, pages - 1), first = page * ROWS_SHOWN;
+  const pages = isWhole ? 1 : Math.ceil(cases.length / ROWS_SHOWN), shown = isWhole ? cases.length : ROWS_SHOWN, page = Math.min(order.page, pages - 1), first = page * shown;
   const table = h('table', { class: 'grid cases' },
     h('caption', { class: 'unseen' }, 'Cases, with means over their repeats and standard errors'),
     h('thead', null, h('tr', null, head('case', ['case']), inputs.map(name => head(units[name] ? `${name}, ${units[name]}` : name, ['inputs', name])),
       labels.map(name => head(name, ['label', name])), head('runs', ['runs']), words.map(([name]) => head(name, ['word', name])),
       measures.map(([name, heading]) => head(heading, ['measure', name], 'measure')))),
-    h('tbody', null, sorted(cases, order).slice(first, first + ROWS_SHOWN).map(one => row(one, inputs, labels, measures, words))));
+    h('tbody', null, sorted(cases, order).slice(first, first + shown).map(one => row(one, inputs, labels, measures, words))));
   const button = (text, to) => h('button', { type: 'button', onclick: () => go({ ...order, page: to }) }, text);
   const ways = pages <= 1 && cases.length === all ? null : h('nav', { class: 'pages', 'aria-label': 'Pages of the table' },
-    h('span', { class: 'range' }, `${count(first + 1)}–${count(Math.min(first + ROWS_SHOWN, cases.length))} of ${count(all)}${cases.length < all ? `; ${count(cases.length)} read so far` : ''}`),
+    h('span', { class: 'range' }, `${count(first + 1)}–${count(Math.min(first + shown, cases.length))} of ${count(all)}${cases.length < all ? `; ${count(cases.length)} read so far` : ''}`),
     page > 0 ? button('‹ Previous', page - 1) : null, page < pages - 1 ? button('Next ›', page + 1) : null);
   return [table, ways].filter(Boolean);
 }

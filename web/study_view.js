@@ -4,9 +4,11 @@ import { root } from './api.js';
 import { regimeMap } from './regime_map.js';
 import { caseTable, measuresIn, named } from './study_table.js';
 import { studyPlot } from './study_plot.js';
+import { showShared } from './study_sheet.js';
 
 const jobPage = id => `${root}web/job.html?id=${encodeURIComponent(id)}`;
 const NO = '–';
+const ON_PAPER = 660; // CSS pixels of an A4 sheet
 
 // {"contact/friction": "m"} of all inputs of a process.
 function unitsOf(inputs) {
@@ -20,13 +22,15 @@ function unitsOf(inputs) {
   return units;
 }
 
-export function createStudyView(data, { inputs, schemas }) {
+export function createStudyView(data, description) {
+  const { inputs, schemas } = description;
   const units = unitsOf(inputs);
   const choices = h('form', { class: 'plot-choices', onsubmit: event => event.preventDefault() }), drawn = h('div', { class: 'drawn' });
   const map = h('figure', { class: 'study-map', hidden: true });
   const plots = h('section', { class: 'study-plots', 'aria-label': 'Plot' }, choices, h('div', { class: 'study-drawings' }, drawn, map));
   const table = h('div', { id: 'cases', class: 'wide', tabindex: '0', role: 'group', 'aria-label': 'Table of cases' });
-  let study = null, order = { head: null, falls: false, page: 0 };
+  const shared = h('section', { class: 'shared' });
+  let study = null, isPaper = false, order = { head: null, falls: false, page: 0 };
 
   const known = () => data.cases.filter(Boolean);
   const chosen = () => new URLSearchParams(location.hash.split('&').slice(1).join('&'));
@@ -48,7 +52,7 @@ export function createStudyView(data, { inputs, schemas }) {
     const log = query.get('log') === 'yes';
     showChoices(varied, measures, others, { x, y: y?.[0], series, log });
     if (!y) drawn.replaceChildren(h('p', { class: 'quiet' }, 'No case has a result yet.'));
-    else drawn.replaceChildren(studyPlot(cases, data.runs(), { x, y: y[0], series, log, width: Math.max(300, Math.floor(drawn.clientWidth)),
+    else drawn.replaceChildren(studyPlot(cases, data.runs(), { x, y: y[0], series, log, width: isPaper ? ON_PAPER : Math.max(300, Math.floor(drawn.clientWidth)),
       titles: { x: x ? `${x}${units[x] ? `, ${units[x]}` : ''}` : 'case', y: y[3] ? `${y[1]}, ${y[3]}` : y[1] }, references: y[0] === 'angle_deg',
       hrefOf: ({ one, index }) => hrefOf(one, index), hrefOfRun: run => jobPage(run.id) }));
     drawMap();
@@ -83,11 +87,23 @@ export function createStudyView(data, { inputs, schemas }) {
   }
 
   function showTable() {
-    table.replaceChildren(...caseTable(known(), study.cases, schemas, { order, units, go: to => { order = to; showTable(); } }));
+    table.replaceChildren(...caseTable(known(), study.cases, schemas, { order, units, isWhole: isPaper, go: to => { order = to; showTable(); } }));
   }
+  // On paper all rows, and the plot as wide as the sheet leaves it.
+  const turn = to => () => {
+    isPaper = to;
+    if (study) { showTable(); draw(); }
+  };
+  addEventListener('beforeprint', turn(true));
+  addEventListener('afterprint', turn(false));
   let width = 0;
   new ResizeObserver(() => {
     if (study && Math.abs(drawn.clientWidth - width) > 8) { width = drawn.clientWidth; draw(); }
   }).observe(drawn);
-  return { plots, table, show: now => { study = now; showTable(); draw(); } };
+  return { plots, table, shared, show: now => {
+    study = now;
+    showTable();
+    draw();
+    showShared(shared, data.id, named(known(), 'inputs'), description).catch(() => {}); // the next poll tells what is wrong
+  } };
 }

@@ -1,17 +1,16 @@
 """The page of one job in a real browser: bed and curve on one clock, and everything that is known of the job."""
-import functools
 import hashlib
 import json
 import math
 import re
-import shutil
 import subprocess
 
 import pytest
-from conftest import BUILD, ROOT, SPEC
+from conftest import ROOT, SPEC
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from selenium.webdriver.support.ui import Select
+from accessibility import violations
 from test_page import HOSTILE, find, find_all, scrolls_sideways, until, use_phone
 from test_page_paper import printed_pages
 
@@ -20,28 +19,8 @@ PIXELS = """const canvas = document.querySelector(arguments[0]);
 if (!canvas) return [0, 0];
 const data = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data;
 const colors = new Set(); let sum = 0;
-for (let k = 0; k < data.length; k += 4) { colors.add(data[k] << 16 | data[k + 1] << 8 | data[k + 2]); sum = (31 * sum + data[k] + 3 * data[k + 1] + 7 * data[k + 2]) % 1e9; }
+for (let k = 0; k < data.length; k += 4 * 7) { colors.add(data[k] << 16 | data[k + 1] << 8 | data[k + 2]); sum = (31 * sum + data[k] + 3 * data[k + 1] + 7 * data[k + 2]) % 1e9; }
 return [colors.size, sum];"""
-
-
-@functools.cache
-def axe():
-    """The checker of accessibility, fetched once from npm into build/npm; "" where that can't be had."""
-    folder = BUILD.absolute() / "npm" / "axe"
-    script = folder / "node_modules/axe-core/axe.min.js"
-    if not script.exists() and shutil.which("npm"):
-        folder.mkdir(parents=True, exist_ok=True)
-        (folder / "package.json").write_text('{"name": "axe", "private": true}')
-        subprocess.run(["npm", "install", "--no-audit", "--no-fund", "--ignore-scripts", "axe-core@4.14.1"], cwd=folder, capture_output=True, timeout=120)
-    return script.read_text() if script.exists() else ""
-
-
-def violations(browser):
-    if not axe():
-        return []
-    browser.execute_script(axe())
-    found = browser.execute_async_script("axe.run().then(arguments[0])")["violations"]
-    return [(one["id"], [node["html"][:200] for node in one["nodes"]]) for one in found]
 
 
 def pixels(browser, canvas=".bed"):
