@@ -395,13 +395,13 @@ def test_the_material_is_written_for_people_and_for_other_programs():
 
     def numbers_after(program, words):
         return [float(number) for number in re.findall(r"-?\d[\d.]*(?:e[-+]?\d+)?", snippets[program]["text"].split(words, 1)[1])]
-    # k_n, e; k_t, damping as here half the normal one's, mu; then k_roll, no dashpot, mu_r.
-    assert numbers_after("lammps", "hooke")[:5] == pytest.approx([1000, 0.8, 500, 0.5, 0.4])
     assert numbers_after("lammps", "rolling sds")[:3] == pytest.approx([500, 0, rolling])
     # A dashpot of m_eff gamma that leaves 0.8 of the velocity after half a period (any textbook's damped oscillator).
     mass, loss = 2500 * math.pi * 0.004 ** 3 / 6, -math.log(0.8)
     gamma = 2 * loss / math.sqrt(math.pi ** 2 + loss ** 2) * math.sqrt(1000 / (mass / 2))
     assert numbers_after("liggghts", "gamman peratomtypepair 1")[0] == pytest.approx(gamma, rel=1e-6)
+    # k_n, damping; k_t, damping as here half the normal one's, mu; then k_roll, no dashpot, mu_r.
+    assert numbers_after("lammps", "hooke")[:5] == pytest.approx([1000, gamma, 500, 0.5, 0.4], rel=1e-6)
     assert "rolling_friction epsd2" in snippets["liggghts"]["text"]
     assert numbers_after("mercurydpm", "setRollingFrictionCoefficient")[0] == pytest.approx(rolling / 2)
     assert numbers_after("yade", "young=")[0] == pytest.approx(1000 / 0.002) and numbers_after("yade", "etaRoll=")[0] == pytest.approx(rolling / 2)

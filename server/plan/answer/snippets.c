@@ -3,7 +3,7 @@
  * else there is converted:
  *
  *   rolling           here a moment of at most mu_r R* N, R* = R_i R_j/(R_i + R_j), from a spring of stiffness K_T R*^2
- *   LAMMPS sds        the same: F = k_roll R* theta, moment R* F, F <= mu_roll N
+ *   LAMMPS sds        the same: F = k_roll R* theta, moment R* F, F <= mu_roll N. Damping by names that versions from 2020 on know
  *   LIGGGHTS epsd2    the same; its cdt is the constant torque
  *   MercuryDPM        the same with 2 R* in the place of R*: mu_r/2 and K_T/4
  *   Yade, CohFrictMat a moment of at most etaRoll R N from a spring of alphaKr ks R^2: mu_r/2 and 1/4 for equal spheres; kn = young R
@@ -24,7 +24,7 @@ typedef struct material {
     bool is_hertz;
     double diameter, density, mass; /* of the largest species */
     double k_t;                     /* N/m; NaN of Hertz-Mindlin, whose stiffness goes with the overlap */
-    double zeta;                    /* share of critical damping that gives the restitution */
+    double gamma;                   /* 1/s, over the reduced mass of two: the damping that gives the restitution; of linear laws */
 } material;
 
 static material material_of(const job_spec *spec)
@@ -39,8 +39,26 @@ static material material_of(const job_spec *spec)
     m.mass = dem_sphere_mass(m.diameter, m.density);
     if (!m.is_hertz) m.k_t = contact->tangential_stiffness_ratio * contact->stiffness;
     const double loss = -log(contact->restitution), pi = acos(-1.0);
-    m.zeta = loss / sqrt(pi * pi + loss * loss);
+    if (!m.is_hertz) m.gamma = 2.0 * loss / sqrt(pi * pi + loss * loss) * sqrt(contact->stiffness / (0.5 * m.mass));
     return m;
+}
+
+/* LAMMPS' damping "tsuji" is a polynomial in the restitution (Tsuji, Tanaka & Ishida 1992) that stands for twice the reduced mass,
+ * which it is used with: what is to be written there so that spheres of Hertz' law part with the restitution e, whose damping over
+ * sqrt(m K) delta^(1/4) is known in closed form (Tsuji's alpha; Antypov & Elliott 2011). */
+static double tsuji_restitution(double e)
+{
+    static const double c[] = { 1.2728, -4.2783, 11.087, -22.348, 27.467, -18.022, 4.8218 };
+    const double loss = -log(e), pi = acos(-1.0), wanted = loss * sqrt(5.0 / (loss * loss + pi * pi));
+    double low = 0.0, high = 1.0;
+    for (int k = 0; k < 50; k++) {
+        const double middle = 0.5 * (low + high);
+        double alpha = 0.0;
+        for (size_t i = sizeof c / sizeof c[0]; i-- > 0;) alpha = alpha * middle + c[i];
+        if (alpha > wanted) low = middle;
+        else high = middle;
+    }
+    return 0.5 * (low + high);
 }
 
 static void lammps(const material *m, text_buffer *out)
@@ -49,13 +67,13 @@ static void lammps(const material *m, text_buffer *out)
     text_buffer_print(out, "# diameter %.9g m, density %.9g kg/m3\npair_style granular\npair_coeff * * ", m->diameter, m->density);
     if (m->is_hertz)
         text_buffer_print(out, "hertz/material %.9g %.9g %.9g tangential mindlin NULL 0.5 %.9g", c->particle.youngs_modulus,
-                          c->restitution, c->particle.poissons_ratio, c->friction);
+                          tsuji_restitution(c->restitution), c->particle.poissons_ratio, c->friction);
     else
-        text_buffer_print(out, "hooke %.9g %.9g tangential linear_history %.9g %.9g %.9g", c->stiffness, c->restitution, m->k_t,
+        text_buffer_print(out, "hooke %.9g %.9g tangential linear_history %.9g %.9g %.9g", c->stiffness, m->gamma, m->k_t,
                           c->law == DEM_SPRING_DASHPOT ? 0.5 : 0.0, c->friction);
     if (c->rolling_friction > 0.0 && !m->is_hertz)
         text_buffer_print(out, " rolling sds %.9g 0.0 %.9g", m->k_t, c->rolling_friction);
-    text_buffer_print(out, " damping coeff_restitution\ntimestep %.3g\n", m->scene->time_step);
+    text_buffer_print(out, " damping %s\ntimestep %.3g\n", m->is_hertz ? "tsuji" : "mass_velocity", m->scene->time_step);
 }
 
 static void liggghts(const material *m, text_buffer *out)
@@ -73,13 +91,12 @@ static void liggghts(const material *m, text_buffer *out)
                           "fix e all property/global coefficientRestitution peratomtypepair 1 %.9g\n",
                           c->particle.youngs_modulus, c->particle.poissons_ratio, c->restitution);
     } else {
-        const double gamma = 2.0 * m->zeta * sqrt(c->stiffness / (0.5 * m->mass));
         text_buffer_print(
             out,
             "fix k_n all property/global kn peratomtypepair 1 %.9g\nfix k_t all property/global kt peratomtypepair 1 %.9g\n"
             "fix g_n all property/global gamman peratomtypepair 1 %.9g\n"
             "fix g_t all property/global gammat peratomtypepair 1 %.9g\n",
-            c->stiffness, m->k_t, gamma, c->law == DEM_SPRING_DASHPOT ? 0.5 * gamma : 0.0);
+            c->stiffness, m->k_t, m->gamma, c->law == DEM_SPRING_DASHPOT ? 0.5 * m->gamma : 0.0);
     }
     text_buffer_print(out, "pair_style gran model %s tangential history%s\npair_coeff * *\ntimestep %.3g\n",
                       m->is_hertz ? "hertz" : "hooke/stiffness",
@@ -158,6 +175,11 @@ static json_t *losses_of(const job_spec *spec, const material *m, enum program p
         "Friction whose stiffness falls as a contact slips is a spring of its first stiffness there.");
     say(list, program == YADE && !m->is_hertz,
         "This law has no dashpot: restitution is 1 but for NewtonIntegrator's damping, which is to be chosen by a collision.");
+    say(list, program == LAMMPS && m->is_hertz,
+        "The number after Young's modulus stands for the restitution by LAMMPS' damping \"tsuji\"; it is less than the "
+        "restitution.");
+    say(list, (program == LAMMPS || program == LIGGGHTS) && !m->is_hertz,
+        "The damping is that of two spheres of this size: another size, or a wall, gets another restitution.");
     say(list, rolls && is_constant && program != LIGGGHTS,
         "The constant rolling torque is a spring that yields at the same moment.");
     say(list, rolls && c->rolling_law == DEM_EPSD_DAMPED, "The dashpot of rolling is left out.");
