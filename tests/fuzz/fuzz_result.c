@@ -1,6 +1,7 @@
 /* result.json of a job that runs, with a checksum that fits: refused, or the very document is the job's results. */
 #include <string.h>
 
+#include "checksum.h"
 #include "fuzz.h"
 #include "hostile_file.h"
 #include "job_folder.h"
