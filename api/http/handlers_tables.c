@@ -94,20 +94,51 @@ static void respond_page(http_response *response, const json_t *tables)
     http_respond_text(response, 200, "text/html; charset=utf-8", page.text, page.length);
 }
 
+/* --- CSV --- */
+
+static void respond_columns(http_response *response, const json_t *tables)
+{
+    static const char *const cells[] = { "name", "type", "unit", "meaning" };
+    text_buffer csv;
+    size_t t, c;
+    json_t *table, *column;
+    text_buffer_init(&csv, LONGEST_PAGE);
+    text_buffer_print(&csv, "table,column,type,unit,meaning\r\n");
+    json_array_foreach(tables, t, table)
+    {
+        json_array_foreach(json_object_get(table, "columns"), c, column)
+        {
+            text_buffer_print(&csv, "%s", json_string_value(json_object_get(table, "name")));
+            for (size_t k = 0; k < sizeof cells / sizeof cells[0]; k++) {
+                const json_t *cell = json_object_get(column, cells[k]);
+                text_buffer_print(&csv, ",");
+                text_buffer_add_csv_field(&csv, json_string_value(cell), json_string_length(cell));
+            }
+            text_buffer_print(&csv, "\r\n");
+        }
+    }
+    if (csv.failed) {
+        text_buffer_clear(&csv);
+        respond_store_failure(response, STORE_FAILED, "write the list of columns");
+        return;
+    }
+    name_file(response, "columns", ".csv", true);
+    http_respond_text(response, 200, "text/csv; charset=utf-8", csv.text, csv.length);
+}
+
 void show_tables(api_service *service, const http_request *request, http_response *response)
 {
-    static const http_format formats[] = { { "json", "application/json" }, { "html", "text/html" } };
+    static const http_format formats[] = { { "json", "application/json" }, { "html", "text/html" }, { "csv", "text/csv" } };
     json_t *tables = list_tables(service);
     if (!tables) {
         respond_store_failure(response, STORE_FAILED, "list the tables");
         return;
     }
-    if (http_format_choose(request, formats, 2) == 1) {
-        respond_page(response, tables);
-        json_decref(tables);
-        return;
-    }
-    http_respond_json(response, 200, json_pack("{s:o, s:[o]}", "tables", tables, "links", list_link(request, "self", NULL)));
+    const size_t form = http_format_choose(request, formats, sizeof formats / sizeof formats[0]);
+    if (form == 1) respond_page(response, tables);
+    else if (form == 2) respond_columns(response, tables);
+    else http_respond_json(response, 200, json_pack("{s:O, s:[o]}", "tables", tables, "links", list_link(request, "self", NULL)));
+    json_decref(tables);
 }
 
 /* --- names in errors --- */

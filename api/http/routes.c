@@ -70,6 +70,25 @@ static const char *find_parameter_or_beginning(const char *known, const char *na
     return find_parameter(known, beginning);
 }
 
+/* " status* label. f " for people: " status label.NAME f". */
+static void parameters_text(const char *known, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = '\0';
+    for (const char *at = known; *at && used + sizeof ".NAME" < size; at++) {
+        if (*at == '*' || (*at == ' ' && !at[1])) continue;
+        used += (size_t)snprintf(text + used, size - used, "%c%s", *at, *at == '.' ? "NAME" : "");
+    }
+}
+
+static void refuse_parameter(const http_route *route, const char *name, http_response *response)
+{
+    char known[300];
+    parameters_text(route->parameters[0] ? route->parameters : " none", known, sizeof known);
+    http_respond_problem(response, 400, NULL, "Unknown parameter", "query parameter \"%.40s\" is unknown here; known:%s", name,
+                         known);
+}
+
 static bool is_given_before(const http_request *request, size_t i)
 {
     for (size_t k = 0; k < i; k++)
@@ -83,9 +102,7 @@ static bool parameters_are_good(const http_route *route, const http_request *req
     const char *formats = route->formats ? route->formats : " json ";
     for (size_t i = 0; i < request->parameter_count; i++) {
         const char *name = request->parameter[i].name, *end = find_parameter_or_beginning(route->parameters, name);
-        if (!end)
-            http_respond_problem(response, 400, NULL, "Unknown parameter", "query parameter \"%.40s\" is unknown here; known:%s",
-                                 name, route->parameters[0] ? route->parameters : " none");
+        if (!end) refuse_parameter(route, name, response);
         else if (*end != '*' && is_given_before(request, i))
             http_respond_problem(response, 400, NULL, "Bad parameter", "query parameter \"%.40s\" is given twice", name);
         else if ((strcmp(name, "f") == 0 || strcmp(name, "format") == 0) && !find_parameter(formats, request->parameter[i].value))
@@ -95,6 +112,14 @@ static bool parameters_are_good(const http_route *route, const http_request *req
         return false;
     }
     return true;
+}
+
+bool route_only_reads(const http_route *route, const http_request *request)
+{
+    char problem[160];
+    bool dry = false;
+    if (route->dry && !http_request_truth(request, route->dry, &dry, problem, sizeof problem)) return false;
+    return dry || strcmp(request->method, "GET") == 0 || strcmp(request->method, "HEAD") == 0;
 }
 
 void route_set_base(const api_service *service, const http_request *request, http_response *response)

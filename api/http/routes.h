@@ -18,6 +18,7 @@ typedef struct http_route {
     bool open;           /* needs no token */
     bool bodiless;       /* a POST that needs no body, and so no Content-Type */
     bool takes_csv;      /* a POST whose body is text/csv, and may be longer */
+    const char *dry;     /* the parameter with which it only tells what it would do; NULL: there is none */
 } http_route;
 
 enum { MOST_ROUTES = 64 }; /* for what is counted by route */
@@ -30,6 +31,8 @@ void route_set_base(const api_service *service, const http_request *request, htt
 void route_strip_prefix(const api_service *service, http_request *request);
 /* The route for request->method and ->path, its segments filled in. NULL: the response says why not. */
 const http_route *routes_match(const http_route *table, size_t count, http_request *request, http_response *response);
+/* Whether the request changes nothing, whatever the handler does otherwise. */
+bool route_only_reads(const http_route *route, const http_request *request);
 /* Refuses unknown parameters, then calls the handler; its addresses then name the host that was asked. */
 void route_respond(const http_route *route, api_service *service, const http_request *request, http_response *response);
 

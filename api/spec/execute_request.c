@@ -92,9 +92,14 @@ json_t *execute_request_subscriber(const json_t *request)
 /* --- qualified values --- */
 
 /* Borrowed: what a qualified value holds, else the value itself; a number with its unit is one (unit_table.h). */
-static json_t *value_of(json_t *value, const char *pointer, problem_list *problems)
+static json_t *value_of(json_t *value, const char *pointer, bool *refers, problem_list *problems)
 {
     static const char *const known[] = { "value", "mediaType", "encoding", "schema", "format", NULL };
+    if (json_is_string(json_object_get(value, "href"))) {
+        *refers = true;
+        problem_list_add(problems, pointer, "is a reference (href); must be given by value, since this service fetches nothing");
+        return value;
+    }
     json_t *inner = json_is_object(value) ? json_object_get(value, "value") : NULL;
     if (!inner || json_object_get(value, "unit")) return value;
     refuse_unknown_members(value, pointer, known, problems);
@@ -107,8 +112,9 @@ static json_t *value_of(json_t *value, const char *pointer, problem_list *proble
     return inner;
 }
 
-json_t *execute_request_inputs(const json_t *inputs, problem_list *problems)
+json_t *execute_request_inputs(const json_t *inputs, bool *refers, problem_list *problems)
 {
+    *refers = false;
     json_t *plain = json_object(), *value, *entry;
     const char *name;
     size_t i;
@@ -116,12 +122,12 @@ json_t *execute_request_inputs(const json_t *inputs, problem_list *problems)
     {
         char pointer[LONGEST_POINTER], member[LONGEST_POINTER];
         pointer_to_member(pointer, "/inputs", name);
-        value = value_of(value, pointer, problems);
+        value = value_of(value, pointer, refers, problems);
         json_t *entries = json_is_array(value) ? json_array() : json_incref(value);
         json_array_foreach(value, i, entry)
         {
             snprintf(member, sizeof member, "%.200s/%zu", pointer, i);
-            json_array_append(entries, value_of(entry, member, problems));
+            json_array_append(entries, value_of(entry, member, refers, problems));
         }
         json_object_set_new(plain, name, entries);
     }

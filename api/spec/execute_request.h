@@ -13,7 +13,8 @@ void execute_request_check(const json_t *request, const process_type *type, prob
 json_t *execute_request_wanted(const json_t *request);
 /* Who is called back (subscriber.h). New reference; NULL: nobody. The request has no problems. */
 json_t *execute_request_subscriber(const json_t *request);
-/* Inputs, of which any may be qualified, {"value": ..., "mediaType": "application/json"}, as values alone. New reference. */
-json_t *execute_request_inputs(const json_t *inputs, problem_list *problems);
+/* Inputs, of which any may be qualified, {"value": ..., "mediaType": "application/json"}, as values alone. New reference. refers:
+ * some are references, {"href": ...}, which are refused, and there is nothing to be read of them. */
+json_t *execute_request_inputs(const json_t *inputs, bool *refers, problem_list *problems);
 
 #endif

@@ -122,12 +122,15 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
     } else if (!inputs) {
         problem_list_add(problems, "/inputs", "is missing; must be an object");
     } else if (spec->type) { /* without a process nobody knows what its inputs are */
-        json_t *values = given_files_take(execute_request_inputs(inputs, problems), beds, problems);
-        read_inputs(spec, beds ? beds->memory : NULL, values, problems);
-        if (beds && advances_a_scene(spec)) spec->inputs.client = beds->client;
-        spec->given = spec_inputs_given(spec->type->inputs, values);
+        bool refers;
+        json_t *values = given_files_take(execute_request_inputs(inputs, &refers, problems), beds, problems);
+        if (!refers) {
+            read_inputs(spec, beds ? beds->memory : NULL, values, problems);
+            if (beds && advances_a_scene(spec)) spec->inputs.client = beds->client;
+            spec->given = spec_inputs_given(spec->type->inputs, values);
+            spec->type->apply_rules(spec, seed_if_missing, problems);
+        }
         json_decref(values);
-        spec->type->apply_rules(spec, seed_if_missing, problems);
     }
     if (spec->type && advances_a_scene(spec)) {
         spec->inputs.memory = NULL;

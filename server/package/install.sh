@@ -27,7 +27,8 @@ put 644 share/reposed/api api/openapi.yaml
 put 644 share/reposed/api/examples api/examples/*.json
 put 644 share/reposed/api/examples/instruments api/examples/instruments/*.json
 put 644 share/reposed/api/studies api/studies/*.json
-put 644 share/doc/reposed "$sources/reposed.conf" README.md LICENSE core/NUMERICS.md server/DESIGN.md api/CALIBRATION.md api/FRAMES.md
+put 644 share/doc/reposed "$sources/reposed.conf" server/slurm.conf.example README.md LICENSE core/NUMERICS.md server/DESIGN.md \
+  api/CALIBRATION.md api/CONFORMANCE.md api/FRAMES.md
 put 644 share/man/man1 "$sources/repose.1"
 put 644 share/man/man8 "$sources/reposed.8"
 put 644 share/bash-completion/completions "$sources/reposed"

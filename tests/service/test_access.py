@@ -42,6 +42,22 @@ def test_a_token_does_what_its_line_says(guarded):
     assert requests.delete(job, headers=bearer(WRITER), timeout=30).status_code == 200
 
 
+def test_who_may_read_may_ask_what_a_write_would_do(guarded):
+    body = {"inputs": {"friction": 0.5, "rotation_rate": 18}}
+    job = guarded.post(headers=bearer(WRITER)).json()["jobID"]
+    study = {"base": {"process": "granule", "inputs": body["inputs"]}, "vary": {"/inputs/friction": [0.5, 0.6]}}
+    asks = [("/processes/granule/execution", "check", body), ("/studies", "check", study),
+            ("/jobs/cancel?status=accepted,running", "dry_run", None), ("/jobs/delete?status=accepted,running", "dry_run", None)]
+    for path, dry, document in asks:
+        ask = path + ("&" if "?" in path else "?") + dry
+        for end, code in (("=true", 200), ("=false", 403), ("=true&" + dry + "=false", 400), ("=TRUE", 403), ("", 403)):
+            answer = requests.post(guarded.url + ask + end, json=document, timeout=30,
+                                   headers=bearer(READER) | {"Idempotency-Key": "dry"})
+            assert answer.status_code == code, (ask, end, answer.text)
+    assert [one["jobID"] for one in guarded.get("/jobs", headers=bearer(READER)).json()["jobs"]] == [job]
+    assert guarded.get(f"/jobs/{job}", headers=bearer(READER)).json()["status"] in ("accepted", "running")
+
+
 def test_every_address_but_the_page_needs_a_token(guarded):
     """By the list of addresses that the OpenAPI document has."""
     paths = read_yaml((ROOT / "api/openapi.yaml").read_text())["paths"]

@@ -222,6 +222,16 @@ def test_numbers_with_units_are_kept_in_si_and_other_dimensions_are_refused_all_
     assert not check.is_valid({"diameter": 50, "length": 0.02, "rotation_rate": 1})
 
 
+def test_inputs_by_reference_are_refused_each_with_the_reason(service):
+    reference = {"href": "http://elsewhere.example/input.json", "type": "application/json"}
+    inputs = {"drum": reference, "particles": [{"diameter": 0.003}, reference], "seed": reference}
+    answer = execute(service, inputs=inputs, priority=11)
+    assert answer.status_code == 400
+    errors = {error["pointer"]: error["detail"] for error in answer.json()["errors"]}
+    assert set(errors) == {"/inputs/drum", "/inputs/particles/1", "/inputs/seed", "/priority"}
+    assert all(errors[name].startswith("is a reference (href); must be given by value") for name in errors if name != "/priority")
+
+
 def test_a_study_with_units_tells_its_cases_in_si(service):
     base = {"inputs": {"friction": 0.3, "radius": {"value": 63, "unit": "mm"}}, "process": "granule"}
     posted = requests.post(f"{service.url}/studies", timeout=30, json={"base": base, "cases": [

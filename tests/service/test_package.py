@@ -66,11 +66,17 @@ def test_both_programs_tell_the_commit_that_they_were_made_from():
 
 
 @pytest.mark.parametrize("program, page", [("reposed", "reposed.8"), ("repose", "repose.1")])
-def test_the_manual_has_every_option_and_no_other(program, page):
+def test_the_manual_has_every_command_option_and_exit_status_and_no_other_option(program, page):
     names = r"--[a-z][a-z-]+"
-    told = set(re.findall(names, run(BUILD / program, "--help").stdout))
+    help_text = run(BUILD / program, "--help").stdout
+    told = set(re.findall(names, help_text))
     manual = (PACKAGE / page).read_text().replace("\\", "")
     assert told - {"--help", "--version"} == set(re.findall(names, manual)) - {"--help", "--version"}
+    commands = set(re.findall(rf"^ *{program} ([a-z]+)", help_text, re.M))
+    assert len(commands) > 5 and commands == set(re.findall(rf"^\.B {program} ([a-z]+)$", manual.partition(".SH DESCRIPTION")[0], re.M))
+    assert commands - {"serve"} <= set(re.findall(rf"^\.B {program} ([a-z]+)$", manual.partition(".SH DESCRIPTION")[2], re.M))
+    ends = set(re.findall(r"\b([0-9])\b", help_text.partition("\nExit: ")[2]))
+    assert ends <= set(re.findall(r"\b([0-9]):", manual.partition(".SH EXIT STATUS")[2]))
     if shutil.which("man"):
         shown = run("man", "--warnings", "-l", PACKAGE / page, env=os.environ | {"LC_ALL": "C.UTF-8", "MANWIDTH": "80"})
         assert shown.returncode == 0 and shown.stderr == "" and "SYNOPSIS" in shown.stdout
@@ -86,6 +92,7 @@ def test_the_shell_completes_commands_and_options():
     assert set(told) <= set(completed(BUILD / "reposed", ""))
     assert completed(BUILD / "reposed", "serve", "--q") == ["--queue-limit"]
     assert completed(BUILD / "repose", "run", "--isa", "av") == ["avx512", "avx2"]
+    assert completed(BUILD / "reposed", "serve", "--executor", "") == ["local", "slurm"]
     assert "--checkpoint-seconds" in completed(BUILD / "repose", "run", "--")
 
 

@@ -1,4 +1,6 @@
 """The tables that SQL may read: what is told of them, and what they hold of a run beside its main numbers."""
+import csv
+import io
 import json
 import random
 import re
@@ -45,6 +47,13 @@ def test_all_tables_are_told_with_unit_and_meaning(own):
     page = own.get("/query", headers={"Accept": "text/html"})
     assert page.headers["Content-Type"].startswith("text/html") and page.text == own.get("/query?f=html").text
     assert all(f'<h2 id="{name}">' in page.text for name in tables) and "<code>drum_diameter</code>" in page.text
+    list_of_columns = own.get("/query?f=csv")
+    assert list_of_columns.headers["Content-Type"].startswith("text/csv")
+    told = [{key: cell.removeprefix("'") for key, cell in row.items()} for row in csv.DictReader(io.StringIO(list_of_columns.text))]
+    assert told == [  # before - stands a ', since a spreadsheet would read a formula
+        {"table": name, "column": column["name"]} | {key: column[key] for key in ("type", "unit", "meaning")}
+        for name, table in tables.items() for column in table["columns"]]
+    assert own.get("/query", headers={"Accept": "text/csv, application/json;q=0.9"}).text == list_of_columns.text
 
 
 @pytest.mark.parametrize("sql, names", [

@@ -222,7 +222,7 @@ static bool has_access(http_guard *guard, const http_request *request, const htt
         level = access_of_token(&guard->access, request->authorization + 7);
         if (level == ACCESS_NONE && request->address) address_limits_note_failure(&guard->limits, request->address);
     }
-    if (level == ACCESS_WRITE || (level == ACCESS_READ && only_reads(request->method))) return true;
+    if (level == ACCESS_WRITE || (level == ACCESS_READ && route_only_reads(route, request))) return true;
     if (level == ACCESS_NONE) refuse_token(response);
     else refuse(response, 403, "The token may only read", "this needs a token with \"write\" in the token file");
     return false;
