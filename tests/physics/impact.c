@@ -22,7 +22,9 @@ enum {
     V_T,
     SPIN,
     STEP,
-    LEAD
+    LEAD,
+    COHESION,
+    ENERGY_DENSITY
 };
 
 static named_number asked[] = {
@@ -42,7 +44,9 @@ static named_number asked[] = {
     { "v_t", 0 },
     { "spin", 0 },
     { "time_step", 1e-7 },
-    { "lead", 2.5 }, /* steps before the touch */
+    { "lead", 2.5 },         /* steps before the touch */
+    { "cohesion", 0 },       /* a dem_cohesion_law */
+    { "energy_density", 0 }, /* J/m3, of sjkr and sjkr2 */
     { NULL, 0 },
 };
 
@@ -62,7 +66,10 @@ static dem_scene_definition definition(void)
                                           .wall = { of(WALL_YOUNG), of(WALL_POISSON) },
                                           .restitution = of(E),
                                           .friction = of(MU),
-                                          .wall_friction = of(MU) };
+                                          .wall_friction = of(MU),
+                                          .cohesion_law = (dem_cohesion_law)of(COHESION),
+                                          .cohesion = { .strength = of(ENERGY_DENSITY) },
+                                          .wall_cohesion = { .strength = of(ENERGY_DENSITY) } };
     d.time_step = of(STEP);
     return d;
 }
