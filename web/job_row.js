@@ -3,7 +3,6 @@
 import { h, replaceIfChanged } from './dom.js';
 import { answerInWords, clock, count, duration, regimeInWords, secondsBetween, significant, verdictInWords } from './format.js';
 import { drumPicture } from './drum_picture.js';
-import { createDetail } from './job_detail.js';
 import { nameOf } from './job_name.js';
 import { inputsInWords } from './words.js';
 import { cellOf, headingOf } from './columns.js';
@@ -59,11 +58,16 @@ export function createRow(id, actions) {
     showActions(cells.actions, job, row, actions);
     main.classList.toggle('open', open);
     below.hidden = !open;
-    if (!open) return undefined;
-    if (!row.detail) room.append((row.detail = createDetail()).element);
-    return row.detail.update(job);
+    if (open) showDetail(row, room);
   };
   return row;
+}
+
+// What a row shows when it is opened is loaded when the first one is.
+async function showDetail(row, room) {
+  const { createDetail } = await import('./job_detail.js');
+  if (!row.detail) room.append((row.detail = createDetail()).element);
+  await row.detail.update(row.job);
 }
 
 // Columns that were chosen: their cells stand before the last one.

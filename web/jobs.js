@@ -25,6 +25,7 @@ let view = readView();
 const filters = new Map(['', ...STATES].map(status => [status, createFilter(status)]));
 byId('states').append(...filters.values());
 let rows = new Map(); // by job id, in the order shown
+const words = new Set(); // processes whose inputs have words
 let columns = [], processes = []; // what is known of the processes; asked for once
 let shownList = null;
 let hadActive = false; // whether anything ran or waited at the last look
@@ -53,15 +54,24 @@ async function ask() {
   if (mayHaveActive && active > 0 && !hadActive) first = await listActive(asked);
   hadActive = active > 0;
   first = first.filter(job => !list.jobs.some(one => one.jobID === job.jobID)).sort(byPlace);
-  await learnInputs([...first, ...list.jobs]);
-  await learnColumns();
   if (asked !== view) return true; // the view changed meanwhile: this answer is of the old one
   showConnected();
   knownPlaces([...first, ...list.jobs]);
   showList({ ...list, first });
   showPlaces(first);
+  if (await learnWords(asked, [...first, ...list.jobs]) && asked === view) showList({ ...list, first });
   return active > 0;
 }
+
+// What the processes call their inputs and results, asked for once and when it is needed: rows are there before. Whether it is new.
+async function learnWords(asked, jobs) {
+  const before = columns.length, isNew = jobs.some(job => !words.has(job.processID));
+  await learnInputs(jobs);
+  for (const job of jobs) words.add(job.processID);
+  if (byId('narrow').open || asked.sort || asked.columns.length || asked.values.size) await learnColumns();
+  return isNew || columns.length > before;
+}
+byId('narrow').addEventListener('toggle', () => { if (byId('narrow').open && columns.length === 0) refresh(); });
 
 // After the list, which does not wait for them.
 async function showPlaces(jobs) {

@@ -22,7 +22,7 @@ def test_a_list_is_sorted_narrowed_and_changed_many_at_once(fake, browser):
     assert [place[:12] for place in places] == ["1. in line, ", "2. in line, "] and "expected" in places[0]
     until(browser, lambda b: b.execute_script("return document.querySelector(arguments[0]).naturalWidth", f"#job-{ended[0]} .thumb img") == 1)
     find(browser, "#narrow summary").click()
-    find(browser, "#filters").find_element(By.XPATH, ".//label[contains(., 'seed')]/input").click()
+    until(browser, lambda b: find(b, "#filters").find_element(By.XPATH, ".//label[contains(., 'seed')]/input").click() or True)
     until(browser, lambda b: cells(b, "seed")[-3:] == ["13", "12", "11"])
     browser.find_element(By.XPATH, "//button[.='seed']").click()
     until(browser, lambda b: jobs_shown(b)[:3] == ended[::-1] or cells(b, "seed")[0] == "13")
