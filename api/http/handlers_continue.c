@@ -18,9 +18,8 @@ enum { MEMBERS = sizeof members / sizeof members[0], DURATIONS = 2 };
 
 static void check_members(const json_t *wanted, problem_list *problems)
 {
-    static const char *const known[] = {
-        "revolutions", "seconds", "rotation_rate", "rotation_rate_rpm", "label", "priority", NULL
-    };
+    static const char *const known[] = { "revolutions", "seconds",  "rotation_rate", "rotation_rate_rpm",
+                                         "label",       "priority", "resources",     NULL };
     int durations = 0;
     if (!json_is_object(wanted)) {
         problem_list_add(problems, "", "must be an object with \"revolutions\" or \"seconds\"");
@@ -79,6 +78,8 @@ static json_t *continued(json_t *spec, const job_record *parent, const json_t *w
     set_wanted(inputs, wanted);
     json_t *priority = json_object_get(wanted, "priority");
     json_object_set_new(spec, "priority", priority ? json_incref(priority) : json_integer(parent->priority));
+    json_t *resources = json_object_get(wanted, "resources");
+    if (resources) json_object_set(spec, "resources", resources);
     return spec;
 }
 

@@ -129,9 +129,11 @@ static bool fits_service(api_service *service, const job_spec *spec, problem_lis
     calibration machine;
     if (is_timed) store_read_calibration(service->store, &machine);
     const job_estimate estimate = job_spec_estimate(spec, is_timed ? &machine : NULL);
-    if (limits)
+    if (limits) {
         job_check_limits(limits, "/inputs", estimate.wall_seconds, estimate.particles, estimate.snapshot_bytes, spec->threads,
                          problems);
+        job_resources_check_allowed(spec->resources, &limits->resources, problems);
+    }
     job_check_disk(job_estimate_disk_bytes(&estimate), store_free_bytes(service->store), "/inputs/snapshots/interval", problems);
     subscriber_check_hosts(spec->subscriber, &service->callback_hosts, problems);
     return problem_list_is_empty(problems);

@@ -11,6 +11,7 @@ static void check_test(const plan_request *request, size_t test, const calibrati
     if (problem_list_init(&unusual) && plan_middle_spec(request, test, &spec, &wrong)) {
         const job_estimate one = job_spec_estimate(&spec, machine);
         if (limits) job_check_limits(limits, "/inputs", NAN, one.particles, NAN, spec.threads, &wrong);
+        if (limits) job_resources_check_allowed(spec.resources, &limits->resources, &wrong);
         job_spec_warn(&spec, machine, &unusual);
         plan_tell(request, test, &wrong, problems);
         plan_tell(request, test, &unusual, warnings);

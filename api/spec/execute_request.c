@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "job_resources.h"
 #include "process_type.h"
 #include "spec_text.h"
 #include "subscriber.h"
@@ -64,6 +65,7 @@ void execute_request_check(const json_t *request, const process_type *type, prob
     if (response && !json_is_null(response) && !is_text(response, "document") && !is_text(response, "raw"))
         problem_list_add(problems, "/response", "is %s; must be \"document\" or \"raw\"", seen);
     subscriber_check(json_object_get(request, "subscriber"), problems);
+    job_resources_check(json_object_get(request, "resources"), problems);
     check_outputs(json_object_get(request, "outputs"), type, problems);
 }
 
@@ -87,6 +89,12 @@ json_t *execute_request_subscriber(const json_t *request)
 {
     const json_t *subscriber = json_object_get(request, "subscriber");
     return json_is_object(subscriber) ? json_deep_copy(subscriber) : NULL;
+}
+
+json_t *execute_request_resources(const json_t *request)
+{
+    const json_t *resources = json_object_get(request, "resources");
+    return json_object_size(resources) > 0 ? json_deep_copy(resources) : NULL;
 }
 
 /* --- qualified values --- */

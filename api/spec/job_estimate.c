@@ -1,11 +1,17 @@
 /* What a job will cost. Each process has its own way of telling. */
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "process_type.h"
 #include "spec_text.h"
 
-job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine) { return spec->type->estimate(spec, machine); }
+job_estimate job_spec_estimate(const job_spec *spec, const calibration *machine)
+{
+    job_estimate estimate = spec->type->estimate(spec, machine);
+    if (machine) memcpy(estimate.processor, machine->processor, sizeof estimate.processor);
+    return estimate;
+}
 
 /* The file's structure; each sphere with its three contacts. */
 #define CHECKPOINT_FILE_BYTES 100e3
@@ -88,5 +94,6 @@ json_t *job_estimate_to_json(const job_estimate *estimate)
         json_object_set_new(document, members[m].name,
                             members[m].whole ? json_integer((json_int_t)members[m].value) : json_real(members[m].value));
     }
+    if (*estimate->processor) json_object_set_new(document, "processor", json_string(estimate->processor));
     return document;
 }

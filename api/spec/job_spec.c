@@ -103,7 +103,8 @@ bool job_spec_parse(const char *process, const json_t *request, uint64_t seed_if
 bool job_spec_parse_with(const start_source *beds, const char *process, const json_t *request, uint64_t seed_if_missing,
                          job_spec *spec, problem_list *problems)
 {
-    static const char *const known[] = { "process", "inputs", "label", "response", "outputs", "subscriber", "priority", NULL };
+    static const char *const known[] = { "process",    "inputs",   "label",     "response", "outputs",
+                                         "subscriber", "priority", "resources", NULL };
     memset(spec, 0, sizeof *spec);
     if (!json_is_object(request)) {
         problem_list_add(problems, "", "must be an object with \"inputs\" and, if wanted, \"label\"");
@@ -141,6 +142,7 @@ bool job_spec_parse_with(const start_source *beds, const char *process, const js
     spec->priority = read_priority(json_object_get(request, "priority"), problems);
     spec->wanted = execute_request_wanted(request);
     spec->subscriber = execute_request_subscriber(request);
+    spec->resources = execute_request_resources(request);
     spec->label = read_label(json_object_get(request, "label"), problems);
     if (problem_list_is_empty(problems) && !spec->label) problem_list_add(problems, "/label", "could not be kept: out of memory");
     if (problem_list_is_empty(problems)) return true;
@@ -155,10 +157,11 @@ void job_spec_clear(job_spec *spec)
     json_decref(spec->wanted);
     json_decref(spec->given);
     json_decref(spec->subscriber);
+    json_decref(spec->resources);
     if (spec->type) spec_inputs_clear(spec->type->inputs, (char *)spec + spec->type->inputs_at);
     /* A tenth of a megabyte, of which nothing else is owned. */
     spec->type = NULL;
-    spec->label = spec->wanted = spec->given = spec->subscriber = NULL;
+    spec->label = spec->wanted = spec->given = spec->subscriber = spec->resources = NULL;
 }
 
 json_t *job_spec_to_json(const job_spec *spec)

@@ -14,6 +14,7 @@
 #include "client_watch.h"
 #include "dem_granule.h"
 #include "dem_types.h"
+#include "job_resources.h"
 #include "problem.h"
 #include "spec_fields.h"
 
@@ -189,6 +190,7 @@ typedef struct job_spec {
     json_t *wanted;     /* how its results are wanted (execute_request.h), owned; NULL: as ever. No part of the canonical spec */
     json_t *given;      /* owned: the inputs that the request had, as "contact/friction" */
     json_t *subscriber; /* who is called back (subscriber.h), owned; NULL: nobody. Likewise */
+    json_t *resources;  /* what is asked of a cluster (job_resources.h), owned; NULL: nothing. Likewise */
 
     /* Of all that advance a scene: */
     scene_inputs inputs;        /* as asked for */
@@ -215,7 +217,8 @@ typedef struct job_estimate {
     double simulated_seconds, time_step, stiffness; /* settling included; s; N/m */
     /* Of it, making the bed, and what most seeds are between; NaN: not known. */
     double settling_seconds, settling_seconds_low, settling_seconds_high;
-    calibration_load load; /* what each step has to do; no spheres: the process has no steps */
+    char processor[CALIBRATION_TEXT]; /* on which it is expected to take so long; "": on none in particular */
+    calibration_load load;            /* what each step has to do; no spheres: the process has no steps */
 } job_estimate;
 
 /* Reads {"process"?, "inputs", "label"?} and what may be around them (execute_request.h). process NULL: the document's own "process",
@@ -251,9 +254,11 @@ double job_estimate_disk_bytes(const job_estimate *estimate);
 /* Adds a problem at the pointer, that of the interval between snapshots, where files of so many bytes do not fit into what is
  * free of the data folder's disk (NaN: not known). */
 void job_check_disk(double bytes, double free_bytes, const char *pointer, problem_list *problems);
-/* What one POST may ask for; 0: anything. Of a study the seconds and the bytes are those of all its jobs together. */
+/* What one POST may ask for; 0: anything, but of the resources of a cluster what is listed. Of a study the seconds and the bytes are
+ * those of all its jobs together. */
 typedef struct post_limits {
     double estimate_seconds, particles, snapshot_bytes, threads;
+    resource_list resources;
 } post_limits;
 /* Adds a problem for each limit that the numbers are beyond (NaN: there is no such number). at: where the inputs are, "/inputs". */
 void job_check_limits(const post_limits *limits, const char *at, double wall_seconds, double particles, double snapshot_bytes,

@@ -19,6 +19,7 @@ typedef struct run_facts {
     double samples, snapshots;
     double threads, seed, attempt;
     const char *isa, *precision; /* of the program that ran: "avx512", "avx2" or "plain"; "single" or "double" */
+    const char *processor;       /* as it calls itself */
     const char *settled_by;      /* id of the job that settled the bed; NULL: this one */
     const char *ended_by;        /* "duration", "standard-error" or "at-most-revolutions" */
 } run_facts;

@@ -124,6 +124,7 @@ static const column_row rows[] = {
     { "job", "worker", "", "what its worker is called, where that lives on without the service; NULL: nothing" },
     { "job", "more_time", "", "how often it was given twice the time, since an attempt had too little" },
     { "job", "more_memory", "", "how often it was given twice the memory, likewise" },
+    { "job", "resources", "", "JSON: what it asks of the cluster that runs it; NULL: nothing" },
     { "job", "estimated_memory_bytes", "B", "memory it was expected to take" },
     { "", "angle_definition", "", "how the angle was measured" },
     { "", "id", "", "the job's id" },

@@ -149,6 +149,7 @@ static void check_limits(checking *check, size_t index, const job_spec *spec)
     if (!check->taker || !check->taker->limits || !problem_list_init(&found)) return;
     const job_estimate one = job_spec_estimate(spec, check->machine);
     job_check_limits(check->taker->limits, "/inputs", NAN, one.particles, NAN, spec->threads, &found);
+    job_resources_check_allowed(spec->resources, &check->taker->limits->resources, &found);
     tell_all(check->study, index, &found, &check->wrong.of_base, check->wrong.all);
     problem_list_clear(&found);
 }

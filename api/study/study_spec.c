@@ -144,7 +144,7 @@ static void read_case_name(const json_t *name, const char *pointer, json_t *name
 
 static void read_case(study_spec *study, const json_t *cases, size_t index, json_t *names, problem_list *problems)
 {
-    static const char *const known[] = { "name", "inputs", "label", NULL };
+    static const char *const known[] = { "name", "inputs", "label", "resources", NULL };
     const json_t *one = json_array_get(cases, index);
     char pointer[64], name_pointer[80], leaf[JSON_POINTER_SIZE] = "";
     snprintf(pointer, sizeof pointer, "/cases/%zu", index);

@@ -112,7 +112,8 @@ static post_limits limits_of(const config *settings)
     return (post_limits){ .estimate_seconds = settings->max_estimate_seconds,
                           .particles = settings->max_particles,
                           .snapshot_bytes = settings->max_snapshot_bytes,
-                          .threads = settings->max_threads };
+                          .threads = settings->max_threads,
+                          .resources = { settings->slurm_allowed, settings->slurm_allowances } };
 }
 
 static int default_threads_of(const config *settings)

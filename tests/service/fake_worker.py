@@ -66,6 +66,9 @@ def checkpoint(step):
     tell("checkpoint", step=100 * step, time=0.1 * step, attempt=int(sys.argv[6]))
 
 
+taken = bytearray(int(label.get("megabytes", 0)) << 20)  # and written to, so that they count
+
+
 def run():
     """Twenty steps in `seconds`, from the checkpoint on."""
     step = int(CHECKPOINT.read_text()) if CHECKPOINT.exists() else 0

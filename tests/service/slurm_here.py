@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import time
+from pathlib import Path
 
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel", "scontrol")
 CONFIGURATION = """
@@ -20,11 +21,9 @@ AuthType=auth/munge
 AuthInfo=socket={folder}/munge.sock
 CredType=cred/munge
 MpiDefault=none
-ProctrackType=proctrack/linuxproc
-TaskPlugin=task/none
 JobAcctGatherType=jobacct_gather/linux
 JobAcctGatherFrequency=1
-JobAcctGatherParams=OverMemoryKill
+{memory}
 SwitchType=switch/none
 SelectType=select/cons_tres
 SelectTypeParameters=CR_Core_Memory
@@ -45,6 +44,22 @@ PartitionName=drums Nodes={host} Default=YES MaxTime=00:30:00 State=UP
 """
 
 
+# How a Slurm sees to it that no job takes more memory than it was given: by cgroups, of which it tells as OUT_OF_MEMORY, or by
+# looking once a second, and then it calls the job FAILED.
+BY_LOOKING = "ProctrackType=proctrack/linuxproc\nTaskPlugin=task/none\nJobAcctGatherParams=OverMemoryKill"
+BY_CGROUPS = "ProctrackType=proctrack/cgroup\nTaskPlugin=task/cgroup"
+CGROUPS = Path("/sys/fs/cgroup")
+CGROUPS_CONFIGURATION = "CgroupPlugin=cgroup/v1\nCgroupMountpoint=/sys/fs/cgroup\nCgroupAutomount=no\nConstrainRAMSpace=yes\n"
+
+
+def why_no_cgroups():
+    """"": there are."""
+    if os.geteuid() != 0:
+        return "only root makes cgroups"
+    there = all(os.access(CGROUPS / name, os.W_OK) for name in ("memory/tasks", "freezer/tasks", "cpuset/tasks"))
+    return "" if there else "this machine has no cgroups of version 1 that may be written"
+
+
 def what_is_missing():
     """"": nothing."""
     path = f"{os.environ['PATH']}:/usr/sbin:/sbin"
@@ -61,7 +76,7 @@ def free_port():
 
 
 class Slurm:
-    def __init__(self, folder):
+    def __init__(self, folder, memory=BY_LOOKING):
         self.folder = folder
         for name in ("state", "spool"):
             (folder / name).mkdir(parents=True)
@@ -69,7 +84,8 @@ class Slurm:
                                          "PATH": f"{os.environ['PATH']}:/usr/sbin:/sbin"}
         self.host = socket.gethostname().split(".")[0]
         (folder / "slurm.conf").write_text(CONFIGURATION.format(
-            host=self.host, folder=folder, controller=free_port(), node=free_port(), user=pwd.getpwuid(os.geteuid()).pw_name))
+            host=self.host, folder=folder, controller=free_port(), node=free_port(), user=pwd.getpwuid(os.geteuid()).pw_name, memory=memory))
+        (folder / "cgroup.conf").write_text(CGROUPS_CONFIGURATION)
         (folder / "munge.key").write_bytes(os.urandom(128))
         (folder / "munge.key").chmod(0o400)
         self.running = {}
@@ -119,3 +135,5 @@ class Slurm:
                 self.running[name].wait(10)
             except subprocess.TimeoutExpired:
                 self.kill(name)
+        for left in CGROUPS.glob(f"*/slurm_{self.host}"):
+            left.rmdir()

@@ -153,7 +153,7 @@ def test_jobs_from_before_get_their_words_from_the_specification(tmp_path):
                                "DROP TABLE calibration; DROP VIEW interface; DROP TABLE sent_bed_text; DROP TABLE sent_bed; DROP INDEX job_waiting_short; ALTER TABLE result DROP COLUMN checksum;"
                                "DROP INDEX job_of_bed; DROP TABLE bed;"
                                "ALTER TABLE job DROP COLUMN bed; ALTER TABLE job DROP COLUMN starts; ALTER TABLE job DROP COLUMN worker;"
-                               "ALTER TABLE job DROP COLUMN more_time; ALTER TABLE job DROP COLUMN more_memory; PRAGMA user_version=20")
+                               "ALTER TABLE job DROP COLUMN more_time; ALTER TABLE job DROP COLUMN more_memory; ALTER TABLE job DROP COLUMN resources; PRAGMA user_version=20")
     daemon.start()
     assert rows(daemon, "select law, precision from run_summary") == [{"law": "spring-dashpot", "precision": "double"}]
     assert rows(daemon, "select distinct is_given from job_input") == [{"is_given": None}]

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 import requests
-from conftest import FAKE_WORKER, Daemon
+from conftest import FAKE_WORKER, SPEC, Daemon
 
 FAKE_SLURM = Path(__file__).with_name("fake_slurm.py")
 
@@ -93,16 +93,31 @@ def ends(daemon, job):
 
 
 def test_short_jobs_are_run_one_after_the_other_in_one_job_of_slurm_each_with_an_end_of_its_own(service, cluster):
-    daemon = service("--slurm-partition", "drums", "--slurm-line=--reservation=lab")
-    jobs = [daemon.submit(fake=what) for what in ("quick", "quick", "numerical", "quick")]
+    daemon = service("--slurm-partition", "drums", "--slurm-line=--reservation=lab", "--slurm-allow", "qos=long,short", "--slurm-allow",
+                     "partition=gpu")
+    for wrong, said in (({"qos": "longer"}, "allows long, short"), ({"partition": "drums"}, "allows gpu"), ({"qos": "long,short"}, "1 to 63"),
+                        ({"account": "x"}, "no job choose"), ({"gres": "gpu:1"}, "known are partition, account"), ({"qos": 1}, "1 to 63")):
+        answer = requests.post(f"{daemon.url}/processes/drum/execution", json={"inputs": SPEC, "resources": wrong}, timeout=30)
+        [error] = answer.json()["errors"]
+        assert answer.status_code == 400 and error["pointer"] == f"/resources/{[*wrong][0]}" and said in error["detail"]
+    cases = [{"name": str(n), "label": {"fake": "quick" if n != 2 else "numerical"}} for n in range(4)]
+    cases.append({"name": "4", "label": {"fake": "quick"}, "resources": {"qos": "long", "partition": "gpu"}})
+    wrong = requests.post(f"{daemon.url}/studies", json={"base": {"inputs": SPEC}, "cases": [*cases, {"name": "5", "resources": {"qos": "x"}}]},
+                          timeout=30)
+    assert wrong.status_code == 400 and [error["pointer"] for error in wrong.json()["errors"]] == ["/cases/5/resources/qos"]
+    assert requests.post(f"{daemon.url}/studies", json={"base": {"inputs": SPEC}, "cases": cases}, timeout=30).status_code == 201
+    *jobs, chosen = [row["id"] for row in rows(daemon, "select id from job order by number")]
+    assert daemon.ended(chosen)["status"] == "successful"
+    [options] = [options for _, _, options, _ in cluster.jobs() if chosen in options["job-name"]]
+    assert options["qos"] == "long" and options["partition"] == "gpu" and options["reservation"] == "lab"
     assert [daemon.ended(job)["status"] for job in jobs] == ["successful", "successful", "failed", "successful"]
-    [(number, _, options, script)] = cluster.jobs()
+    number, _, options, script = cluster.jobs()[0]
     assert options["job-name"] == f"reposed-{jobs[0]}.1" and jobs[0] in options["comment"]
     assert options["partition"] == "drums" and options["reservation"] == "lab" and options["signal"] == "B:TERM@60"
     assert re.findall(r"^one (\S+)", script, re.M) == jobs
     assert [ends(daemon, job) for job in jobs] == [["0"], ["0"], ["4"], ["0"]]
     metrics = daemon.get("/metrics").text
-    assert "reposed_batch_submissions_total 1\n" in metrics and "reposed_batch_refusals_total 0\n" in metrics
+    assert "reposed_batch_submissions_total 2\n" in metrics and "reposed_batch_refusals_total 0\n" in metrics
     until(lambda: not list((daemon.data / "slurm").iterdir()))
 
 

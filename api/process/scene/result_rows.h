@@ -80,6 +80,9 @@
       IN_VIEW(850) }, \
     { "run", NULL, "isa", RESULT_TEXT, RUN(isa), "", \
       LABEL("instruction set"), OVER_BEDS(ALIKE), .meaning = "instruction set of the core: avx512, avx2, plain; results do not depend on it" }, \
+    { "run", NULL, "processor", RESULT_TEXT, RUN(processor), "", \
+      LABEL("processor"), OVER_BEDS(ALIKE), .meaning = "what the processor calls itself on which it ran; results do not depend on it", \
+      STORED }, \
     { "run", NULL, "precision", RESULT_TEXT, RUN(precision), "", \
       LABEL("precision of contacts"), OVER_BEDS(ALIKE), .meaning = "of contacts: single or double" }, \
     { "run", NULL, "seed", RESULT_WHOLE, RUN(seed), "", \

@@ -24,6 +24,8 @@ typedef struct config {
     const char *slurm_partition, *slurm_account, *slurm_qos, *slurm_constraint;
     const char *slurm_line[CONFIG_HOSTS];
     int slurm_lines;
+    const char *slurm_allowed[CONFIG_HOSTS]; /* what jobs may ask for (job_resources.h) */
+    int slurm_allowances;
     const char *worker, *web, *api_file;
     const char *allowed_host[CONFIG_HOSTS]; /* names besides localhost by which clients may call us */
     int allowed_hosts;

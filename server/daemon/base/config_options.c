@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "job_resources.h"
 #include "subscriber.h"
 
 /* "http[s]://host[:port][/prefix]"; it goes into addresses as it is. */
@@ -79,6 +80,15 @@ static bool take_slurm_line(config *settings, const char *value, char problem[OP
     return good;
 }
 
+static bool take_slurm_allowance(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
+{
+    const bool good = resource_entry_is_good(value) && settings->slurm_allowances < CONFIG_HOSTS;
+    snprintf(problem, OPTION_PROBLEM_SIZE,
+             "one of %d at most, as partition=cpu,gpu; of partition, account, qos, constraint and reservation", CONFIG_HOSTS);
+    if (good) settings->slurm_allowed[settings->slurm_allowances++] = value;
+    return good;
+}
+
 static bool take_log_format(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
 {
     settings->log_json = strcmp(value, "json") == 0;
@@ -118,6 +128,11 @@ static bool calls_same_hosts(const config *one, const config *other)
 static bool has_same_slurm_lines(const config *one, const config *other)
 {
     return is_same_list(one->slurm_line, one->slurm_lines, other->slurm_line, other->slurm_lines);
+}
+
+static bool has_same_slurm_allowances(const config *one, const config *other)
+{
+    return is_same_list(one->slurm_allowed, one->slurm_allowances, other->slurm_allowed, other->slurm_allowances);
 }
 
 #define LIVE .is_live = true
@@ -180,6 +195,9 @@ const config_option config_options[] = {
     { "slurm-constraint", "LIST", "features that a node must have", TEXT(slurm_constraint) },
     { "slurm-line", "OPTION", "another option of sbatch, which has the last word; may be given 8 times", .kind = OPTION_TAKEN,
       .may_repeat = true, .take = take_slurm_line, .is_same = has_same_slurm_lines },
+    { "slurm-allow", "NAME=VALUE,...",
+      "let the \"resources\" of a job choose among these, as partition=cpu,gpu; may be given 8 times", .kind = OPTION_TAKEN,
+      .may_repeat = true, .take = take_slurm_allowance, .is_same = has_same_slurm_allowances, LIVE },
     { "web", "DIR", "the page (where it lies in the sources, or was installed)", TEXT(web) },
     { "api-file", "FILE", "the OpenAPI document (likewise)", TEXT(api_file) },
     { "wait", NULL, "of submit: until it has ended; 0 only where it is successful", FLAG(wait) },

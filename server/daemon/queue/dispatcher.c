@@ -146,7 +146,8 @@ static worker_order order_of(const job_claim *claim, const char *folder, int fil
                            .estimated_seconds = claim->estimated_seconds,
                            .estimated_memory_bytes = claim->estimated_memory_bytes,
                            .more_time = claim->more_time,
-                           .more_memory = claim->more_memory };
+                           .more_memory = claim->more_memory,
+                           .resources = claim->resources };
     set_limits(claim, &order);
     return order;
 }
@@ -218,8 +219,7 @@ static bool start_next_job(job_dispatcher *dispatcher)
     take_slot(dispatcher, slot, &claim);
     const bool started = start_worker(dispatcher, slot);
     const int reason = errno;
-    free(slot->claim.spec);
-    slot->claim.spec = NULL;
+    job_claim_clear(&slot->claim);
     if (started) {
         dispatcher->started++;
         log_line("job %s: attempt %d started, %s", claim.id, claim.attempt, slot->worker.name);
@@ -445,7 +445,7 @@ static bool adopt(void *context, const job_claim *claim, const char *name)
     const worker_order order = order_of(claim, folder, -1);
     if (!executor->adopt || !slot || !executor->adopt(executor, &order, name, &worker)) return false;
     take_slot(dispatcher, slot, claim);
-    slot->claim.spec = NULL;
+    slot->claim.spec = slot->claim.resources = NULL;
     slot->worker = worker;
     slot->settles = claim->bed && !store_has_bed(dispatcher->store, claim->bed);
     log_line("job %s: left running by an earlier daemon; gone on with, %s", claim->id, worker.name);

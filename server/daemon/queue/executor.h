@@ -15,6 +15,7 @@ typedef struct worker_order {
     bool save_bed;                                    /* for other jobs that would settle the same */
     double estimated_seconds, estimated_memory_bytes; /* what the job is expected to take, */
     int more_time, more_memory;                       /* and how often that was too little and has been doubled */
+    const char *resources;                            /* what the job asks of a cluster (job_resources.h); "": nothing */
     double cpu_seconds, memory_bytes, file_bytes;     /* limits, against a worker gone wild */
 } worker_order;
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <math.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,7 +61,8 @@ static double expected_seconds(const slurm_bundle *bundle)
 static bool fits(const slurm_settings *settings, const slurm_bundle *bundle, const worker_order *order)
 {
     return bundle->count < BUNDLE_MOST && bundle->member[0].threads == order->threads && order->more_time == 0
-           && order->more_memory == 0 && expected_seconds(bundle) + order->estimated_seconds <= settings->bundle_seconds;
+           && order->more_memory == 0 && strcmp(bundle->resources, order->resources) == 0
+           && expected_seconds(bundle) + order->estimated_seconds <= settings->bundle_seconds;
 }
 
 static bool start(worker_executor *executor, const worker_order *order, worker_handle *worker)
@@ -70,6 +72,7 @@ static bool start(worker_executor *executor, const worker_order *order, worker_h
     if (queue->open && !fits(&queue->settings, queue->open, order)) slurm_queue_close_bundle(queue);
     slurm_bundle *bundle = queue->open ? queue->open : slurm_queue_open_bundle(queue, order->job, order->start);
     if (bundle) {
+        snprintf(bundle->resources, sizeof bundle->resources, "%s", order->resources);
         bundle->member[bundle->count] = member_for(&queue->settings, order);
         *worker = (worker_handle){ .own = { [BUNDLE] = (int64_t)(intptr_t)bundle, [MEMBER] = bundle->count } };
         snprintf(worker->waits_for, sizeof worker->waits_for, "to be handed to Slurm");
@@ -123,21 +126,33 @@ static worker_end end_because(worker_end_kind kind, int code, const char *format
 }
 #define END_BECAUSE(kind, code, text) end_because(kind, code, text, bundle->id)
 
-/* Of one whose script has ended, by itself as Slurm has it. False: what it wrote may still be on its way. */
-static bool judge_done(const slurm_bundle *bundle, const bundle_member *member, bool is_late, worker_end *end)
+/* Of one that has begun, and whose script was killed before it could say how it ended: that may be the job's own fault, so it
+ * counts. */
+static void judge_wordless(const slurm_queue *queue, const slurm_bundle *bundle, worker_end *end)
 {
-    const bool was_cut = was_cut_off(bundle, (int)(member - bundle->member));
+    if (slurm_bundle_took_too_much_memory(bundle, queue->data))
+        *end = END_BECAUSE(WORKER_OUT_OF_MEMORY, 0, "Slurm job %s took more memory than it was given");
+    else *end = END_BECAUSE(WORKER_KILLED, SIGKILL, "Slurm job %s was killed and has left no word of how");
+}
+
+/* Of one whose script has ended, by itself as Slurm has it. False: what it wrote may still be on its way. */
+static bool judge_done(const slurm_queue *queue, const slurm_bundle *bundle, const bundle_member *member, bool is_late,
+                       worker_end *end)
+{
+    const int index = (int)(member - bundle->member);
     if (member->code >= 128) *end = (worker_end){ .kind = WORKER_KILLED, .code = member->code - 128 };
     else if (member->code == WORKER_STOPPED)
         *end = END_BECAUSE(WORKER_OUT_OF_TIME, 0, "the time that Slurm job %s was given was too short; it goes on with more");
-    else if (was_cut) *end = END_BECAUSE(WORKER_LOST, 0, "Slurm job %s ended before its turn");
+    else if (was_cut_off(bundle, index) || (is_late && index > 0 && bundle->member[index - 1].has_begun && !member->has_begun))
+        *end = END_BECAUSE(WORKER_LOST, 0, "Slurm job %s ended before its turn");
+    else if (is_late && member->has_begun) judge_wordless(queue, bundle, end);
     else if (is_late) *end = END_BECAUSE(WORKER_LEFT, WORKER_MACHINE, "Slurm job %s ended and has left no word of how");
     else return false;
     return true;
 }
 
 /* Of one whose Slurm job has ended. False: not yet to be said. */
-static bool judge_gone(const slurm_bundle *bundle, const bundle_member *member, worker_end *end)
+static bool judge_gone(const slurm_queue *queue, const slurm_bundle *bundle, const bundle_member *member, worker_end *end)
 {
     const bool is_late = monotonic_seconds() - bundle->gone > SECONDS_TO_APPEAR;
     switch (bundle->state) {
@@ -152,7 +167,7 @@ static bool judge_gone(const slurm_bundle *bundle, const bundle_member *member, 
             *end = END_BECAUSE(WORKER_OUT_OF_TIME, 0, "the time that Slurm job %s was given was too short; it goes on with more");
         else *end = END_BECAUSE(WORKER_OUT_OF_MEMORY, 0, "Slurm job %s took more memory than it was given");
         return true;
-    case SLURM_DONE: return judge_done(bundle, member, is_late, end);
+    case SLURM_DONE: return judge_done(queue, bundle, member, is_late, end);
     default: *end = END_BECAUSE(WORKER_LOST, 0, "Slurm knows nothing of job %s any more"); return is_late;
     }
 }
@@ -166,7 +181,7 @@ static bool judge(const slurm_queue *queue, const slurm_bundle *bundle, bundle_m
         *end = (worker_end){ .code = WORKER_STOPPED };
         return true;
     }
-    if (!tells_all(member->code)) return bundle->gone > 0.0 && judge_gone(bundle, member, end);
+    if (!tells_all(member->code)) return bundle->gone > 0.0 && judge_gone(queue, bundle, member, end);
     *end = (worker_end){ .code = member->code };
     return member->code != WORKER_DONE || result_is_there(queue, member) || now - member->code_since > SECONDS_TO_APPEAR;
 }

@@ -11,8 +11,9 @@
 #include "job_folder.h"
 #include "text_buffer.h"
 
-enum { LONGEST_SCRIPT = 65536, LONGEST_PATH = 4200, LONGEST_FENCE = 512 };
+enum { LONGEST_SCRIPT = 65536, LONGEST_FENCE = 512, LONGEST_WORDS = 4096 };
 
+#define RESOURCES_LINE "#resources: "
 #define MEMBER_LINE "#: %31s %d %d %d %d %lf %lf"
 
 /* The bundle ends with a worker that was stopped or killed: what Slurm then says of the whole is the reason. A worker that finds
@@ -52,9 +53,9 @@ static void add_member(text_buffer *out, const bundle_member *member, const bund
                       worker->confine ? " --confine" : "", member->save_bed ? " --save-bed" : "");
 }
 
-static void script_path(char path[LONGEST_PATH], const data_folder *data, const char *name, const char *end)
+static void script_path(char path[SLURM_PATH_SIZE], const data_folder *data, const char *name, const char *end)
 {
-    snprintf(path, LONGEST_PATH, "%s/slurm/%s.sh%s", data->path, name, end);
+    snprintf(path, SLURM_PATH_SIZE, "%s/slurm/%s.sh%s", data->path, name, end);
 }
 
 static bool write_whole(const char *path, const char *text)
@@ -70,7 +71,7 @@ static bool write_whole(const char *path, const char *text)
 
 static bool sync_folder(const data_folder *data)
 {
-    char path[LONGEST_PATH];
+    char path[SLURM_PATH_SIZE];
     snprintf(path, sizeof path, "%s/slurm", data->path);
     const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     const bool good = folder >= 0 && fsync(folder) == 0;
@@ -80,13 +81,14 @@ static bool sync_folder(const data_folder *data)
 
 bool slurm_bundle_write(const slurm_bundle *bundle, const data_folder *data, const bundle_worker *worker)
 {
-    char path[LONGEST_PATH], temporary[LONGEST_PATH], jobs[LONGEST_PATH];
+    char path[SLURM_PATH_SIZE], temporary[SLURM_PATH_SIZE], jobs[SLURM_PATH_SIZE];
     text_buffer script;
     text_buffer_init(&script, LONGEST_SCRIPT);
     snprintf(jobs, sizeof jobs, "%s/jobs", data->path);
     script_path(path, data, bundle->name, "");
     script_path(temporary, data, bundle->name, ".tmp");
     text_buffer_print(&script, "#!/bin/sh\n# Jobs of a reposed, to be run one after the other.\n");
+    if (*bundle->resources) text_buffer_print(&script, RESOURCES_LINE "%s\n", bundle->resources);
     for (int m = 0; m < bundle->count; m++) {
         const bundle_member *member = &bundle->member[m];
         text_buffer_print(&script, "#: %s %d %d %d %d %.0f %.0f\n", member->job, member->start, member->attempt, member->threads,
@@ -104,9 +106,27 @@ bool slurm_bundle_write(const slurm_bundle *bundle, const data_folder *data, con
 
 void slurm_bundle_remove(const slurm_bundle *bundle, const data_folder *data)
 {
-    char path[LONGEST_PATH];
+    char path[SLURM_PATH_SIZE];
     script_path(path, data, bundle->name, "");
     unlink(path);
+    slurm_bundle_words_path(bundle, data, path);
+    unlink(path);
+}
+
+void slurm_bundle_words_path(const slurm_bundle *bundle, const data_folder *data, char path[SLURM_PATH_SIZE])
+{
+    snprintf(path, SLURM_PATH_SIZE, "%s/slurm/%s.err", data->path, bundle->name);
+}
+
+bool slurm_bundle_took_too_much_memory(const slurm_bundle *bundle, const data_folder *data)
+{
+    char path[SLURM_PATH_SIZE], words[LONGEST_WORDS];
+    slurm_bundle_words_path(bundle, data, path);
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    const ssize_t length = file >= 0 ? read(file, words, sizeof words - 1) : 0;
+    if (file >= 0) close(file);
+    words[length > 0 ? length : 0] = '\0';
+    return strstr(words, "memory limit") || strstr(words, "oom-kill") || strstr(words, "oom_kill");
 }
 
 static bool read_member(const char *line, bundle_member *member)
@@ -121,14 +141,22 @@ static bool read_member(const char *line, bundle_member *member)
     return true;
 }
 
+static void read_resources(const char *line, slurm_bundle *bundle)
+{
+    const size_t start = sizeof RESOURCES_LINE - 1;
+    if (strncmp(line, RESOURCES_LINE, start) != 0) return;
+    snprintf(bundle->resources, sizeof bundle->resources, "%.*s", (int)strcspn(line + start, "\n"), line + start);
+}
+
 slurm_bundle *slurm_bundle_read(const data_folder *data, const char *name)
 {
-    char path[LONGEST_PATH], line[LONGEST_PATH];
+    char path[SLURM_PATH_SIZE], line[SLURM_PATH_SIZE];
     script_path(path, data, name, "");
     FILE *file = fopen(path, "re");
     slurm_bundle *bundle = file ? calloc(1, sizeof *bundle) : NULL;
     while (bundle && bundle->count < BUNDLE_MOST && fgets(line, sizeof line, file))
         if (read_member(line, &bundle->member[bundle->count])) bundle->count++;
+        else read_resources(line, bundle);
     if (file) fclose(file);
     if (!bundle || bundle->count == 0) {
         free(bundle);
@@ -140,14 +168,14 @@ slurm_bundle *slurm_bundle_read(const data_folder *data, const char *name)
     return bundle;
 }
 
-static void fence_path(char path[LONGEST_PATH], const data_folder *data, const bundle_member *member)
+static void fence_path(char path[SLURM_PATH_SIZE], const data_folder *data, const bundle_member *member)
 {
-    snprintf(path, LONGEST_PATH, "%s/jobs/%s/" JOB_FENCE_FORMAT, data->path, member->job, member->start);
+    snprintf(path, SLURM_PATH_SIZE, "%s/jobs/%s/" JOB_FENCE_FORMAT, data->path, member->job, member->start);
 }
 
 void slurm_fence_read(const data_folder *data, const bundle_member *member, bool *has_begun, int *code)
 {
-    char path[LONGEST_PATH], text[LONGEST_FENCE];
+    char path[SLURM_PATH_SIZE], text[LONGEST_FENCE];
     fence_path(path, data, member);
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
     const ssize_t length = file >= 0 ? read(file, text, sizeof text - 1) : 0;
@@ -160,7 +188,7 @@ void slurm_fence_read(const data_folder *data, const bundle_member *member, bool
 
 void slurm_fence_tell(const data_folder *data, const bundle_member *member, const char *word, bool *has_begun)
 {
-    char path[LONGEST_PATH], line[16];
+    char path[SLURM_PATH_SIZE], line[16];
     fence_path(path, data, member);
     int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
     *has_begun = file < 0 && errno == EEXIST;

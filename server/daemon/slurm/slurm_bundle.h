@@ -8,9 +8,10 @@
 
 #include "data_folder.h"
 #include "job_id.h"
+#include "job_resources.h"
 #include "slurm_commands.h"
 
-enum { BUNDLE_MOST = 64, BUNDLE_NAME_SIZE = JOB_ID_SIZE + 16 };
+enum { BUNDLE_MOST = 64, BUNDLE_NAME_SIZE = JOB_ID_SIZE + 16, SLURM_PATH_SIZE = 4200 };
 
 typedef struct bundle_member {
     char job[JOB_ID_SIZE];
@@ -35,6 +36,7 @@ typedef struct slurm_bundle {
         BUNDLE_QUEUED
     } stage;
     slurm_state state;
+    char resources[RESOURCES_SIZE]; /* that all of its jobs ask for, as JSON; "": nothing */
     char reason[SLURM_REASON_SIZE]; /* why it waits, or why sbatch refused it */
     double opened, next_try, gone;  /* monotonic s; gone: when it was first seen to have ended, 0: it has not */
     int refusals, misses;           /* in a row: of sbatch, and answers of squeue without it */
@@ -52,6 +54,10 @@ typedef struct bundle_worker {
 /* False: errno. */
 bool slurm_bundle_write(const slurm_bundle *bundle, const data_folder *data, const bundle_worker *worker);
 void slurm_bundle_remove(const slurm_bundle *bundle, const data_folder *data);
+/* Where Slurm writes what it has to say to the script, and whether that was that it took too much memory: not every way in which
+ * a Slurm may be set up to see to that shows in the job's state. */
+void slurm_bundle_words_path(const slurm_bundle *bundle, const data_folder *data, char path[SLURM_PATH_SIZE]);
+bool slurm_bundle_took_too_much_memory(const slurm_bundle *bundle, const data_folder *data);
 /* What slurm_bundle_write wrote under that name, nobody following it; for free(). NULL: not there, or none of ours. */
 slurm_bundle *slurm_bundle_read(const data_folder *data, const char *name);
 

@@ -22,7 +22,7 @@
 #define SHARE_OF_LOOKING 0.1   /* and not for more than this share of the time */
 #define SECONDS_TO_VANISH 10.0 /* a job may be unknown for a moment, while a controller starts again */
 
-enum { MOST_ARGUMENTS = 32, LONGEST_ARGUMENT = 256, LONGEST_PATH = 4200, MISSES_TO_VANISH = 2 };
+enum { MOST_ARGUMENTS = 32, LONGEST_ARGUMENT = 256, MISSES_TO_VANISH = 2 };
 
 /* --- the list --- */
 
@@ -115,7 +115,7 @@ static void ring(const slurm_queue *queue)
 /* --- submitting --- */
 
 typedef struct sbatch_command {
-    char text[MOST_ARGUMENTS][LONGEST_ARGUMENT], script[LONGEST_PATH];
+    char text[MOST_ARGUMENTS][LONGEST_ARGUMENT], script[SLURM_PATH_SIZE], words[2 * SLURM_PATH_SIZE];
     const char *argument[MOST_ARGUMENTS + 1];
     int count;
 } sbatch_command;
@@ -129,6 +129,29 @@ static void add_argument(sbatch_command *command, const char *format, ...)
     va_end(arguments);
     command->argument[command->count] = command->text[command->count];
     command->count++;
+}
+
+/* Where Slurm says why it kills a script; sbatch takes % for the beginning of a pattern. */
+static void add_words(sbatch_command *command, const slurm_bundle *bundle, const data_folder *data)
+{
+    char path[SLURM_PATH_SIZE];
+    slurm_bundle_words_path(bundle, data, path);
+    size_t length = (size_t)snprintf(command->words, sizeof command->words, "--error=");
+    for (const char *c = path; *c && length + 2 < sizeof command->words; c++) {
+        if (*c == '%') command->words[length++] = '%';
+        command->words[length++] = *c;
+    }
+    command->words[length] = '\0';
+    command->argument[command->count++] = command->words;
+}
+
+/* What the jobs themselves ask for comes after what all are given: of an option that is given twice sbatch takes the last. */
+static void add_resources(sbatch_command *command, const char *text)
+{
+    const char *name;
+    json_t *value, *resources = json_loads(*text ? text : "{}", 0, NULL);
+    json_object_foreach(resources, name, value) add_argument(command, "--%s=%s", name, json_string_value(value));
+    json_decref(resources);
 }
 
 static void make_command(const slurm_queue *queue, const slurm_bundle *bundle, sbatch_command *command)
@@ -147,7 +170,7 @@ static void make_command(const slurm_queue *queue, const slurm_bundle *bundle, s
     add_argument(command, "--job-name=" SLURM_NAME_START "%s", bundle->name);
     add_argument(command, "--comment=%s, attempt %d", bundle->name, bundle->member[0].attempt);
     add_argument(command, "--output=/dev/null");
-    add_argument(command, "--error=/dev/null");
+    add_words(command, bundle, queue->data);
     add_argument(command, "--nodes=1");
     add_argument(command, "--ntasks=1");
     add_argument(command, "--cpus-per-task=%d", bundle->member[0].threads);
@@ -158,6 +181,7 @@ static void make_command(const slurm_queue *queue, const slurm_bundle *bundle, s
     if (s->account) add_argument(command, "--account=%s", s->account);
     if (s->qos) add_argument(command, "--qos=%s", s->qos);
     if (s->constraint) add_argument(command, "--constraint=%s", s->constraint);
+    add_resources(command, bundle->resources);
     for (int l = 0; l < s->line_count; l++) add_argument(command, "%s", s->lines[l]);
     snprintf(command->script, sizeof command->script, "%s/slurm/%s.sh", queue->data->path, bundle->name);
     command->argument[command->count++] = command->script;
@@ -353,12 +377,20 @@ static void look(slurm_queue *queue)
 
 /* --- cancelling --- */
 
+/* One of which every job has an end leaves by itself. */
+static bool has_all_ends(const slurm_bundle *bundle)
+{
+    for (int m = 0; m < bundle->count; m++)
+        if (bundle->member[m].code < 0) return false;
+    return true;
+}
+
 static bool cancel_one(slurm_queue *queue)
 {
     for (int b = 0; b < queue->count; b++) {
         slurm_bundle *bundle = queue->bundle[b];
         if (!queue->is_recovered || bundle->stage != BUNDLE_QUEUED || bundle->gone > 0.0 || bundle->is_cancelled
-            || !is_unwanted(bundle))
+            || !is_unwanted(bundle) || has_all_ends(bundle))
             continue;
         /* One that has ended is only not known to have. */
         char reason[SLURM_REASON_SIZE] = "", id[SLURM_ID_SIZE];
@@ -399,7 +431,7 @@ static void *serve(void *context)
 
 static bool read_earlier(slurm_queue *queue)
 {
-    char path[LONGEST_PATH];
+    char path[SLURM_PATH_SIZE];
     snprintf(path, sizeof path, "%s/slurm", queue->data->path);
     if (mkdir(path, 0700) != 0 && errno != EEXIST) {
         log_line("%s can't be made: %s", path, strerror(errno));

@@ -129,18 +129,20 @@ static store_status insert_row(sqlite3 *writer, int64_t number, const job_spec *
                                const char *label, const char *wanted, const char *given, const job_place *place,
                                const job_estimate *estimate)
 {
-    char now[JOB_TIME_SIZE];
+    char now[JOB_TIME_SIZE], resources[RESOURCES_SIZE];
     time_text(now);
+    if (!job_resources_write(spec->resources, resources)) return STORE_FAILED;
     return sql_run(
         writer, NULL,
         "INSERT INTO "
         "job(number,id,process,label,spec,status,message,threads,estimated_seconds,estimated_memory_bytes,created,updated,"
-        "study,study_case,study_repeat,priority,client,turn,wanted,given,bed) VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted',"
+        "study,study_case,study_repeat,priority,client,turn,wanted,given,bed,resources) "
+        "VALUES(nullif(?12,0),?1,?2,?3,?4,'accepted',"
         "'waiting for a free worker',?5,?6,?7,?8,?8,"
-        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11),?13,?14,?15,?16,?17,nullif(?18,0))",
-        "ttttiddtiiiiititti", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds,
+        "nullif(?9,0),iif(?9=0,NULL,?10),iif(?9=0,NULL,?11),?13,?14,?15,?16,?17,nullif(?18,0),nullif(?19,''))",
+        "ttttiddtiiiiitittit", id, spec->process, label, text, (int64_t)spec->threads, estimate->wall_seconds,
         estimate->memory_bytes, now, place->study, place->index, place->repeat, number, (int64_t)spec->priority, client_of(spec),
-        place->turn, wanted, given, place->bed);
+        place->turn, wanted, given, place->bed, resources);
 }
 
 store_status store_insert_job(const field_tables *fields, sqlite3 *writer, int64_t number, const job_spec *spec, const char *id,

@@ -119,10 +119,12 @@ typedef struct job_claim {
     double estimated_seconds, estimated_memory_bytes;
     int more_time, more_memory; /* how often an attempt had too little, and was given twice as much */
     int64_t bed;                /* the number of the bed that others would settle, too; 0: none would */
-    char *spec;                 /* owned; NULL once the worker has started */
-    int64_t saved_step;         /* of the furthest checkpoint that any attempt told of, */
-    int saved_in;               /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
+    char *spec, *resources; /* owned; NULL once the worker has started. What is asked of a cluster (job_resources.h); "": nothing */
+    int64_t saved_step;     /* of the furthest checkpoint that any attempt told of, */
+    int saved_in;           /* and the attempt that told, or the last one before it was tried again on request; 0: none yet */
 } job_claim;
+/* Of what only the start of a worker needs. */
+void job_claim_clear(job_claim *claim);
 
 #define SHORT_JOB 2.0 /* s of estimate: what takes less has a lane */
 /* Which of the jobs that wait comes first. */

@@ -22,7 +22,16 @@ enum { LONGEST_DELAY = 3600 /* s; no job is put off for longer */, LONGEST_WORKE
 #define LONGEST_DELAY_OF_SETBACKS 60.0
 
 /* After the number, the id, the attempt and the threads. */
-#define CLAIMED " estimated_seconds, estimated_memory_bytes, spec, study, attempts_before, bed, starts, more_time, more_memory"
+#define CLAIMED                                                                                                                    \
+    " estimated_seconds, estimated_memory_bytes, spec, study, attempts_before, bed, starts, more_time, more_memory,"               \
+    " coalesce(resources,'')"
+
+void job_claim_clear(job_claim *claim)
+{
+    free(claim->spec);
+    free(claim->resources);
+    claim->spec = claim->resources = NULL;
+}
 
 /* name: of its worker, where the row has that; NULL: not wanted. */
 static store_status read_claim(sqlite3_stmt *statement, job_claim *claim, char *name)
@@ -43,12 +52,13 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim, char *
                           .more_time = sqlite3_column_int(statement, 11),
                           .more_memory = sqlite3_column_int(statement, 12) };
     snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
-    if (name) snprintf(name, LONGEST_WORKER_NAME, "%s", (const char *)sqlite3_column_text(statement, 13));
+    claim->resources = strdup((const char *)sqlite3_column_text(statement, 13));
+    if (name) snprintf(name, LONGEST_WORKER_NAME, "%s", (const char *)sqlite3_column_text(statement, 14));
     const char *spec = (const char *)sqlite3_column_text(statement, 6);
     claim->spec = spec ? study_parts_expand(sqlite3_db_handle(statement), sqlite3_column_int64(statement, 7), spec) : NULL;
     /* The update counts only when the statement has ended well. */
     const store_status status = sql_finish(statement, sqlite3_step(statement));
-    return status == STORE_OK && !claim->spec ? STORE_FAILED : status;
+    return status == STORE_OK && (!claim->spec || !claim->resources) ? STORE_FAILED : status;
 }
 
 /* The job that is to be started next, of those that are due: not one that is put off, but if its time is further ahead than
@@ -89,10 +99,7 @@ store_status store_claim_job(job_store *store, queue_order order, int free_threa
                          " ON CONFLICT DO UPDATE SET turn=max(turn,excluded.turn)",
                          "i", claim->number);
     status = store_end(store, status);
-    if (status != STORE_OK) {
-        free(claim->spec);
-        claim->spec = NULL;
-    }
+    if (status != STORE_OK) job_claim_clear(claim);
     return status;
 }
 
@@ -355,7 +362,7 @@ store_status store_recover(job_store *store, worker_adopter *adopt, void *contex
     while ((status = next_orphan(store, after, &claim, name)) == STORE_OK) {
         after = claim.number;
         status = recover_one(store, &claim, name, adopt, context);
-        free(claim.spec);
+        job_claim_clear(&claim);
         if (status == STORE_CONFLICT) status = STORE_OK; /* dismissed meanwhile */
         if (status != STORE_OK) worst = status;
     }

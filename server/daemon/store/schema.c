@@ -235,6 +235,9 @@ static const char workers_of_jobs[] = "ALTER TABLE job ADD COLUMN starts INTEGER
                                       "ALTER TABLE job ADD COLUMN more_time INTEGER NOT NULL DEFAULT 0;"
                                       "ALTER TABLE job ADD COLUMN more_memory INTEGER NOT NULL DEFAULT 0;";
 
+/* What is asked of a cluster (job_resources.h); NULL: nothing. */
+static const char resources_of_jobs[] = "ALTER TABLE job ADD COLUMN resources TEXT;";
+
 /* A calibration, what was posted and what the planner said last, and the runs that it asked for. A run has a job as long as that is
  * there; when it is deleted, what became of it is kept, because the planner reads all of them each time. workers: how many runs a
  * batch has, whatever the daemon is started with later. */
@@ -315,5 +318,6 @@ const schema_migration schema_migrations[] = {
     { { interfaces } },
     { { workers_of_jobs } },
     { { calibrations } },
+    { { resources_of_jobs } },
 };
 const int schema_version = sizeof schema_migrations / sizeof schema_migrations[0];

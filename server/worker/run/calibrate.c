@@ -20,6 +20,7 @@
 #include "job_spec.h"
 #include "json_text.h"
 #include "measuring_time.h"
+#include "processor_name.h"
 #include "version.h"
 #include "worker_log.h"
 
@@ -180,20 +181,6 @@ static bool measure_sizes(calibration *machine)
 
 /* --- whose it is --- */
 
-static void name_processor(char text[CALIBRATION_TEXT])
-{
-    char line[400];
-    snprintf(text, CALIBRATION_TEXT, "unknown");
-    FILE *file = fopen("/proc/cpuinfo", "re");
-    while (file && fgets(line, sizeof line, file)) {
-        const char *colon = strncmp(line, "model name", 10) == 0 ? strchr(line, ':') : NULL;
-        if (!colon) continue;
-        snprintf(text, CALIBRATION_TEXT, "%.*s", (int)strcspn(colon + 2, "\n"), colon + 2);
-        break;
-    }
-    if (file) fclose(file);
-}
-
 /* Every build has a time and a size of its own. */
 static void name_program(char text[CALIBRATION_TEXT])
 {
@@ -209,7 +196,7 @@ static bool measure(calibration *machine, bool *whole)
     measuring_time_begin();
     *whole = false;
     *machine = calibration_built_in();
-    name_processor(machine->processor);
+    snprintf(machine->processor, CALIBRATION_TEXT, "%s", processor_name());
     name_program(machine->program);
     const time_t now = time(NULL);
     struct tm utc;
@@ -232,10 +219,9 @@ static bool measure(calibration *machine, bool *whole)
 
 bool calibrate_is_current(const calibration *machine)
 {
-    char processor[CALIBRATION_TEXT], program[CALIBRATION_TEXT];
-    name_processor(processor);
+    char program[CALIBRATION_TEXT];
     name_program(program);
-    return strcmp(machine->processor, processor) == 0 && strcmp(machine->program, program) == 0;
+    return strcmp(machine->processor, processor_name()) == 0 && strcmp(machine->program, program) == 0;
 }
 
 /* --- where it is kept --- */

@@ -22,6 +22,7 @@
 #include "json_text.h"
 #include "picture_file.h"
 #include "process_type.h"
+#include "processor_name.h"
 #include "run_folder.h"
 #include "run_summary.h"
 #include "scene_run.h"
@@ -246,6 +247,7 @@ run_facts scene_run_facts(const scene_group *g, size_t bed)
         .snapshots = (double)r->next_snapshot,
         .threads = g->job->spec->threads,
         .isa = dem_build_isa(),
+        .processor = processor_name(),
         .precision = dem_build_precision(),
         .seed = (double)drum->seed,
         .attempt = g->job->options->attempt,
