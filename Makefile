@@ -4,6 +4,7 @@ PACKAGES := gcc make git pkg-config curl ca-certificates libmicrohttpd-dev libja
             nettle-dev liblapacke-dev
 TEST_PACKAGES := libcmocka-dev python3-pytest python3-pytest-xdist python3-requests python3-h5py python3-vtk9 python3-jsonschema \
                  python3-yaml python3-numpy python3-matplotlib python3-selenium chromium chromium-driver fonts-dejavu-core python3-owslib
+TORTURE_PACKAGES := slurmctld slurmd slurm-client munge
 REPORT_PACKAGES := python3-requests python3-h5py python3-numpy python3-matplotlib
 PEER_PACKAGES := lammps liggghts
 DEB_PACKAGES := dpkg-dev
@@ -280,7 +281,7 @@ physics-programs: programs $(foreach v,single-$(ISA) double-$(ISA),$(patsubst %,
 	@rm -rf $(BUILD)/tests/single $(BUILD)/tests/double
 	@ln -s single-$(ISA) $(BUILD)/tests/single && ln -s double-$(ISA) $(BUILD)/tests/double
 
-torture: test-packages ## faults for minutes: damaged files, the n-th call that fails, hostile queries; TORTURE=tests/service/FILE.py: some
+torture: test-packages torture-packages ## faults for minutes: damaged files, the n-th call that fails, hostile queries; TORTURE=tests/service/FILE.py: some
 	@$(MAKE) --no-print-directory programs
 	@REPOSED_BUILD=$(BUILD) $(PYTHON) -m pytest -q -p no:cacheprovider -m torture $(TORTURE)
 
@@ -389,13 +390,16 @@ packages:
 	$(call install,$(PACKAGES),what the programs are built with)
 test-packages: packages
 	$(call install,$(TEST_PACKAGES),what the tests need)
+# A cluster on this machine; its services are for the tests to start, and not for the machine.
+torture-packages:
+	$(call install,$(TORTURE_PACKAGES),what tests of faults need)
 report-packages: packages
 	$(call install,$(REPORT_PACKAGES),what the report needs)
 lint-packages: packages
 	$(call install,$(LINT_PACKAGES),formatters and linters)
 
 # Every target of the list above, and those that it leaves out.
-.PHONY: FORCE packages test-packages report-packages lint-packages physics-programs \
+.PHONY: FORCE packages test-packages torture-packages report-packages lint-packages physics-programs \
   $(shell sed -n 's/^\([a-z-]*\):.*##.*/\1/p' $(firstword $(MAKEFILE_LIST)))
 .SECONDARY:
 -include $(wildcard $(BUILD)/*/*.d $(BUILD)/*/*/*.d $(BUILD)/*/*/*/*.d $(BUILD)/*/*/*/*/*.d)

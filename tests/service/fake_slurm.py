@@ -6,7 +6,7 @@ $FAKE_SLURM/jobs. Files of $FAKE_SLURM make it misbehave:
     refuse    sbatch says what stands in it, and takes nothing
     lose      sbatch takes the job, and its answer is lost
     held      no job starts
-Whoever writes a state into a job's file `end` kills the job so."""
+Whoever writes a state into a job's file `end` kills the job so; VANISHED: one that waits is not known any more."""
 import fcntl
 import json
 import os
@@ -86,7 +86,8 @@ def may_start(folder):
 def run(folder, options):
     while not may_start(folder):
         if (folder / "end").exists():
-            return publish(folder / "state", (folder / "end").read_text())
+            how = (folder / "end").read_text()
+            return (folder / "state").unlink() if how == "VANISHED" else publish(folder / "state", how)
         time.sleep(0.05)
     minute = float(word("minute", "60"))
     until = time.monotonic() + float(options["time"]) * minute

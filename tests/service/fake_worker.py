@@ -159,6 +159,10 @@ try:
     run()
     if what != "no result":
         text = "[1]" if what == "wrong result" else json.dumps(RESULT)
+        if what == "seen late" and os.fork() == 0:  # as on another machine, whose files come here some time after
+            time.sleep(6)
+        elif what == "seen late":
+            sys.exit(0)
         publish(FOLDER / "result.json", text)
 except OSError:  # the disk is full
     sys.exit(5)

@@ -201,6 +201,28 @@ def test_each_end_that_slurm_tells_means_what_it_should_to_the_job(service, clus
 
 
 @pytest.mark.torture
+def test_what_never_began_is_submitted_again_and_a_result_is_looked_for_for_some_time(service, cluster):
+    daemon = service("--bundle-seconds", "0")
+    cluster.set("held")
+    unborn, vanished = daemon.submit(), daemon.submit()
+    until(lambda: len(cluster.jobs()) == 2)
+    (first, *_), (second, *_) = cluster.jobs()
+    cluster.end(first, "BOOT_FAIL")
+    cluster.end(second, "VANISHED")
+    until(lambda: f"{unborn}.2" in str([options for _, _, options, _ in cluster.jobs()]))
+    until(lambda: [options for number, _, options, _ in cluster.jobs() if f"{vanished}.1" in options["job-name"] and number != second], 60)
+    cluster.unset("held")
+    assert [daemon.ended(job)["status"] for job in (unborn, vanished)] == ["successful", "successful"]
+    assert rows(daemon, "select starts, attempt from job order by number") == [{"starts": 2, "attempt": 1}, {"starts": 1, "attempt": 1}]
+    assert [ends(daemon, job) for job in (unborn, vanished)] == [["0"], ["0"]] and len(cluster.jobs()) == 3
+    job = daemon.submit(fake="seen late")
+    until(lambda: ends(daemon, job))
+    assert daemon.job(job)["status"] == "running"
+    assert daemon.ended(job)["status"] == "successful"
+    assert rows(daemon, "select starts, attempt from job order by number")[2] == {"starts": 1, "attempt": 1}
+
+
+@pytest.mark.torture
 def test_a_run_that_needs_more_time_goes_on_with_twice_as_much_and_a_dismissed_one_leaves(service, cluster):
     cluster.set("minute", 1)  # 60 s before the end become one
     daemon = service("--bundle-seconds", "0", "--slurm-line=--time=2")

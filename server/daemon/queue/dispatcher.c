@@ -467,7 +467,8 @@ static bool adopt_once(void *context, const job_claim *claim, const char *name)
 
 bool dispatcher_recover(job_dispatcher *dispatcher)
 {
-    dispatcher->recovered = store_recover(dispatcher->store, adopt_once, dispatcher) == STORE_OK;
+    dispatcher->recovered =
+        store_recover(dispatcher->store, "left running by an earlier daemon", adopt_once, dispatcher) == STORE_OK;
     return dispatcher->recovered;
 }
 

@@ -115,7 +115,7 @@ static bool collect_into(job_store *store, const json_t *document, const char *c
     int repeats;
     int64_t counts[JOB_STATUSES];
     if (!add_study(store, document, id, &repeats) || name_jobs(store, repeats) != STORE_OK) return false;
-    if (store_recover(store, settle, store) != STORE_OK || !write_csv(store, id, csv)) return false;
+    if (store_recover(store, NULL, settle, store) != STORE_OK || !write_csv(store, id, csv)) return false;
     if (store_count_jobs(store, counts) != STORE_OK) return false;
     const int64_t jobs = counts[JOB_SUCCESSFUL] + counts[JOB_FAILED] + counts[JOB_ACCEPTED];
     printf("%lld of %lld jobs have results, %lld failed: %s and reposed.sqlite beside it\n", (long long)counts[JOB_SUCCESSFUL],

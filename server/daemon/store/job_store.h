@@ -172,9 +172,9 @@ bool store_claim_holds(job_store *store, const job_claim *claim);
 store_status store_record_worker(job_store *store, const job_claim *claim, const char *name, const char *waits_for);
 /* Jobs that a dead daemon left running are recorded as done where the result is there, left as they are where `adopt` goes on with
  * the worker of that name, or else put back, with no attempt used. Anything but STORE_OK: to be called again. The claim's spec is
- * only lent. */
+ * only lent. why: what the log says of each; NULL: nothing. */
 typedef bool worker_adopter(void *context, const job_claim *claim, const char *name);
-store_status store_recover(job_store *store, worker_adopter *adopt, void *context);
+store_status store_recover(job_store *store, const char *why, worker_adopter *adopt, void *context);
 /* unused_folders.c: those that a POST made which a crash has cut off. Before the first request: one that is being posted has no
  * row either. */
 store_status store_remove_unused_folders(job_store *store);

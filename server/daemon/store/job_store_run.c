@@ -329,7 +329,7 @@ static store_status record_left_events(job_store *store, job_claim *claim)
 
 /* The worker may have finished in the moment the daemon died: result.json is the last thing it writes. One that was not made
  * from this job's spec, or that does not tell, does not count: the job runs again. */
-static store_status recover_result(job_store *store, const job_claim *claim)
+static store_status recover_result(job_store *store, const job_claim *claim, const char *why)
 {
     errno = 0;
     char *text = job_file_read(store->data, claim->id, JOB_RESULT_FILE, LARGEST_RESULT);
@@ -338,22 +338,23 @@ static store_status recover_result(job_store *store, const job_claim *claim)
     char *document = job_result_read(store->data, claim->id, claim->spec);
     const store_status status = document ? store_record_success(store, claim, document) : STORE_REFUSED;
     free(document);
-    if (status == STORE_OK) log_line("job %s: left running by an earlier daemon; its result is there", claim->id);
+    if (status == STORE_OK && why) log_line("job %s: %s; its result is there", claim->id, why);
     return status;
 }
 
-static store_status recover_one(job_store *store, job_claim *claim, const char *name, worker_adopter *adopt, void *context)
+static store_status recover_one(job_store *store, job_claim *claim, const char *name, const char *why, worker_adopter *adopt,
+                                void *context)
 {
     store_status status = record_left_events(store, claim);
-    if (status == STORE_OK) status = recover_result(store, claim);
+    if (status == STORE_OK) status = recover_result(store, claim, why);
     if (status != STORE_REFUSED || adopt(context, claim, name)) return status == STORE_REFUSED ? STORE_OK : status;
     job_result_remove(store->data, claim->id); /* nobody is to take it for one again */
     status = store_put_back(store, claim, false, "the daemon stopped while it ran");
-    if (status == STORE_OK) log_line("job %s: left running by an earlier daemon; put back", claim->id);
+    if (status == STORE_OK && why) log_line("job %s: %s; put back", claim->id, why);
     return status;
 }
 
-store_status store_recover(job_store *store, worker_adopter *adopt, void *context)
+store_status store_recover(job_store *store, const char *why, worker_adopter *adopt, void *context)
 {
     job_claim claim = { 0 };
     char name[LONGEST_WORKER_NAME];
@@ -361,7 +362,7 @@ store_status store_recover(job_store *store, worker_adopter *adopt, void *contex
     store_status status, worst = STORE_OK;
     while ((status = next_orphan(store, after, &claim, name)) == STORE_OK) {
         after = claim.number;
-        status = recover_one(store, &claim, name, adopt, context);
+        status = recover_one(store, &claim, name, why, adopt, context);
         job_claim_clear(&claim);
         if (status == STORE_CONFLICT) status = STORE_OK; /* dismissed meanwhile */
         if (status != STORE_OK) worst = status;

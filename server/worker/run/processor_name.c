@@ -3,7 +3,9 @@
 #include <cpuid.h>
 #include <string.h>
 
-enum { FIRST_PART = 0x80000002U, PARTS = 3, PART = 16 };
+#define FIRST_PART 0x80000002U
+
+enum { PARTS = 3, PART = 16 };
 
 /* It is asked itself, since a confined worker may not read /proc/cpuinfo, which says the same. */
 const char *processor_name(void)
