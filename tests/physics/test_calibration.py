@@ -82,12 +82,12 @@ def test_frictions_of_own_runs_are_found_again(record, tmp_path):
 
 @pytest.mark.minutes
 def test_the_example_finds_its_frictions_again(record, tmp_path):
-    """Its values are means over three beds of friction 0.4 and rolling friction 0.1."""
+    """Its values are means over six drums and eight heaps of friction 0.6 and rolling friction 0.05."""
     request = json.loads((Path(__file__).parents[2] / "api/examples/calibration.json").read_text())
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
-    answer, runs, _ = calibrate(request, run_for_real(tmp_path))
+    answer, runs, _ = calibrate(request, run_for_real(tmp_path), at_once=2)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    for name, value in ((FRICTION, 0.4), (ROLLING, 0.1)):
+    for name, value in ((FRICTION, 0.6), (ROLLING, 0.05)):
         low, high = answer["credible"][name]["95"]
         record.between(f"the example's {name[8:]}, {len(runs)} jobs, status {answer['status']}", value, low, high,
                        "the middle 95 % of the posterior hold the truth")
