@@ -1,6 +1,7 @@
 """What keeps a data folder in order: copies of it at work, looking through it, mending it."""
 import hashlib
 import os
+import resource
 import shutil
 import signal
 import sqlite3
@@ -160,6 +161,17 @@ def test_what_is_damaged_is_found_and_mended_and_nothing_is_thrown_away(ended):
     assert requests.post(f"{daemon.url}/jobs/{two}/retry", timeout=30).status_code == 200
     assert daemon.ended(two)["status"] == "successful" and daemon.get(f"/jobs/{two}/results").status_code == 200
     assert reposed("check", data=daemon.data).returncode == 0  # beside a daemon
+
+
+def test_a_look_at_twice_as_many_jobs_takes_twice_as_long(ended):
+    """Not four times: the next job is found without a look at all that have ended."""
+    daemon, _ = ended
+    change(daemon, "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x+1 FROM n WHERE x<5000) INSERT INTO job(id,process,label,spec,status,message,"
+                   "threads,estimated_seconds,estimated_memory_bytes,created,updated) SELECT printf('20200101-000000-%08x',x),'drum','{}',"
+                   "hex(zeroblob(1500)),'failed','',1,1,1,'','' FROM n")
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    assert reposed("check", data=daemon.data).stdout.startswith("5002 jobs that have ended")
+    assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before < 3
 
 
 def test_a_damaged_index_is_made_anew(ended):

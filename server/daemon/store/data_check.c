@@ -254,7 +254,7 @@ static void check_jobs(look *l)
     char id[JOB_ID_SIZE] = "";
     for (;;) { /* row by row, since rows change */
         static const char next[] =
-            "SELECT id FROM job WHERE id>? AND status IN ('successful','failed','dismissed') ORDER BY id LIMIT 1";
+            "SELECT id FROM job WHERE id>? AND +status IN ('successful','failed','dismissed') ORDER BY id LIMIT 1";
         sqlite3_stmt *row = sql_prepare(l->database, next, "t", id);
         const int code = row ? sqlite3_step(row) : SQLITE_ERROR;
         char found[JOB_ID_SIZE] = "";
