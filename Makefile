@@ -262,6 +262,9 @@ demo: all ## the paper's drum from curl to an angle of repose, with nothing prep
 serve: all ## the daemon in the foreground: PORT=8080 DATA=data
 	@$(BUILD)/reposed serve --port $(PORT) --data "$(DATA)"
 
+screenshots: test-packages programs ## README's pictures of the page, web/pictures, made anew from real runs
+	@REPOSED_BUILD=$(BUILD) $(PYTHON) tests/screenshots.py web/pictures
+
 test: test-packages ## unit, short physics and service tests; closes with a line that counts them
 	@$(MAKE) --no-print-directory check programs $(UNIT_TESTS) $(KERNEL_TESTS) physics-programs
 	@PYTHON=$(PYTHON) sh tests/run.sh $(BUILD)

@@ -26,7 +26,7 @@ export function replaceIfChanged(element, key, build) {
   const text = JSON.stringify(key);
   if (element.dataset.shown === text) return;
   element.dataset.shown = text;
-  element.replaceChildren(...[build()].flat().filter(child => child !== null && child !== undefined));
+  element.replaceChildren(...[build()].flat(Infinity).filter(child => child !== null && child !== undefined));
 }
 
 export const byId = id => document.getElementById(id);

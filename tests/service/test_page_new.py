@@ -67,6 +67,10 @@ def test_every_example_fills_the_form_and_is_sent_as_it_is(fake, browser):
         test, wanted = (document.get("base", document) for document in (sent(browser), given))
         assert test["inputs"] == wanted["inputs"]
         assert sent(browser).get("cases") == given.get("cases") and sent(browser).get("repeats") == given.get("repeats")
+    # warnings and problems, lists within a list, are elements and not the words for such
+    made = """const done = arguments[0]; import('/web/dom.js').then(({ h, replaceIfChanged }) => { const box = h('div');
+              replaceIfChanged(box, 1, () => [h('p'), [h('p'), [h('p')]]]); done(box.childElementCount + box.textContent); })"""
+    assert browser.execute_async_script(made) == "3"
     browser.execute_cdp_cmd("Emulation.setDeviceMetricsOverride", {"width": 320, "height": 640, "deviceScaleFactor": 2, "mobile": True})
     browser.get(f"{fake.url}/web/new.html?example=orifice")
     until(browser, lambda b: find_all(b, "#usual .field"))
