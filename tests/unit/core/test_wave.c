@@ -8,12 +8,12 @@
 
 enum { MOST_STEPS = 3 * HORIZON, BEFORE_SORT = 8192 - 500, DEFINITION_BYTES = 1512 /* species and pairs apart */ };
 
-/* Eight diameters across and a hundred long: some 3000 spheres, so that steps follow each other along it. */
+/* Eight diameters across and fifty long: some 1500 spheres, so that steps follow each other along it. */
 static dem_scene_definition slender_drum(void)
 {
     dem_scene_definition d = small_drum();
     d.diameter = 0.024;
-    d.length = 0.3;
+    d.length = 0.15;
     d.particle_count = (size_t)dem_particles_of_fill(d.diameter, d.length, d.fill_fraction, d.species, d.species_count);
     return d;
 }
