@@ -309,7 +309,10 @@ dem_status contact_parts_deal(contact_parts *parts, const contact_list *pairs, c
     for (size_t k = 0; k < parts->shared_begin[parts->count]; k++) parts->slot[parts->shared[k]] = 0;
     begin_parts(parts, pairs, wall_start, s->mobile_count, count);
     memset(parts->shared_begin, 0, sizeof parts->shared_begin);
-    if (count == 1) return DEM_OK;
+    if (count == 1) {
+        parts->part[0].across_count = parts->part[0].copies.count = 0;
+        return DEM_OK;
+    }
     deal_work work = { .parts = parts, .pairs = pairs, .spheres = s };
     team_run(count, find_across, &work);
     if (worst(&work) != DEM_OK) return worst(&work);

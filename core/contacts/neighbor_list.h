@@ -38,6 +38,7 @@ typedef struct neighbor_list {
     double *wall_torques;             /* N m about the axis, of each on its sphere (contact_forces_with_walls) */
     size_t wall_row_capacity;
     contact_parts parts; /* of the pairs */
+    bool stays_whole;    /* the next pick deals the pairs to one part, however many threads there are: for waves */
     pair_table table;    /* of materials */
     int64_t inner_picks;
     int64_t picked_of; /* outer.builds at the last pick */

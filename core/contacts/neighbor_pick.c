@@ -219,5 +219,6 @@ dem_status neighbor_list_pick(neighbor_list *list, spheres *s, const container *
     list->inner_valid = true;
     list->inner_picks++;
     const dem_status status = wall_rows_reserve(list);
-    return status == DEM_OK ? contact_parts_deal(&list->parts, &list->pairs, list->wall_start, s, threads) : status;
+    const int dealt_to = list->stays_whole ? 1 : threads;
+    return status == DEM_OK ? contact_parts_deal(&list->parts, &list->pairs, list->wall_start, s, dealt_to) : status;
 }

@@ -33,9 +33,10 @@
  *     of the list: the first sphere of a contact is before the second in memory, and first spheres ascend.
  *     Switch: one_step passes no `leap` to step_contacts when something has to see all loads, or all spheres, between the
  *     forces and the motion: `looks`.
- * Waves (wave.h). A single thread takes up to HORIZON steps of a very large bed in one pass through memory.
+ * Waves (wave.h). Up to HORIZON steps of a very large bed are taken in one pass through memory; threads share the steps, not
+ *     the spheres.
  *     Invariant: between two steps of one wave nothing changes but the spheres' motion; all else is the same in each.
- *     Switch: wave_length is more than 1; is_possible in wave.c gives the conditions and their reasons.
+ *     Switch: wave_length is more than 1; wave_is_possible in wave.c gives the conditions and their reasons.
  * Prefetch (contact_forces.c, neighbor_pick.c, wall_forces.c, integrator.c). What the next contacts read is loaded into the
  *     cache in advance. Invariant: it changes no result. Switch: spheres.are_many, spheres.exceed_caches.
  *
@@ -43,8 +44,8 @@
  *   - A new force belongs to the passes of contact_block.h. A contact in reach that does not touch gives exact zeros; what
  *     the padding of a list gives may be NaN and is never read. What a contact remembers is a number in contact_history.
  *   - What needs all places, velocities or loads of one moment between forces and motion joins `looks` in one_step and
- *     the conditions of is_possible. What looks at the scene every so many steps bounds wave_length instead.
- *   - What changes spheres, walls, masses or parameters from one step to the next joins the conditions of is_possible; the
+ *     the conditions of wave_is_possible. What looks at the scene every so many steps bounds wave_length instead.
+ *   - What changes spheres, walls, masses or parameters from one step to the next joins the conditions of wave_is_possible; the
  *     test of waves has a list of all such effects, and holds runs with and without waves to the same bits.
  *   - A bound for the lists: if something moves spheres or walls otherwise than by integrator_advance, it calls
  *     neighbor_list_invalidate, or its speed is in neighbor_list.c's bounds.
@@ -68,6 +69,7 @@
 dem_status scene_update_neighbors(dem_scene *scene)
 {
     bool looked;
+    scene->neighbors.stays_whole = wave_is_possible(scene);
     const dem_status status = neighbor_list_update(&scene->neighbors, &scene->spheres, &scene->container, &scene->contact,
                                                    scene->definition.time_step, scene->definition.threads, &looked);
     if (status != DEM_OK) return failure_of_memory(scene);
@@ -218,7 +220,7 @@ static double step_motion(dem_scene *scene, const leap_frog *leap, size_t moved,
     return deviation;
 }
 
-/* What follows the motion. Whatever is added here happens between two steps of a wave, too: see is_possible in wave.c.
+/* What follows the motion. Whatever is added here happens between two steps of a wave, too: see wave_is_possible in wave.c.
  * deviation: m/s, as step_motion returns it. */
 static dem_status finish_step(dem_scene *scene, double deviation)
 {

@@ -2,6 +2,7 @@
 
 #include "failure.h"
 #include "sorting.h"
+#include "team.h"
 
 /* Blocks that one stage computes before the next stage has its turn are the list's divided by VISITS: in a bed of a million
  * spheres, about one layer's. */
@@ -16,8 +17,6 @@ static int64_t until_next(int64_t count, int64_t every) { return every - count %
  * to every so many steps is no condition here but a bound of wave_length.)
  *
  *     in_waves         The bed is too large for the caches: in a smaller one, waves do not pay (SPEED.md).
- *     threads == 1     A wave has one cursor a step, which goes through the whole list; a part's halo has copies of the rows
- *                      for this step and the next one only.
  *     not growing      Growing spheres have other radii in each step, and all stages of a wave read the same rows.
  *     single spheres   A cluster moves when all its spheres have their loads, in step_motion, after the contacts of all.
  *     no lining        The lining's spheres turn with the drum between two steps (container_rotate_lining); also, the torque
@@ -29,20 +28,22 @@ static int64_t until_next(int64_t count, int64_t every) { return every - count %
  *                      end of the next step; and so it does between two stages of rotation.
  *     no profile       The profile tells what the parts of a step cost, and in a wave those of several steps are mixed.
  *     no audit         The audit of energy needs all loads and all velocities of one moment, before and after the motion. */
-static bool is_possible(const dem_scene *scene)
+bool wave_is_possible(const dem_scene *scene)
 {
     const spheres *s = &scene->spheres;
     const container *c = &scene->container;
     const bool turns = scene->phase == DEM_PHASE_RUNNING;
-    return s->in_waves && scene->definition.threads == 1 && scene->phase != DEM_PHASE_GROWING && s->single_count == s->mobile_count
-           && s->lining_count == 0 && c->kind == DEM_DRUM && c->bar_count == 0 && scene->definition.stage_count == 0
+    return s->in_waves && scene->phase != DEM_PHASE_GROWING && s->single_count == s->mobile_count && s->lining_count == 0
+           && c->kind == DEM_DRUM && c->bar_count == 0 && scene->definition.stage_count == 0
            && c->rotation_rate == (turns ? scene->definition.rotation_rate : 0.0) && !scene->profile && !scene->audit.is_on;
 }
 
 int wave_length(const dem_scene *scene, int64_t left)
 {
-    if (!is_possible(scene)) return 1;
     const neighbor_list *list = &scene->neighbors;
+    /* A wave has one cursor a step, which goes through the whole list; the halo of a part has copies of the rows for this step
+     * and the next one only. */
+    if (!wave_is_possible(scene) || list->parts.count > 1) return 1;
     const bool turns = scene->phase == DEM_PHASE_RUNNING;
     const int64_t looks = turns ? until_next(scene->step_count - scene->run_start, STEPS_BETWEEN_TORQUES)
                                 : until_next(scene->step_count - scene->phase_start, STEPS_BETWEEN_RESTS);
@@ -58,13 +59,19 @@ void wave_begin(wave *w, dem_scene *scene, int steps, bool are_walls_done)
 {
     w->list = &scene->neighbors;
     w->spheres = &scene->spheres;
-    w->steps = w->whole = steps;
+    w->steps = steps;
+    w->threads = scene->definition.threads;
+    atomic_init(&w->whole, steps);
     w->overlap_limit = failure_least_overlap(scene);
     pair_work_begin(&w->work, w->list, w->spheres, &scene->container, &scene->contact, scene->definition.time_step, &scene->leap);
     for (int k = 0; k < steps; k++) {
         wave_stage *const stage = &w->stage[k];
-        stage->cursor = list_cursor_begin(&w->work, 0, &w->block);
+        stage->cursor = list_cursor_begin(&w->work, 0, &stage->block);
         stage->ready = 0;
+        atomic_flag_clear(&stage->is_taken);
+        atomic_init(&stage->deviation, 0.0);
+        atomic_init(&stage->overlap, 0.0);
+        atomic_init(&stage->complete, stage->cursor.complete);
     }
     if (are_walls_done) w->stage[0].cursor.walls_end = 0;
 }
@@ -84,21 +91,43 @@ static void look_ahead(wave *w, int k)
 {
     const neighbor_list *const list = w->list;
     wave_stage *const stage = &w->stage[k];
-    const size_t n = w->spheres->mobile_count, complete = w->stage[k - 1].cursor.complete;
+    const size_t n = w->spheres->mobile_count;
+    const size_t complete = k ? atomic_load_explicit(&w->stage[k - 1].complete, memory_order_acquire) : n;
     while (stage->ready < n && list->outer.farthest[stage->ready / STRETCH] < complete) stage->ready += STRETCH;
     if (complete == n) stage->ready = n + 1;
-    stage->cursor.walls_end = list->wall_start[complete];
+    if (k) stage->cursor.walls_end = list->wall_start[complete];
+}
+
+/* How many of the first steps the list holds for, by what is known of the spheres' motion so far. A step in which an overlap
+ * is too large is the last one, as the run fails there. */
+static int steps_that_hold(const wave *w)
+{
+    const int whole = atomic_load(&w->whole);
+    double strayed = w->list->strayed;
+    for (int k = 0; k + 1 < whole; k++) {
+        strayed += atomic_load_explicit(&w->stage[k].deviation, memory_order_relaxed) * w->work.dt;
+        if (!(strayed <= w->list->margin) || atomic_load_explicit(&w->stage[k].overlap, memory_order_relaxed) > w->overlap_limit)
+            return k + 1;
+    }
+    return whole;
+}
+
+/* Whether stage k is to go on. What this thread has seen of the stages before decides: they have told of all motion of the
+ * spheres that look_ahead has found complete. */
+static bool still_holds(wave *w, int k)
+{
+    const int holds = steps_that_hold(w);
+    int whole = atomic_load(&w->whole);
+    while (holds < whole && !atomic_compare_exchange_weak(&w->whole, &whole, holds)) continue;
+    return k < holds;
 }
 
 /* Computes the next blocks of stage k: at most a share of the list of 1 / VISITS, and none that has spheres which the stage
  * before has yet to move. */
-static void go_on(wave *w, int k)
+static void compute_portion(const wave *w, wave_stage *stage)
 {
-    wave_stage *const stage = &w->stage[k];
     list_cursor *const cursor = &stage->cursor;
     const size_t n = w->spheres->mobile_count;
-    if (k) look_ahead(w, k);
-    else stage->ready = n + 1;
     for (size_t b = 0; b <= cursor->end / VISITS && cursor->next < cursor->end; b++) {
         const size_t last = cursor->next + 1 < cursor->end ? (size_t)w->list->pairs.first[(cursor->next + 1) * BLOCK] : n;
         if (last >= stage->ready) return;
@@ -107,16 +136,44 @@ static void go_on(wave *w, int k)
     if (cursor->next == cursor->end && stage->ready > n) list_cursor_complete(cursor, n);
 }
 
-/* How many of the first `whole` steps the list holds for, by what is known of the spheres' motion so far. A step in which an
- * overlap is too large is the last one, as the run fails there. */
-static int steps_that_hold(const wave *w)
+/* Returns whether it has come further. */
+static bool go_on(wave *w, int k)
 {
-    double strayed = w->list->strayed;
-    for (int k = 0; k + 1 < w->whole; k++) {
-        strayed += wave_deviation(w, k) * w->work.dt;
-        if (!(strayed <= w->list->margin) || wave_largest_overlap(w, k) > w->overlap_limit) return k + 1;
+    wave_stage *const stage = &w->stage[k];
+    const size_t next = stage->cursor.next, complete = stage->cursor.complete;
+    look_ahead(w, k);
+    if (!still_holds(w, k)) return false;
+    compute_portion(w, stage);
+    atomic_store_explicit(&stage->deviation, wave_deviation(w, k), memory_order_relaxed);
+    atomic_store_explicit(&stage->overlap, wave_largest_overlap(w, k), memory_order_relaxed);
+    atomic_store_explicit(&stage->complete, stage->cursor.complete, memory_order_release);
+    return stage->cursor.next > next || stage->cursor.complete > complete;
+}
+
+static bool is_complete(const wave *w, int k)
+{
+    return atomic_load_explicit(&w->stage[k].complete, memory_order_acquire) == w->spheres->mobile_count;
+}
+
+/* Of the stages from..to-1, those that no other thread has go on once, in order. Returns whether one has come further. */
+static bool go_on_with(wave *w, int from, int to)
+{
+    bool any = false;
+    for (int k = from; k < to && k < atomic_load(&w->whole); k++) {
+        wave_stage *const stage = &w->stage[k];
+        if (is_complete(w, k) || atomic_flag_test_and_set_explicit(&stage->is_taken, memory_order_acquire)) continue;
+        any = (!is_complete(w, k) && go_on(w, k)) || any;
+        atomic_flag_clear_explicit(&stage->is_taken, memory_order_release);
     }
-    return w->whole;
+    return any;
+}
+
+static void share_stages(void *context, int part, int parts)
+{
+    wave *const w = context;
+    const int from = part * w->steps / parts, to = (part + 1) * w->steps / parts;
+    while (!is_complete(w, atomic_load(&w->whole) - 1))
+        if (!go_on_with(w, from, to) && !go_on_with(w, 0, w->steps)) __builtin_ia32_pause();
 }
 
 /* ---- stages that stop and go on ---- */
@@ -139,13 +196,7 @@ static void keep_place(const wave *w, wave_stage *stage)
 
 void wave_run(wave *w)
 {
-    const size_t n = w->spheres->mobile_count;
-    while (w->stage[w->whole - 1].cursor.complete < n)
-        for (int k = 0; k < w->whole; k++) {
-            if (w->stage[k].cursor.complete == n) continue;
-            go_on(w, k);
-            w->whole = steps_that_hold(w);
-        }
+    team_run(team_parts(w->threads), share_stages, w);
     for (int k = w->whole; k < w->steps; k++) keep_place(w, &w->stage[k]);
 }
 
