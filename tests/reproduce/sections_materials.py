@@ -111,13 +111,18 @@ def drum_map(book, collected):
     return [table(["friction", "rolling friction", "angle, degrees"], rows)]
 
 
+def has_clogged(run):
+    return find(run, "results.flow.clogged") is True
+
+
 def flow_map(book, collected):
-    """Both halves: the drum's study stands before the flow's."""
+    """Both halves: the drum's study stands before the flow's. A run that clogged has no steady flow, and is counted instead."""
     drum = book.study("materials-map-drum")
-    flows, drums = by_inputs(collected, FRICTION, ROLLING), by_inputs(drum, FRICTION, ROLLING) if drum else {}
-    rows = [[f"{mu:g}", f"{mu_r:g}", text(mean(drums.get((mu, mu_r), []), ANGLE)), text(mean(runs, RATE), 1e3)]
-            for (mu, mu_r), runs in flows.items()]
-    said = [table(["friction", "rolling friction", "angle of the drum, degrees", "mass flow, g/s"], rows)]
+    tried, drums = by_inputs(collected, FRICTION, ROLLING), by_inputs(drum, FRICTION, ROLLING) if drum else {}
+    flows = {key: [run for run in runs if not has_clogged(run)] for key, runs in tried.items()}
+    rows = [[f"{mu:g}", f"{mu_r:g}", text(mean(drums.get((mu, mu_r), []), ANGLE)), text(mean(flows[mu, mu_r], RATE), 1e3),
+             f"{sum(map(has_clogged, runs))} of {len(runs)}"] for (mu, mu_r), runs in tried.items()]
+    said = [table(["friction", "rolling friction", "angle of the drum, degrees", "mass flow, g/s", "runs that clogged"], rows)]
     of_drum, of_flow = plane(drums, ANGLE), plane(flows, RATE)
     if not of_drum or not of_flow:
         return said
