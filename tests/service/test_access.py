@@ -174,6 +174,7 @@ def test_pages_of_an_allowed_origin_alone_may_use_the_service(tmp_path):
         answer = requests.post(execution, json=body, headers={"Origin": ours, **bearer(WRITER)}, timeout=30)
         assert answer.status_code == 201 and answer.headers["Access-Control-Allow-Origin"] == ours
         assert "Origin" in answer.headers["Vary"] and "Access-Control-Allow-Credentials" not in answer.headers
+        assert {"Location", "Link", "X-Request-Id"} <= set(answer.headers["Access-Control-Expose-Headers"].split(", "))
         for origin in (evil, ours + "0", ours.upper(), "null"):
             refused = requests.options(execution, headers={"Origin": origin, **asked}, timeout=30)
             assert refused.status_code == 405 and "Access-Control-Allow-Origin" not in refused.headers

@@ -48,7 +48,7 @@ static void add_headers_for_pages(struct MHD_Response *reply, const char *origin
     add_header(reply, "Access-Control-Allow-Origin", origin);
     add_header(reply, "Vary", "Origin");
     add_header(reply, "Access-Control-Expose-Headers",
-               "Location, Link, ETag, Retry-After, Content-Disposition, Preference-Applied");
+               "Location, Link, ETag, Retry-After, Content-Disposition, Preference-Applied, X-Request-Id");
     if (!response->is_preflight) return;
     add_header(reply, "Access-Control-Allow-Methods", "GET, HEAD, POST, DELETE");
     add_header(reply, "Access-Control-Allow-Headers",
