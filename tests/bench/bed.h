@@ -94,6 +94,15 @@ static inline void bed_repeat_rows(dem_state_array *array, size_t copies, double
     array->rows = n * copies;
 }
 
+/* Whatever a state has of each sphere. */
+static inline void bed_repeat_spheres(dem_state *state, size_t copies, double length)
+{
+    for (size_t a = 0; a < state->array_count; a++)
+        for (int k = 0; k < SPHERE_ARRAYS; k++)
+            if (sphere_arrays[k].saved && strcmp(sphere_arrays[k].saved, state->array[a].name) == 0)
+                bed_repeat_rows(&state->array[a], copies, length, strcmp(sphere_arrays[k].saved, "position") == 0);
+}
+
 /* Contacts of spheres i and j of the original, which may touch through the periodic end: then j is in the next copy. */
 static inline void bed_repeat_contacts(dem_state *state, const char *ids, const char *histories, size_t n, size_t copies,
                                        const double *position, double length, bool with_wall)
@@ -164,10 +173,7 @@ static inline dem_scene *bed_repeat(const dem_scene *scene, const dem_scene_defi
         const dem_state_array *places = bed_array(&state, "position");
         double *position = malloc(3 * n * sizeof *position);
         memcpy(position, places->data, 3 * n * sizeof *position);
-        bed_repeat_rows(bed_array(&state, "position"), copies, drum->length, true);
-        bed_repeat_rows(bed_array(&state, "velocity"), copies, 0, false);
-        bed_repeat_rows(bed_array(&state, "angular_velocity"), copies, 0, false);
-        bed_repeat_rows(bed_array(&state, "fallen_time"), copies, 0, false);
+        bed_repeat_spheres(&state, copies, drum->length);
         bed_repeat_contacts(&state, "pair", "pair_history", n, copies, position, drum->length, false);
         bed_repeat_contacts(&state, "wall_contact", "wall_history", n, copies, position, drum->length, true);
         bed_number(bed_array(&state, "particle"), n * copies);

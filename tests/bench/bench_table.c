@@ -1,4 +1,4 @@
-/* How fast the core is, on beds in steady flow: bench_table [CASE...], all but the last when none is named. Windows of all
+/* How fast the core is, on beds in steady flow: bench_table [CASE...], all but the last two when none is named. Windows of all
  * cases are interleaved in rounds, so that a machine that slows down slows all of them. Prints one JSON line a case. */
 #include <malloc.h>
 
@@ -69,9 +69,10 @@ static bench_case cases[] = {
     CASE("centrifuging, 2300", "centrifuging", 1, 1),
     CASE("tetrahedra", "tetrahedra", 1, 1),
     CASE("cubes", "cubes", 1, 1),
-    CASE("1000000", "3000", 333, 1), /* only when named: its memory is the process's */
+    CASE("1000000", "3000", 333, 1), /* only when named, like the next: its memory is the process's */
+    CASE("1000000, 2 threads", "3000", 333, 2),
 };
-enum { CASES = sizeof cases / sizeof cases[0] };
+enum { CASES = sizeof cases / sizeof cases[0], NAMED_ONLY = 2 };
 
 static bed *bed_of(const bench_case *c)
 {
@@ -160,7 +161,7 @@ static bool is_wanted(const bench_case *c, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++)
         if (strcmp(argv[k], c->name) == 0) return true;
-    return argc == 1 && c != &cases[CASES - 1];
+    return argc == 1 && c < &cases[CASES - NAMED_ONLY];
 }
 
 int main(int argc, char **argv)
