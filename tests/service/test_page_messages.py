@@ -1,5 +1,6 @@
 """What the page says where there is something to say: of jobs that wait, of addresses and tokens that are none, and how much
 it asks the daemon for."""
+import re
 import sqlite3
 
 from test_page import find, until
@@ -21,7 +22,8 @@ def test_what_a_waiting_job_has_to_say_is_shown(fake, browser):
     browser.get(f"{fake.url}/?open={waiting}")
     until(browser, lambda b: "the disk is full" in find(b, f"#job-{waiting} .state").text)
     until(browser, lambda b: "the disk is full" in find(b, f"#detail-{waiting}").text)
-    assert find(browser, f"#job-{usual} .state").text == "accepted"  # that it waits, its state says
+    state = find(browser, f"#job-{usual} .state").text  # that it waits, its state says, and in what place
+    assert re.fullmatch(r"accepted(\n\d+\. in line.*)?", state), state
 
 
 def test_an_address_of_nothing_says_so_and_shows_a_way_on(fake, browser):
