@@ -1,6 +1,7 @@
 """What the page of jobs costs a line: at first, while nothing happens, and where the line is slow."""
 import re
 
+import pytest
 from conftest import ROOT
 from test_page import find_all, until
 
@@ -23,6 +24,7 @@ def modules(name, seen=()):
     return seen
 
 
+@pytest.mark.torture
 def test_the_first_row_comes_soon_over_a_slow_line_and_an_idle_tab_asks_for_nothing(fake, browser):
     told = (ROOT / "web/index.html").read_text()
     assert sorted(re.findall(r'rel="modulepreload" href="web/([\w.]+)"', told)) == sorted(modules("jobs.js") - {"jobs.js"})

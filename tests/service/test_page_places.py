@@ -28,6 +28,7 @@ def emulated(browser):
     browser.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
 
+@pytest.mark.torture
 def test_no_place_keeps_anybody_from_using_it(fake, browser, emulated):
     """On a phone, in the dark: what is narrow or dim is found there first."""
     study = submit(fake, name="places", base={"inputs": SPEC, "label": {"angle": 20, "paper": "23"}}, vary={"/inputs/contact/friction": [0.1, 0.3]}, repeats=2)

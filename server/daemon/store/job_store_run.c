@@ -33,7 +33,7 @@ void job_claim_clear(job_claim *claim)
     claim->spec = claim->resources = NULL;
 }
 
-/* name: of its worker, where the row has that; NULL: not wanted. */
+/* Sets *claim where it returns STORE_OK. name: of its worker, where the row has that; NULL: not wanted. */
 static store_status read_claim(sqlite3_stmt *statement, job_claim *claim, char *name)
 {
     const int code = sqlite3_step(statement);
@@ -52,13 +52,16 @@ static store_status read_claim(sqlite3_stmt *statement, job_claim *claim, char *
                           .more_time = sqlite3_column_int(statement, 11),
                           .more_memory = sqlite3_column_int(statement, 12) };
     snprintf(claim->id, sizeof claim->id, "%s", (const char *)sqlite3_column_text(statement, 1));
-    claim->resources = strdup((const char *)sqlite3_column_text(statement, 13));
+    const char *resources = (const char *)sqlite3_column_text(statement, 13); /* NULL: no memory */
+    claim->resources = resources ? strdup(resources) : NULL;
     if (name) snprintf(name, LONGEST_WORKER_NAME, "%s", (const char *)sqlite3_column_text(statement, 14));
     const char *spec = (const char *)sqlite3_column_text(statement, 6);
     claim->spec = spec ? study_parts_expand(sqlite3_db_handle(statement), sqlite3_column_int64(statement, 7), spec) : NULL;
     /* The update counts only when the statement has ended well. */
-    const store_status status = sql_finish(statement, sqlite3_step(statement));
-    return status == STORE_OK && (!claim->spec || !claim->resources) ? STORE_FAILED : status;
+    store_status status = sql_finish(statement, sqlite3_step(statement));
+    if (status == STORE_OK && (!claim->spec || !claim->resources)) status = STORE_FAILED;
+    if (status != STORE_OK) job_claim_clear(claim);
+    return status;
 }
 
 /* The job that is to be started next, of those that are due: not one that is put off, but if its time is further ahead than
