@@ -1,9 +1,9 @@
 #!/bin/sh
 # One fuzzer of those that run.sh starts, in a folder of its own: run_one.sh SOURCES BUILD SCRATCH SECONDS NAME. The scratch
-# folder has run/, what a worker has left, and words.
+# folder has run/, what a worker has left, and words. Each has a copy of run/, since a changed file may lead into it.
 set -u
 here=$1 build=$2 run=$3/run words=$3/words folder=$3/$5 seconds=$4 fuzzer=$5
-mkdir "$folder" "$folder/seeds" && cd "$folder" && ln -s "$run" run || exit 1
+mkdir "$folder" "$folder/seeds" && cd "$folder" && cp -r "$run" run || exit 1
 
 case $fuzzer in
   specification) cp "$here"/api/examples/*.json seeds ;;
