@@ -167,11 +167,14 @@ def test_a_look_at_twice_as_many_jobs_takes_twice_as_long(ended):
     """Not four times: the next job is found without a look at all that have ended."""
     daemon, _ = ended
     change(daemon, "WITH RECURSIVE n(x) AS (SELECT 1 UNION ALL SELECT x+1 FROM n WHERE x<5000) INSERT INTO job(id,process,label,spec,status,message,"
-                   "threads,estimated_seconds,estimated_memory_bytes,created,updated) SELECT printf('20200101-000000-%08x',x),'drum','{}',"
-                   "hex(zeroblob(1500)),'failed','',1,1,1,'','' FROM n")
+                   "threads,estimated_seconds,estimated_memory_bytes,created,updated,finished) SELECT printf('20200101-000000-%08x',x),'drum','{}',"
+                   "hex(zeroblob(1500)),'failed','',1,1,1,'','','2020-01-01T00:00:00.000Z' FROM n")
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     assert reposed("check", data=daemon.data).stdout.startswith("5002 jobs that have ended")
     assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before < 3
+    before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
+    assert reposed("prune", "--keep-days", "1", "--dry-run", data=daemon.data).stdout.startswith("5000 jobs")
+    assert resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime - before < 1
 
 
 def test_a_damaged_index_is_made_anew(ended):

@@ -76,12 +76,13 @@ static store_status next_of(job_store *store, const char *sql, const char *befor
 static double bytes_of_study(const pruning *p, const char *study)
 {
     double bytes = 0.0;
-    int64_t number = 0;
-    char id[JOB_ID_SIZE];
-    static const char of_study[] =
-        "SELECT id, number FROM job WHERE study=(SELECT number FROM study WHERE id=?1) AND number>?2 ORDER BY number LIMIT 1";
-    while (next_of(p->store, of_study, study, number, id, &number) == STORE_OK && id[0])
-        bytes += bytes_in(p->store->data->jobs, id, DEEPEST);
+    sqlite3 *reader = store_borrow_reader(p->store);
+    sqlite3_stmt *row = sql_prepare(reader, "SELECT id FROM job WHERE study=(SELECT number FROM study WHERE id=?)", "t", study);
+    int code = SQLITE_ERROR;
+    while (row && (code = sqlite3_step(row)) == SQLITE_ROW)
+        bytes += bytes_in(p->store->data->jobs, (const char *)sqlite3_column_text(row, 0), DEEPEST);
+    if (row) sql_finish(row, code);
+    store_return_reader(p->store, reader);
     return bytes;
 }
 
@@ -185,16 +186,17 @@ static store_status delete_calibration(pruning *p, const char *id)
 static store_status delete_job(pruning *p, const char *id) { return let_go(p, id, false); }
 static store_status delete_study(pruning *p, const char *id) { return let_go(p, id, true); }
 
+/* The next job that may go, found by its number: by an index, all that are left would be sorted for each of them. */
+#define NEXT_JOB(and)                                                                                                              \
+    "SELECT id, number FROM job NOT INDEXED WHERE number>?2 AND " HAS_ENDED " AND NOT " IS_PINNED and " ORDER BY number LIMIT 1"
+
 static store_status prune_by_age(pruning *p, char before[JOB_TIME_SIZE])
 {
     const time_t then = time(NULL) - (time_t)p->rules->keep_days * 86400;
     struct tm utc;
     gmtime_r(&then, &utc);
     strftime(before, JOB_TIME_SIZE, "%Y-%m-%dT%H:%M:%S.000Z", &utc);
-    store_status status = go_through(p,
-                                     "SELECT id, number FROM job WHERE finished<?1 AND number>?2 AND study IS NULL AND " HAS_ENDED
-                                     " AND NOT " IS_PINNED " ORDER BY number LIMIT 1",
-                                     before, -INFINITY, delete_job);
+    store_status status = go_through(p, NEXT_JOB(" AND finished<?1 AND study IS NULL"), before, -INFINITY, delete_job);
     if (status == STORE_OK)
         status =
             go_through(p, "SELECT id, number FROM study WHERE updated<?1 AND number>?2 AND " ALL_ENDED " ORDER BY number LIMIT 1",
@@ -210,15 +212,9 @@ static store_status prune_by_age(pruning *p, char before[JOB_TIME_SIZE])
 static store_status prune_by_size(pruning *p, const char *from)
 {
     const double enough = p->rules->keep_bytes;
-    store_status status = go_through(p,
-                                     "SELECT id, number FROM job WHERE finished>=?1 AND number>?2 AND " HAS_ENDED
-                                     " AND NOT " IS_PINNED " AND number IN (SELECT job FROM snapshot) ORDER BY number LIMIT 1",
-                                     from, enough, strip);
-    if (status == STORE_OK)
-        status = go_through(p,
-                            "SELECT id, number FROM job WHERE finished>=?1 AND number>?2 AND study IS NULL AND " HAS_ENDED
-                            " AND NOT " IS_PINNED " ORDER BY number LIMIT 1",
-                            from, enough, delete_job);
+    store_status status = go_through(
+        p, NEXT_JOB(" AND finished>=?1 AND EXISTS(SELECT 1 FROM snapshot WHERE snapshot.job=job.number)"), from, enough, strip);
+    if (status == STORE_OK) status = go_through(p, NEXT_JOB(" AND finished>=?1 AND study IS NULL"), from, enough, delete_job);
     if (status == STORE_OK)
         status =
             go_through(p, "SELECT id, number FROM study WHERE updated>=?1 AND number>?2 AND " ALL_ENDED " ORDER BY number LIMIT 1",
