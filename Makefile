@@ -332,8 +332,8 @@ bench-peers: all ## the same drum by LAMMPS and LIGGGHTS beside ours, taking tur
 bench-service: all ## how fast the daemon answers among many jobs: JOBS=100000
 	@$(PYTHON) tests/bench/bench_service.py $(BUILD) $(JOBS)
 
-# Left out: what fails allocations itself, by a wrapper of its own, and runs that
-# take minutes then and call nothing that others do not.
+# Left out: what fails allocations itself, by a wrapper of its own, and runs that take minutes then and call nothing that others do
+# not.
 asan: test-packages ## unit tests under the address and undefined-behavior sanitizers, in build/asan
 	@$(MAKE) --no-print-directory BUILD=$(BUILD)/asan $(CHECKED_CORE) SANITIZE="-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer" \
 	  LEFT_OUT="test_allocations test_cluster test_cluster_runs test_container_runs test_energy test_neighbor_list test_piles" unit

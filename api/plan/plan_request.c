@@ -192,6 +192,7 @@ static void read_all(plan_request *request, const json_t *document, problem_list
 {
     static const char *const known[] = { "name", "description", "base", "parameters", "targets",  "hold_out", "next_tests",
                                          "stop", "repeats",     "seed", "label",      "priority", NULL };
+    static const char *const of_base[] = { "process", "inputs", "label", NULL }; /* a spec's; its label is that of another job */
     refuse_unknown_members(document, "", known, problems);
     check_names(document, problems);
     const json_t *base = json_object_get(document, "base"), *inputs = json_object_get(base, "inputs");
@@ -199,6 +200,7 @@ static void read_all(plan_request *request, const json_t *document, problem_list
         refuse_value(problems, json_is_object(base) ? "/base/inputs" : "/base", json_is_object(base) ? inputs : base, "an object");
         return;
     }
+    refuse_unknown_members(base, "/base", of_base, problems);
     read_parameters(request, document, problems);
     read_targets(request, document, "targets", PLAN_FITTED, problems);
     read_targets(request, document, "hold_out", PLAN_HELD_OUT, problems);

@@ -41,9 +41,17 @@ bool resource_entry_is_good(const char *entry)
     }
 }
 
+char *resource_names(char text[RESOURCES_SIZE])
+{
+    size_t used = 0;
+    for (const resource_field *field = resource_fields; field->name; field++)
+        used += (size_t)snprintf(text + used, RESOURCES_SIZE - used, "%s%s", used ? ", " : "", field->name);
+    return text;
+}
+
 void job_resources_check(const json_t *resources, problem_list *problems)
 {
-    char pointer[LONGEST_POINTER], seen[80], names[200] = "";
+    char pointer[LONGEST_POINTER], seen[80], names[RESOURCES_SIZE];
     const char *name;
     json_t *value;
     if (!resources || json_is_null(resources)) return;
@@ -52,13 +60,12 @@ void job_resources_check(const json_t *resources, problem_list *problems)
         problem_list_add(problems, "/resources", "is %s; must be an object, or null", seen);
         return;
     }
-    for (const resource_field *field = resource_fields; field->name; field++)
-        snprintf(names + strlen(names), sizeof names - strlen(names), "%s%s", *names ? ", " : "", field->name);
     json_object_foreach((json_t *)resources, name, value)
     {
         pointer_to_member(pointer, "/resources", name);
         json_value_text(value, seen, sizeof seen);
-        if (!find_resource(name, strlen(name))) problem_list_add(problems, pointer, "is not known here; known are %s", names);
+        if (!find_resource(name, strlen(name)))
+            problem_list_add(problems, pointer, "is not known here; known are %s", resource_names(names));
         else if (!json_is_string(value) || !is_value(json_string_value(value), json_string_length(value)))
             problem_list_add(problems, pointer, "is %s; must be a name of 1 to %d characters", seen, RESOURCE_SIZE - 1);
     }

@@ -24,6 +24,8 @@ typedef struct resource_list {
     int count;
 } resource_list;
 
+/* "partition, account, ...": the names of the table. Returns text. */
+char *resource_names(char text[RESOURCES_SIZE]);
 /* Whether that may stand in the list. */
 bool resource_entry_is_good(const char *entry);
 

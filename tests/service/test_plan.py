@@ -424,7 +424,9 @@ def test_a_request_is_refused_whole_with_every_problem():
     request["targets"][2]["process"] = "hep"
     request["stop"] = {"jobs": 0, "secnds": 3}
     request |= {"name": 3, "label": {"lot": [7]}, "priority": 99}
+    request["base"] = request["base"] | {"resources": {"partition": "gpu"}, "label": {"of": "another job"}}
     problems = refused(request)
+    assert "/request/base/resources" in problems and "/request/base/label" not in problems
     assert {"/request/name", "/request/label/lot", "/request/priority"} <= set(problems)
     assert "/request/targets/0/standard_error" in problems and "/request/targets/1/result" in problems
     assert '"drum", "fill", "heap"' in problems["/request/targets/2/process"]

@@ -83,8 +83,8 @@ static bool take_slurm_line(config *settings, const char *value, char problem[OP
 static bool take_slurm_allowance(config *settings, const char *value, char problem[OPTION_PROBLEM_SIZE])
 {
     const bool good = resource_entry_is_good(value) && settings->slurm_allowances < CONFIG_HOSTS;
-    snprintf(problem, OPTION_PROBLEM_SIZE,
-             "one of %d at most, as partition=cpu,gpu; of partition, account, qos, constraint and reservation", CONFIG_HOSTS);
+    char names[RESOURCES_SIZE];
+    snprintf(problem, OPTION_PROBLEM_SIZE, "one of %d at most, as partition=cpu,gpu; of %s", CONFIG_HOSTS, resource_names(names));
     if (good) settings->slurm_allowed[settings->slurm_allowances++] = value;
     return good;
 }
