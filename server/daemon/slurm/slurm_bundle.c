@@ -118,14 +118,21 @@ void slurm_bundle_words_path(const slurm_bundle *bundle, const data_folder *data
     snprintf(path, SLURM_PATH_SIZE, "%s/slurm/%s.err", data->path, bundle->name);
 }
 
+/* As much of a file as fits; "" where it is not there: then false. */
+static bool read_beginning(const char *path, char *text, size_t size)
+{
+    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
+    const ssize_t length = file >= 0 ? read(file, text, size - 1) : 0;
+    if (file >= 0) close(file);
+    text[length > 0 ? length : 0] = '\0';
+    return file >= 0;
+}
+
 bool slurm_bundle_took_too_much_memory(const slurm_bundle *bundle, const data_folder *data)
 {
     char path[SLURM_PATH_SIZE], words[LONGEST_WORDS];
     slurm_bundle_words_path(bundle, data, path);
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-    const ssize_t length = file >= 0 ? read(file, words, sizeof words - 1) : 0;
-    if (file >= 0) close(file);
-    words[length > 0 ? length : 0] = '\0';
+    read_beginning(path, words, sizeof words);
     return strstr(words, "memory limit") || strstr(words, "oom-kill") || strstr(words, "oom_kill");
 }
 
@@ -177,12 +184,8 @@ void slurm_fence_read(const data_folder *data, const bundle_member *member, bool
 {
     char path[SLURM_PATH_SIZE], text[LONGEST_FENCE];
     fence_path(path, data, member);
-    const int file = open(path, O_RDONLY | O_CLOEXEC | O_NOFOLLOW);
-    const ssize_t length = file >= 0 ? read(file, text, sizeof text - 1) : 0;
-    if (file >= 0) close(file);
-    text[length > 0 ? length : 0] = '\0';
+    *has_begun = read_beginning(path, text, sizeof text);
     const char *end = strstr(text, "end ");
-    *has_begun = file >= 0;
     *code = end && strchr(end, '\n') ? (int)strtol(end + 4, NULL, 10) : -1;
 }
 
